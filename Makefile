@@ -1,0 +1,51 @@
+# Every target sets the machine up by itself, once: .venv with the pinned versions.
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+# The first Python found that is new enough and can make a virtual environment;
+# name another with `make PYTHON=...`.
+USABLE := import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))
+PYTHON ?= $(shell for name in python3 python3.11 python3.12 python3.13 python3.14; do \
+	$$name -c '$(USABLE)' >/dev/null 2>&1 && echo $$name && break; done)
+
+# More for pytest or the benchmarks: make test ARGS="-k crossing"
+ARGS ?=
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_NO_INPUT := 1
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help demo test lint bench wheel
+
+help:  ## say what can be made
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: $(STAMP)  ## the main job on a shipped hull, with pictures in build/demo
+	$(BIN)/assoc-hull demo --out build/demo
+
+test: $(STAMP)  ## all tests and docstring examples, on two processes
+	$(BIN)/python -m pytest -n 2 $(ARGS)
+
+lint: $(STAMP)  ## rules of style, formatting and types
+	$(BIN)/python -m ruff check .
+	$(BIN)/python -m ruff format --check .
+	$(BIN)/python -m mypy
+
+bench: $(STAMP)  ## the benchmarks
+	$(BIN)/python -m benchmarks $(ARGS)
+
+wheel: $(STAMP)  ## the wheel, in dist
+	rm -rf dist
+	$(BIN)/python -m build --wheel --no-isolation --outdir dist
+
+$(STAMP): requirements/ci.txt pyproject.toml
+	@test -n "$(PYTHON)" || { echo "error: no Python 3.11 or newer with venv was found;" \
+		"install one, or name it: make PYTHON=python3.12" >&2; exit 2; }
+	@echo "setting up $(VENV) (once, and again when the pinned versions change)"
+	$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --requirement requirements/ci.txt
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@

@@ -1,0 +1,1 @@
+"""What is computed from a hull: hydrostatics, form parameters, stability curves, panels."""

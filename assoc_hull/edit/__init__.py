@@ -1,0 +1,1 @@
+"""The modifications of a hull, one per module, and the transaction they run in."""

@@ -1,0 +1,219 @@
+"""Adoption: a net from given lines.
+
+The lines are lofted through their own points (the *references*), their crossings found,
+each crossing given its role by the role rule, and points added only where crossings alone
+do not hold the shape within the tolerance. The order in which lines are handed in plays no
+part: they are sorted first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
+from assoc_hull.edit.thin import Net, Thinned, thin
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import CurveData, SplineBatch
+from assoc_hull.geometry.spline import loft
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.attach import loft_all, set_limits
+from assoc_hull.model.family import FAMILIES, Sort
+from assoc_hull.model.make import CrossingSpec, Maker, PointSpec
+from assoc_hull.model.source import LineSource
+from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.tolerance import Tolerances
+
+__all__ = ["AdoptionReport", "LineReport", "adopt"]
+
+
+@attrs.frozen
+class LineReport:
+    """How one curve was adopted.
+
+    Attributes
+    ----------
+    curve : str
+        Key of the curve.
+    given, defining, adopted : int
+        Points given, points that define the curve, those of them that no crossing holds.
+    deviation : float, m
+        Largest distance of a given point from the curve.
+    """
+
+    curve: str
+    given: int
+    defining: int
+    adopted: int
+    deviation: float
+
+
+@attrs.frozen
+class AdoptionReport:
+    """What adoption made of the given lines; notes say what was assumed or left out."""
+
+    lines: tuple[LineReport, ...]
+    notes: tuple[str, ...]
+
+
+def adopt(
+    sources: Sequence[LineSource],
+    particulars: Particulars,
+    associations: Sequence[Association],
+    tolerances: Tolerances | None = None,
+) -> tuple[HullState, AdoptionReport]:
+    """Make a net of given lines.
+
+    Parameters
+    ----------
+    sources : sequence of LineSource
+        The lines, in any order.
+    particulars : Particulars
+        Principal dimensions.
+    associations : sequence of Association
+        Which groups generate points on which, in any order.
+    tolerances : Tolerances or None
+        Defaults if None.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+
+    Raises
+    ------
+    BadInputError
+        No lines, or an association with a group that has none.
+    RingError
+        One-way associations that run in a ring.
+    """
+    if not sources:
+        raise BadInputError("no lines were given", particulars.name, "give two lines or more")
+    state = HullState(particulars, tolerances or Tolerances())
+    journal = Journal()
+    maker = Maker(state, journal)
+    ordered = sorted(sources, key=_order)
+    _make_lines(maker, ordered, associations)
+    reference = loft(_data(ordered), list(state.curves.key.data))
+    net = Net(state, tuple(ordered), reference, *_matches(state, ordered, reference))
+    thinned = thin(net)
+    notes = _write(maker, net, thinned)
+    notes += _loft(maker)
+    set_limits(state, journal)
+    return state, AdoptionReport(_report(net, thinned), tuple(notes))
+
+
+def _order(source: LineSource) -> tuple[int, str, float, str, bytes]:
+    """Order by content alone: creation order must change nothing."""
+    offset = source.offset if source.normal is not None else 0.0
+    rank = FAMILIES[source.family].rank
+    return rank, source.group, offset, source.name, source.points.tobytes()
+
+
+def _make_lines(
+    maker: Maker, sources: Sequence[LineSource], associations: Sequence[Association]
+) -> None:
+    groups: dict[str, int] = {}
+    lines: dict[tuple[str, str], int] = {}
+    wanted = {name: source.family for source in sources for name in [source.group]}
+    for name in sorted(wanted, key=lambda each: (FAMILIES[wanted[each]].rank, each)):
+        groups[name] = maker.group(name, wanted[name])
+    for source in sources:
+        if (source.group, source.name) not in lines:
+            plane = None if source.normal is None else (source.normal, source.offset)
+            boundary = -1 if source.boundary is None else int(source.boundary)
+            lines[source.group, source.name] = maker.line(
+                groups[source.group], source.name, plane, boundary
+            )
+        maker.curve(lines[source.group, source.name], source.ends)
+    for link in sorted(associations, key=lambda each: (each.a, each.b)):
+        maker.associate(link)
+
+
+def _data(sources: Sequence[LineSource]) -> CurveData:
+    start = np.zeros(len(sources) + 1, np.int64)
+    np.cumsum([len(source.points) for source in sources], out=start[1:])
+    return CurveData(
+        start,
+        np.concatenate([source.points for source in sources]),
+        np.concatenate([source.kind for source in sources]),
+        np.concatenate([source.direction for source in sources]),
+        np.array([source.ends.kind for source in sources], np.int8),
+        np.array([source.ends.vector for source in sources], np.float64),
+    )
+
+
+def _matches(
+    state: HullState, sources: Sequence[LineSource], reference: SplineBatch
+) -> tuple[tuple[Contact, ...], tuple[Meeting, ...]]:
+    contacts = find_contacts(state, reference, [source.kind for source in sources])
+    return tuple(contacts), tuple(find_meetings(state, reference))
+
+
+def _write(maker: Maker, net: Net, thinned: Thinned) -> list[str]:
+    """Write the chosen crossings and points into the tables."""
+    specs = [
+        CrossingSpec(
+            contact.boundary, contact.curve, contact.xyz, role, contact.sign, None, True,
+            int(net.sources[contact.curve].kind[contact.point]),
+            net.sources[contact.curve].direction[contact.point],
+        )
+        for contact, role in zip(net.contacts, thinned.contact_role, strict=True)
+    ]  # fmt: skip
+    specs += [
+        CrossingSpec(meeting.a, meeting.b, meeting.spots[0], role, meeting.sign, meeting.spots)
+        for meeting, role in zip(net.meetings, thinned.meeting_role, strict=True)
+    ]
+    rows = maker.crossings(specs)
+    points = [
+        PointSpec(
+            item.curve, item.xyz, Sort.PLACED if item.placed else Sort.ADOPTED, item.kind, item.direction
+        )
+        for item in thinned.points
+    ]
+    own = maker.points(points)
+    numbers = np.concatenate([rows, own])
+    for curve, order in enumerate(thinned.order):
+        maker.define(curve, numbers[np.array(order, np.int64)])
+    return []
+
+
+def _loft(maker: Maker) -> list[str]:
+    """Loft; a crossing that its driver no longer reaches becomes an adopted point."""
+    notes: list[str] = []
+    while True:
+        missing = loft_all(maker.state, maker.journal)
+        if not len(missing):
+            return notes
+        for row in missing.tolist():
+            notes.append(f"{maker.state.rows.key.data[row]}: not reached, left out")
+            _release(maker, row)
+
+
+def _release(maker: Maker, row: int) -> None:
+    """Take out a crossing; the curve it defined keeps an adopted point at its place."""
+    table = maker.state.rows
+    curves = [curve for curve in table.reader.data[row].tolist() if curve >= 0]
+    xyz = table.xyz.data[row].copy()
+    for curve in curves:
+        point = maker.points([PointSpec(curve, xyz, Sort.ADOPTED)])[0]
+        rows = maker.state.curves.rows.data[curve]
+        maker.define(curve, np.where(rows == row, point, rows))
+    maker.remove_rows([row])
+
+
+def _report(net: Net, thinned: Thinned) -> tuple[LineReport, ...]:
+    curves = net.state.curves
+    splines = SplineBatch.join([curves.spline.data[i] for i in range(curves.count)])
+    found: list[LineReport] = []
+    for i, source in enumerate(net.sources):
+        away = closest(splines, i, source.points)[2]
+        rows = curves.rows.data[i]
+        adopted = int((net.state.rows.sort.data[rows] == Sort.ADOPTED).sum())
+        found.append(
+            LineReport(curves.key.data[i], len(source.points), len(rows), adopted, float(away.max()))
+        )
+    return tuple(found)
+

@@ -1,0 +1,92 @@
+"""What must hold after an update, before it is published; all findings are collected."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.order import folds
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.state import HullState
+
+__all__ = ["Wide", "find_folds", "find_unbounded", "measure_gaps", "plane_normals"]
+
+
+@attrs.frozen(eq=False)
+class Wide:
+    """Watched crossings whose gap exceeds their limit.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The crossings.
+    gap, limit : (k,), m
+        Gap and limit of each.
+    largest : float, m
+        The largest gap of all that were measured, wide or not.
+    """
+
+    rows: IntArray
+    gap: FloatArray
+    limit: FloatArray
+    largest: float
+
+
+def find_folds(
+    state: HullState, curves: IntArray, before: dict[int, SplineBatch]
+) -> tuple[str, ...]:
+    """Say where curves turn back on themselves and did not before the edit."""
+    if not len(curves):
+        return ()
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    found = folds(batch)
+    if not len(found.curve):
+        return ()
+    findings: list[str] = []
+    for local in np.unique(found.curve).tolist():
+        curve = int(curves[local])
+        mine = found.curve == local
+        old = before.get(curve)
+        if old is not None and len(folds(old).curve) >= int(mine.sum()):
+            continue
+        x, y, z = batch.xyz[batch.start[local] + found.knot[mine][0]].tolist()
+        findings.append(
+            f"{state.curves.key.data[curve]} folds back on itself at ({x:.3f}, {y:.3f}, {z:.3f}) m "
+            f"(cosine {float(found.cosine[mine].min()):.2f}): make the move smaller or move the "
+            "neighbouring points too"
+        )
+    return tuple(findings)
+
+
+def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
+    """Say which curves hold numbers that are not finite."""
+    return tuple(
+        f"{state.curves.key.data[curve]} has a derivative that is not finite"
+        for curve in curves.tolist()
+        if not np.isfinite(state.spline(curve).leave).all()
+    )
+
+
+def measure_gaps(state: HullState, curves: IntArray, journal: Journal) -> Wide:
+    """Measure the watched gaps of curves, store them, and give those over their limit."""
+    rows = watched_on(state, curves)
+    if not len(rows):
+        return Wide(rows, np.zeros(0), np.zeros(0), 0.0)
+    gap = gap_at(state, rows)
+    journal.put(state.rows.gap, rows, gap)
+    journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
+    limit = state.rows.limit.data[rows]
+    wide = gap > limit
+    return Wide(rows[wide], gap[wide], limit[wide], float(gap.max()))
+
+
+def plane_normals(state: HullState, curves: IntArray) -> FloatArray:
+    """Give the unit normals of the planes of curves, (m, 3); nan for space curves."""
+    lines = state.curves.line.data[curves]
+    normal: FloatArray = np.where(
+        state.lines.planar.data[lines][:, None], state.lines.normal.data[lines], np.nan
+    )
+    return normal
+

@@ -1,0 +1,178 @@
+"""What an edit did, as data: what was re-lofted and why, what moved, what remains."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness import inflections
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.node import Readers
+
+__all__ = ["EditReport", "Fairness", "Movement", "Step"]
+
+
+@attrs.frozen(eq=False)
+class Fairness:
+    """Splines of the re-lofted curves before and after an edit, for counting when asked.
+
+    Attributes
+    ----------
+    before, after : dict of int to SplineBatch
+        By number of curve; a new curve has no spline before.
+    normals : (k, 3)
+        Unit normals of the planes of `curves`.
+    curves, keys : (k,) int, tuple of str
+        The curves.
+    """
+
+    before: dict[int, SplineBatch]
+    after: dict[int, SplineBatch]
+    normals: FloatArray
+    curves: IntArray
+    keys: tuple[str, ...]
+
+    def added(self) -> tuple[tuple[str, int], ...]:
+        """Give the curves with more curvature sign changes than before, and how many."""
+        known = [i for i, curve in enumerate(self.curves.tolist()) if curve in self.before]
+        if not known:
+            return ()
+        numbers, normals = self.curves[known].tolist(), self.normals[known]
+        old = SplineBatch.join([self.before[curve] for curve in numbers])
+        new = SplineBatch.join([self.after[curve] for curve in numbers])
+        more = inflections(new, normals)[0] - inflections(old, normals)[0]
+        return tuple(
+            (self.keys[i], int(count)) for i, count in zip(known, more.tolist(), strict=True) if count > 0
+        )
+
+
+@attrs.frozen
+class Movement:
+    """The largest movement of an edit.
+
+    Attributes
+    ----------
+    point : str
+        Key of the point that moved farthest.
+    distance : float, m
+        How far.
+    place : (float, float, float), m
+        Where it lies now.
+    """
+
+    point: str
+    distance: float
+    place: tuple[float, float, float]
+
+
+@attrs.frozen
+class EditReport:
+    """The report of one committed edit.
+
+    Attributes
+    ----------
+    name : str
+        Name of the edit.
+    planned : int
+        Curves that could at most have changed.
+    relofted : tuple of str
+        Keys of the curves that were lofted again, in order of the update.
+    cut_off : int
+        Nodes that were evaluated and came out as they were.
+    born, gone : tuple of str
+        Crossings that appeared and vanished.
+    mended : tuple of str
+        Curves that were given a point to close a gap.
+    failed, blocked : tuple of str
+        Objects that could not be made, and those made from them.
+    largest : Movement or None
+        The largest movement of any point.
+    largest_gap : float, m
+        The largest gap at the watched crossings that were checked.
+    notes : tuple of str
+        What was left alone, and why.
+    seconds : dict of str to float
+        Time per phase.
+    fairness : Fairness or None
+        What `inflections` counts.
+    """
+
+    name: str
+    planned: int = 0
+    relofted: tuple[str, ...] = ()
+    cut_off: int = 0
+    born: tuple[str, ...] = ()
+    gone: tuple[str, ...] = ()
+    mended: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
+    blocked: tuple[str, ...] = ()
+    largest: Movement | None = None
+    largest_gap: float = 0.0
+    notes: tuple[str, ...] = ()
+    seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
+    fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
+
+    @property
+    def inflections(self) -> tuple[tuple[str, int], ...]:
+        """Curves with more curvature sign changes than before, and how many more."""
+        return () if self.fairness is None else self.fairness.added()
+
+    def __str__(self) -> str:
+        parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
+        if self.largest is not None:
+            x, y, z = self.largest.place
+            parts.append(
+                f"largest movement {1e3 * self.largest.distance:.1f} mm at "
+                f"({x:.3f}, {y:.3f}, {z:.3f}) m, {self.largest.point}"
+            )
+        parts.append(f"largest gap {1e3 * self.largest_gap:.2f} mm")
+        for title in ("born", "gone", "mended", "failed", "blocked"):
+            found = getattr(self, title)
+            if found:
+                parts.append(f"{len(found)} {title}")
+        return "; ".join(parts)
+
+
+@attrs.frozen(eq=False)
+class Step:
+    """One committed edit: its journal is what undo and redo run.
+
+    Attributes
+    ----------
+    name : str
+        Name of the edit.
+    journal : Journal
+        All writes.
+    cause : Readers
+        Which node was evaluated because of which.
+    changed : (k,) int
+        Nodes that changed.
+    moved : (k,) float, m
+        By how much; nan for what the edit itself set.
+    seeds : (s,) int
+        Nodes that the edit set.
+    structural : bool
+        Whether lines, points or roles came or went.
+    report : EditReport
+        The report.
+    """
+
+    name: str
+    journal: Journal
+    cause: Readers
+    changed: IntArray
+    moved: FloatArray
+    seeds: IntArray
+    structural: bool
+    report: EditReport
+
+    @property
+    def rows(self) -> IntArray:
+        """Points that changed."""
+        return np.unique(self.changed[(self.changed & 1) == 0] >> 1)
+
+    @property
+    def curves(self) -> IntArray:
+        """Curves that changed."""
+        return np.unique(self.changed[(self.changed & 1) == 1] >> 1)

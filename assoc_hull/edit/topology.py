@@ -1,0 +1,189 @@
+"""Crossings that come and go when a plane meets a curve more or fewer times than before."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.align import Alignment
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.model.make import CrossingSpec, Maker
+from assoc_hull.model.roles import Candidates, choose, role_of
+from assoc_hull.model.state import HullState, Meets
+
+__all__ = ["Change", "generates", "settle", "unmeet"]
+
+
+@attrs.frozen
+class Change:
+    """What settling did: keys that came and went, and curves whose points changed."""
+
+    born: tuple[str, ...]
+    gone: tuple[str, ...]
+    curves: tuple[int, ...]
+
+
+def settle(maker: Maker, alignments: list[Alignment], edited: set[int]) -> Change:
+    """Take out crossings that have no place any more, and make those that have come.
+
+    A crossing exists only where both curves reach each other's plane at one place; where
+    only one does, the relation stays latent.
+    """
+    born: list[str] = []
+    gone: list[str] = []
+    curves: set[int] = set()
+    for alignment in sorted(alignments, key=lambda each: each.curve):
+        for row in alignment.gone.tolist():
+            if maker.state.rows.alive.data[row] and not _holds(maker.state, row, alignment.curve):
+                gone.append(maker.state.rows.key.data[row])
+                curves |= _remove(maker, row)
+    for alignment in sorted(alignments, key=lambda each: each.curve):
+        for spot in alignment.come.tolist():
+            row = _bear(maker, alignment.curve, spot, edited)
+            if row is not None:
+                born.append(maker.state.rows.key.data[row])
+                curves |= {int(each) for each in maker.state.rows.reader.data[row] if each >= 0}
+    return Change(tuple(sorted(born)), tuple(sorted(gone)), tuple(sorted(curves)))
+
+
+def _holds(state: HullState, row: int, curve: int) -> bool:
+    """Tell whether a curve is made through a crossing: then it is there by construction."""
+    return bool((state.rows.reader.data[row] == curve).any())
+
+
+def _remove(maker: Maker, row: int) -> set[int]:
+    """Take a crossing out of the curves it defines and of the meetings of both."""
+    state = maker.state
+    touched: set[int] = set()
+    for curve in state.rows.reader.data[row].tolist():
+        if curve >= 0:
+            rows = state.curves.rows.data[curve]
+            maker.define(curve, rows[rows != row])
+            touched.add(curve)
+    for curve in state.rows.curve.data[row].tolist():
+        if curve >= 0:
+            unmeet(maker, curve, row)
+    maker.remove_rows([row])
+    return touched
+
+
+def unmeet(maker: Maker, curve: int, row: int) -> None:
+    """Make the meeting of a curve at a crossing latent."""
+    meets: Meets = maker.state.curves.meets.data[curve]
+    if (meets.row == row).any():
+        left = np.where(meets.row == row, -1, meets.row)
+        maker.journal.set(maker.state.curves.meets, [curve], [attrs.evolve(meets, row=left)])
+
+
+def _bear(maker: Maker, curve: int, spot: int, edited: set[int]) -> int | None:
+    """Make the crossing at a new meeting, if the other line passes there too."""
+    state = maker.state
+    meets: Meets = state.curves.meets.data[curve]
+    if meets.row[spot] >= 0:
+        return None
+    best: tuple[float, int, int] | None = None
+    for other in state.lines.curves.data[int(meets.line[spot])]:
+        theirs: Meets = state.curves.meets.data[other]
+        free = np.flatnonzero((theirs.line == state.line_of(curve)) & (theirs.row < 0))
+        for there in free.tolist():
+            gap = _gap(state, (curve, spot), (other, there))
+            if gap <= 2.0 * state.tolerances.adoption and (best is None or gap < best[0]):
+                best = (gap, other, there)
+    if best is None:
+        return None
+    return _make(maker, (curve, spot), (best[1], best[2]), best[0], edited)
+
+
+def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> float:
+    places, slopes = [], []
+    for curve, spot in (one, other):
+        meets: Meets = state.curves.meets.data[curve]
+        places.append(meets.xyz[spot])
+        slopes.append(_tangent(state, curve, float(meets.parameter[spot])))
+    normal = crossing_normals(slopes[0][None], slopes[1][None])[0]
+    return abs(float((places[0] - places[1]) @ normal))
+
+
+def _tangent(state: HullState, curve: int, at: float) -> FloatArray:
+    return tangents(state, np.array([curve]), np.array([at]))[0]
+
+
+def _make(
+    maker: Maker, one: tuple[int, int], other: tuple[int, int], gap: float, edited: set[int]
+) -> int:
+    """Make a crossing of two meetings, with the role the rule gives it now."""
+    state = maker.state
+    (a, spot_a), (b, spot_b) = sorted((one, other), key=lambda each: state.rank(each[0]))
+    meets_a: Meets = state.curves.meets.data[a]
+    meets_b: Meets = state.curves.meets.data[b]
+    at = float(meets_a.parameter[spot_a]), float(meets_b.parameter[spot_b])
+    line_a, line_b = state.line_of(a), state.line_of(b)
+    role = role_of(
+        _may_define(state, a, line_b, at[0]),
+        _may_define(state, b, line_a, at[1]),
+        generates(state, line_a, line_b),
+    )
+    spots = meets_a.xyz[spot_a], meets_b.xyz[spot_b]
+    value = spots[1] if b in edited and a not in edited and role is Role.SHARED else spots[0]
+    row = int(maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0])
+    for curve, spot in ((a, spot_a), (b, spot_b)):
+        meets: Meets = state.curves.meets.data[curve]
+        marked = meets.row.copy()
+        marked[spot] = row
+        maker.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, row=marked)])
+    for curve, parameter in ((a, at[0]), (b, at[1])):
+        if (state.rows.reader.data[row] == curve).any():
+            _thread(maker, curve, row, parameter)
+    maker.journal.put(state.rows.limit, [row], [max(2.0 * state.tolerances.adoption, 1.5 * gap)])
+    maker.journal.put(state.rows.gap, [row], [gap])
+    maker.journal.put(state.rows.parameter, [row], [at])
+    return row
+
+
+def _thread(maker: Maker, curve: int, row: int, parameter: float) -> None:
+    rows: IntArray = maker.state.curves.rows.data[curve]
+    knots = maker.state.spline(curve).knot
+    if len(knots) != len(rows):
+        xyz = maker.state.rows.xyz.data[rows]
+        step = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
+        knots = np.concatenate([[0.0], np.cumsum(step)])
+    position = int(np.clip(np.searchsorted(knots, parameter), 1, len(rows) - 1))
+    maker.define(curve, np.insert(rows, position, row))
+
+
+def _may_define(state: HullState, curve: int, partner: int, at: float) -> bool:
+    """Apply the role rule to one new crossing; what defines the curve already stays."""
+    spline = state.spline(curve)
+    knots = spline.knot
+    if float(np.abs(knots - at).min()) < 1e-3:
+        return False
+    position = int(np.searchsorted(knots, at))
+    places = np.insert(knots, position, at)
+    slopes = tangents(state, np.full(len(places), curve), places)
+    fixed = np.ones(len(places), bool)
+    fixed[position] = False
+    sine = abs(float(slopes[position] @ state.lines.normal.data[partner]))
+    angle = np.full(len(places), 90.0)
+    angle[position] = float(np.degrees(np.arcsin(min(1.0, sine))))
+    return bool(choose(Candidates(places, angle, slopes, fixed), state.tolerances)[position])
+
+
+def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
+    """Tell whether line a generates points on line b, and b on a."""
+    names = [state.groups.name.data[int(state.lines.group.data[line])] for line in (line_a, line_b)]
+    for link in state.associations:
+        if [link.a, link.b] == names:
+            return True, link.two_way
+        if [link.b, link.a] == names:
+            return link.two_way, True
+    return False, False
+
+
+def crossings_of(state: HullState, curve: int) -> IntArray:
+    """Give the live crossings of a curve, (k,) int, ascending."""
+    table = state.rows
+    mine = table.alive.data & (table.sort.data == Sort.CROSSING)
+    found: IntArray = np.flatnonzero(mine & (table.curve.data == curve).any(axis=1))
+    return found

@@ -1,0 +1,115 @@
+"""The transaction: modifications are collected, then one update runs, is checked, published.
+
+All modifications read the state before the transaction; two that write one point are an
+error. Whatever goes wrong, the journal takes every write back, to the last bit.
+"""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.update import Pending, Settings, update
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.make import Maker
+from assoc_hull.model.state import HullState
+
+__all__ = ["Transaction"]
+
+
+class Transaction:
+    """One edit of a hull, to be used in a ``with`` statement.
+
+    Parameters
+    ----------
+    document : Document
+        The hull.
+    name : str
+        Name of the edit, for the history.
+    settings : Settings
+        Policy and treatment of gaps.
+    publish : bool
+        False for a preview: everything runs, and is taken back.
+    """
+
+    def __init__(
+        self, document: Document, name: str, settings: Settings | None = None, publish: bool = True
+    ) -> None:
+        self.document = document
+        self.name = name
+        self.settings = settings or Settings()
+        self.publish = publish
+        self.journal = Journal()
+        self.pending = Pending()
+        self.report: EditReport | None = None
+        self._depth = 0
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+        return self.document.state
+
+    @property
+    def maker(self) -> Maker:
+        """Writes structure through this transaction's journal."""
+        return Maker(self.state, self.journal)
+
+    def write(self, rows: IntArray, values: FloatArray, what: str) -> None:
+        """Set the places of points; they are written when the transaction ends.
+
+        Raises
+        ------
+        BadInputError
+            If a point is written twice, or a number is not finite.
+        """
+        if not np.isfinite(values).all():
+            raise BadInputError("a coordinate is not finite", f"in {what}", "give finite numbers")
+        for row, value in zip(rows.tolist(), values, strict=True):
+            if row in self.pending.values:
+                key = self.state.rows.key.data[row]
+                raise BadInputError(
+                    "a point is written twice in one transaction",
+                    f"{key}, in {what}",
+                    "leave one of the two out, or use two transactions",
+                )
+            self.pending.values[row] = value
+
+    def __enter__(self) -> Self:
+        self._depth += 1
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._depth -= 1
+        if self._depth and error is None:
+            return
+        if error is not None:
+            self._restore()
+            return
+        try:
+            step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        except BaseException:
+            self._restore()
+            raise
+        self.report = step.report
+        if self.publish:
+            self.document.commit(step)
+        else:
+            self._restore()
+
+    def _restore(self) -> None:
+        structural = self.pending.structural
+        self.journal.undo()
+        if structural:
+            self.document.refresh()
+

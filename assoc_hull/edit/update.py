@@ -1,0 +1,276 @@
+"""From pending modifications to a finished step: plan, run, mend, check.
+
+The main pass lofts each curve at most once. A second pass follows only for crossings that
+came or went, and for gaps that are mended; it lofts only the curves these touch.
+"""
+
+from __future__ import annotations
+
+import time
+import attrs
+import numpy as np
+
+from assoc_hull.edit.check import Wide, find_folds, find_unbounded, measure_gaps, plane_normals
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.mend import mend
+from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
+from assoc_hull.edit.ride import rebase, ride_links
+from assoc_hull.edit.topology import settle
+from assoc_hull.edit.trouble import blocked_nodes, note_states
+from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.node import Readers
+from assoc_hull.graph.run import Pass, Policy, run
+from assoc_hull.model.family import State
+from assoc_hull.model.make import Maker
+from assoc_hull.model.network import HullNetwork, bits_differ
+from assoc_hull.model.state import HullState, curve_node, row_node
+
+__all__ = ["Pending", "Settings", "update"]
+
+_NONE: IntArray = np.zeros(0, np.int64)
+_ROUNDS = 6
+"""Crossings that come make others come, seldom more than twice."""
+
+
+@attrs.frozen
+class Settings:
+    """How an edit is carried out.
+
+    Attributes
+    ----------
+    policy : Policy
+        What becomes of an edit when a curve cannot be made.
+    refuse_gaps : bool
+        Whether a watched gap that stays over its limit refuses the edit; else it is kept
+        as a defect that a check names.
+    """
+
+    policy: Policy = Policy.ALL_OR_NOTHING
+    refuse_gaps: bool = True
+
+
+@attrs.define(eq=False)
+class Pending:
+    """What the modifications of a transaction ask for.
+
+    Attributes
+    ----------
+    values : dict of int to (3,), m
+        New places of points.
+    curves : set of int
+        Curves whose recipe changed.
+    held : set of int
+        Adopted points that a field moves: they do not ride in this update.
+    structural : bool
+        Whether lines, points, roles or associations came or went.
+    moved_curves : set of int
+        Curves that the designer edited: births take their value from these.
+    notes : list of str
+        What was left alone, and why.
+    """
+
+    values: dict[int, FloatArray] = attrs.field(factory=dict)
+    curves: set[int] = attrs.field(factory=set)
+    held: set[int] = attrs.field(factory=set)
+    structural: bool = False
+    moved_curves: set[int] = attrs.field(factory=set)
+    notes: list[str] = attrs.field(factory=list)
+
+
+@attrs.define(eq=False)
+class _Work:
+    """One update while it runs."""
+
+    document: Document
+    name: str
+    journal: Journal
+    pending: Pending
+    settings: Settings
+    network: HullNetwork
+    passes: list[Pass] = attrs.field(factory=list)
+    born: list[str] = attrs.field(factory=list)
+    gone: list[str] = attrs.field(factory=list)
+    mended: list[str] = attrs.field(factory=list)
+    seconds: dict[str, float] = attrs.field(factory=dict)
+    failed: dict[int, str] = attrs.field(factory=dict)
+    wide: Wide | None = None
+
+    @property
+    def state(self) -> HullState:
+        return self.document.state
+
+    def evaluated(self) -> IntArray:
+        """Curves evaluated in any pass, in order, each once."""
+        nodes = np.concatenate([_NONE, *(part.evaluated for part in self.passes)])
+        curves = nodes[(nodes & 1) == 1] >> 1
+        return curves[np.sort(np.unique(curves, return_index=True)[1])]
+
+    def go(self, rows: IntArray, curves: IntArray) -> None:
+        """Run one pass from points that were set and curves whose recipe changed."""
+        held = row_node(np.array(sorted(self.pending.held), np.int64))
+        blocked = blocked_nodes(self.network, self.state.failed)
+        result = run(
+            self.network, row_node(rows), self.journal, self.settings.policy,
+            also=curve_node(curves), held=np.concatenate([held, blocked]),
+        )  # fmt: skip
+        self.passes.append(result)
+        self.failed |= result.failed
+        note_states(self.network, result, self.journal)
+        freed = np.setdiff1d(blocked, blocked_nodes(self.network, self.state.failed))
+        if len(freed):
+            self.passes.append(
+                run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
+            )
+
+    def renew(self) -> None:
+        """Derive the look-ups anew after crossings or points came or went."""
+        self.pending.structural = True
+        self.document.refresh()
+        self.network.index = self.document.index
+
+
+def update(
+    document: Document, name: str, journal: Journal, pending: Pending, settings: Settings
+) -> Step:
+    """Carry out what is pending, and give the finished step.
+
+    Raises
+    ------
+    RefusedEditError
+        With all findings: a curve that cannot be lofted or folds, a gap over its limit.
+    RingError
+        If driven links would run in a ring.
+    """
+    begin = time.perf_counter()
+    rows, away = _set_values(document.state, journal, pending)
+    if pending.structural:
+        document.refresh()
+    network = HullNetwork(document.state, document.index)
+    work = _Work(document, name, journal, pending, settings, network)
+    try:
+        work.go(rows, np.array(sorted(pending.curves), np.int64))
+        _settle(work)
+        rebase(document.state, np.array(sorted(pending.held), np.int64), journal)
+        ran = time.perf_counter()
+        findings = _check(work)
+    except RingError:
+        raise
+    except (AssocHullError, ArithmeticError) as error:
+        raise RefusedEditError(name, (str(error),)) from error
+    if findings:
+        raise RefusedEditError(name, findings)
+    work.seconds |= {"run": ran - begin, "check": time.perf_counter() - ran}
+    return _step(work, rows, away)
+
+
+def _set_values(
+    state: HullState, journal: Journal, pending: Pending
+) -> tuple[IntArray, FloatArray]:
+    """Write the new places that differ from the old by a bit; give them with the distances."""
+    rows = np.array(sorted(pending.values), np.int64)
+    if not len(rows):
+        return rows, np.zeros(0)
+    value = np.array([pending.values[row] for row in rows.tolist()]) + 0.0
+    old = state.rows.xyz.data[rows]
+    differs = bits_differ(old, value)
+    journal.put(state.rows.xyz, rows[differs], value[differs])
+    step = value[differs] - old[differs]
+    return rows[differs], np.sqrt((step * step).sum(axis=1))
+
+
+def _settle(work: _Work) -> None:
+    """Let crossings come and go until every meeting has its place."""
+    for _ in range(_ROUNDS):
+        alignments, work.network.realigned = work.network.realigned, []
+        if not alignments:
+            return
+        maker = Maker(work.state, work.journal)
+        change = settle(maker, alignments, work.pending.moved_curves)
+        work.born += change.born
+        work.gone += change.gone
+        curves = np.array(change.curves, np.int64)
+        if change.born or change.gone:
+            ride_links(work.state, curves, work.journal)
+            work.renew()
+        if len(curves):
+            work.go(_NONE, curves)
+
+
+def _check(work: _Work) -> tuple[str, ...]:
+    """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
+    curves = work.evaluated()
+    wide = measure_gaps(work.state, curves, work.journal)
+    if len(wide.rows):
+        keys = work.state.rows.key.data
+        order = sorted(range(len(wide.rows)), key=lambda i: (-wide.gap[i], keys[wide.rows[i]]))
+        touched, moved = mend(Maker(work.state, work.journal), wide.rows[np.array(order)])
+        if len(touched):
+            work.mended += [work.state.curves.key.data[curve] for curve in touched.tolist()]
+            work.renew()
+            work.go(moved, touched)
+            _settle(work)
+            curves = work.evaluated()
+            wide = measure_gaps(work.state, curves, work.journal)
+    work.wide = wide
+    clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
+    findings = find_unbounded(work.state, clean)
+    findings += find_folds(work.state, clean, work.network.before)
+    if work.settings.refuse_gaps:
+        findings += tuple(_gap_text(work, i) for i in range(len(wide.rows)))
+    return findings
+
+
+def _gap_text(work: _Work, index: int) -> str:
+    wide = work.wide
+    assert wide is not None  # noqa: S101 - set by the caller just before
+    row = int(wide.rows[index])
+    x, y, z = work.state.rows.spot.data[row, 0].tolist()
+    return (
+        f"{work.state.rows.key.data[row]}: the two curves pass {1e3 * wide.gap[index]:.1f} mm apart "
+        f"at ({x:.3f}, {y:.3f}, {z:.3f}) m, over the limit of {1e3 * wide.limit[index]:.1f} mm; "
+        "make the move smaller, use a field, or ask for gaps='report'"
+    )
+
+
+def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
+    """Put the finished step together."""
+    parts, state = work.passes, work.state
+    changed = np.concatenate([row_node(rows), *(part.changed[np.isfinite(part.moved) | (part.changed & 1 == 1)] for part in parts)])
+    moved = np.concatenate([away, *(part.moved[np.isfinite(part.moved) | (part.changed & 1 == 1)] for part in parts)])
+    cause = Readers(
+        np.concatenate([part.cause.reader for part in parts]),
+        np.concatenate([part.cause.source for part in parts]),
+    )
+    curves = work.evaluated()
+    key = state.curves.key.data
+    report = EditReport(
+        work.name,
+        relofted=tuple(key[curve] for curve in curves.tolist()),
+        cut_off=sum(len(part.cut_off) for part in parts),
+        born=tuple(work.born),
+        gone=tuple(work.gone),
+        mended=tuple(work.mended),
+        failed=tuple(f"{work.network.name(node)}: {why}" for node, why in work.failed.items()),
+        blocked=tuple(work.network.name(node) for part in parts for node in part.blocked.tolist()),
+        largest=_largest(state, changed, moved),
+        largest_gap=0.0 if work.wide is None else work.wide.largest,
+        notes=tuple(work.pending.notes),
+        seconds=work.seconds,
+        fairness=Fairness(work.network.before, {c: state.spline(c) for c in curves.tolist()}, plane_normals(state, curves), curves, tuple(key[c] for c in curves.tolist())),
+    )
+    return Step(
+        work.name, work.journal, cause, changed, moved, row_node(rows),
+        work.pending.structural, report,
+    )  # fmt: skip
+
+
+def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement | None:
+    points = (changed & 1) == 0
+    if not points.any():
+        return None
+    best = int(np.nanargmax(moved[points]))
+    row = int(changed[points][best]) >> 1
+    place = tuple(state.rows.xyz.data[row].tolist())
+    return Movement(state.rows.key.data[row], float(moved[points][best]), place)

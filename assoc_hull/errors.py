@@ -1,0 +1,216 @@
+"""The errors this package raises: one small family, each also the fitting builtin.
+
+Every message says what is wrong, where, how much, and what to do; the same facts are
+fields of the exception, so a program need not read the text.
+
+Examples
+--------
+>>> from assoc_hull.errors import UnknownNameError
+>>> error = UnknownNameError("line", "WL 9", ("WL 0.5", "WL 1"))
+>>> isinstance(error, KeyError) and isinstance(error, AssocHullError)
+True
+>>> str(error)
+"there is no line named 'WL 9'; the nearest names are 'WL 1', 'WL 0.5'"
+"""
+
+from __future__ import annotations
+
+import difflib
+
+import attrs
+
+__all__ = [
+    "AssocHullError",
+    "BadInputError",
+    "CoincidentPointsError",
+    "ForeignPointError",
+    "FreedomError",
+    "MissingExtraError",
+    "NameTakenError",
+    "NoMeetingError",
+    "PointRoleError",
+    "RefusedEditError",
+    "RingError",
+    "TooFewPointsError",
+    "UnknownNameError",
+]
+
+
+class AssocHullError(Exception):
+    """The root of the family: catch this to catch every error the package raises."""
+
+
+@attrs.define(slots=False, eq=False)
+class BadInputError(AssocHullError, ValueError):
+    """A value handed in cannot be used.
+
+    Attributes
+    ----------
+    what : str
+        What is wrong, with the number.
+    where : str
+        The object, file row or argument that holds the value.
+    remedy : str
+        What to do about it.
+    """
+
+    what: str
+    where: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}, {self.where}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class TooFewPointsError(AssocHullError, ValueError):
+    """A curve has fewer than two points."""
+
+    curve: str
+    count: int
+
+    def __str__(self) -> str:
+        return f"{self.curve} has {self.count} defining point(s); a curve needs two or more"
+
+
+@attrs.define(slots=False, eq=False)
+class CoincidentPointsError(AssocHullError, ValueError):
+    """Two neighbouring points of one curve lie closer than they may (m)."""
+
+    curve: str
+    position: tuple[float, float, float]
+    distance: float
+    limit: float
+
+    def __str__(self) -> str:
+        x, y, z = self.position
+        return (
+            f"two neighbouring points of {self.curve} at ({x:.4f}, {y:.4f}, {z:.4f}) m lie "
+            f"{self.distance:.3g} m apart, closer than {self.limit:.3g} m; delete one of them"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class NameTakenError(AssocHullError, ValueError):
+    """A name that must be unique is in use."""
+
+    kind: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"a {self.kind} named {self.name!r} exists already; choose another name"
+
+
+@attrs.define(slots=False, eq=False)
+class UnknownNameError(AssocHullError, KeyError):
+    """No object of this kind has this name or id."""
+
+    kind: str
+    name: str
+    known: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        near = difflib.get_close_matches(self.name, self.known, n=3, cutoff=0.4)
+        hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
+        return f"there is no {self.kind} named {self.name!r}; {hint}"
+
+
+@attrs.define(slots=False, eq=False)
+class FreedomError(AssocHullError, ValueError):
+    """A point was to be moved along a coordinate in which it is not free."""
+
+    point: str
+    asked: tuple[str, ...]
+    free: tuple[str, ...]
+
+    def __str__(self) -> str:
+        asked, free = ", ".join(self.asked) or "nothing", ", ".join(self.free) or "nothing"
+        return f"{self.point} is free along {free}, and {asked} was asked; give exactly {free}"
+
+
+@attrs.define(slots=False, eq=False)
+class PointRoleError(AssocHullError, ValueError):
+    """The role of a point forbids the edit: it is computed, or it is a crossing.
+
+    Attributes
+    ----------
+    point, role : str
+        The point and its present role.
+    driver : str or None
+        The curve that the point is computed from.
+    remedy : str
+        The ways out.
+    """
+
+    point: str
+    role: str
+    driver: str | None
+    remedy: str
+
+    def __str__(self) -> str:
+        source = f", computed from {self.driver}" if self.driver else ""
+        return f"{self.point} is {self.role}{source}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class ForeignPointError(AssocHullError, ValueError):
+    """A handle belongs to another hull, or its object has gone."""
+
+    handle: str
+
+    def __str__(self) -> str:
+        return f"{self.handle} does not exist in this hull (any more); look it up again"
+
+
+@attrs.define(slots=False, eq=False)
+class NoMeetingError(AssocHullError, ValueError):
+    """A plane or line meets nothing where it was asked to."""
+
+    what: str
+    nearest: float
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what} meets nothing (nearest {self.nearest:.4g} m away); {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class RingError(AssocHullError, ValueError):
+    """Driven links would run in a ring; `path` names the nodes, first again at the end."""
+
+    path: tuple[str, ...]
+
+    def __str__(self) -> str:
+        ring = " -> ".join(self.path)
+        return f"these drive one another in a ring: {ring}; make one of the links two-way"
+
+
+@attrs.define(slots=False, eq=False)
+class RefusedEditError(AssocHullError, RuntimeError):
+    """An edit would have left the hull inconsistent; nothing was changed.
+
+    Attributes
+    ----------
+    edit : str
+        The name of the edit.
+    findings : tuple of str
+        Every reason, each naming curve, crossing, cause and number.
+    """
+
+    edit: str
+    findings: tuple[str, ...]
+
+    def __str__(self) -> str:
+        more = f" (and {len(self.findings) - 1} more)" if len(self.findings) > 1 else ""
+        return f"edit {self.edit!r} refused, the hull is unchanged: {self.findings[0]}{more}"
+
+
+@attrs.define(slots=False, eq=False)
+class MissingExtraError(AssocHullError, ImportError):
+    """An optional library is not installed."""
+
+    library: str
+    extra: str
+
+    def __str__(self) -> str:
+        return f"{self.library} is not installed; run: pip install 'assoc-hull[{self.extra}]'"

@@ -1,0 +1,1 @@
+"""Pure geometry: functions and frozen values, without ids, links or state."""

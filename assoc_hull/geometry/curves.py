@@ -1,0 +1,169 @@
+"""Ragged batches of curves: the data the splines are made from, and the splines.
+
+Many curves of different lengths lie one behind the other in flat arrays. ``start`` holds
+where each begins: curve ``i`` owns the rows ``start[i]:start[i + 1]``, as in the offsets of
+an Arrow list array. All arrays are frozen (``writeable=False``).
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.curves import CurveData
+>>> CurveData.single(np.array([[0.0, 0, 0], [1, 0, 0], [2, 1, 0]])).count
+1
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Self
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CurveData", "EndKind", "FloatArray", "IntArray", "PointKind", "SplineBatch", "freeze"]
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class PointKind(IntEnum):
+    """How a curve passes through a defining point."""
+
+    SMOOTH = 0
+    TANGENT = 1
+    KNUCKLE = 2
+
+
+class EndKind(IntEnum):
+    """What is given at an end of a curve."""
+
+    FREE = 0
+    TANGENT = 1
+    CURVATURE = 2
+
+
+def freeze(*arrays: NDArray[np.generic]) -> None:
+    """Make arrays read-only."""
+    for array in arrays:
+        array.setflags(write=False)
+
+
+@attrs.frozen(eq=False)
+class CurveData:
+    """What a batch of curves is made from.
+
+    Attributes
+    ----------
+    start : (m + 1,) int
+        Where each curve begins; the last entry is n.
+    xyz : (n, 3), m
+        The defining points, curve by curve, in order.
+    kind : (n,) int8
+        A `PointKind` per point; what is said of the first and last point of a curve is
+        ignored, its end is governed by `end_kind`.
+    direction : (n, 3)
+        Given direction at tangent points (any length but nil, along the sense of the
+        curve); ignored elsewhere.
+    end_kind : (m, 2) int8
+        An `EndKind` for the first and last point of each curve.
+    end_vector : (m, 2, 3)
+        The direction along the sense of the curve (`TANGENT`), or the second derivative
+        with respect to chord length, 1/m (`CURVATURE`); ignored at free ends.
+    """
+
+    start: IntArray
+    xyz: FloatArray
+    kind: NDArray[np.int8]
+    direction: FloatArray
+    end_kind: NDArray[np.int8]
+    end_vector: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.start, self.xyz, self.kind, self.direction, self.end_kind, self.end_vector)
+
+    @property
+    def count(self) -> int:
+        """Number of curves."""
+        return len(self.start) - 1
+
+    @classmethod
+    def single(
+        cls,
+        xyz: FloatArray,
+        kind: Sequence[int] | NDArray[np.int8] | None = None,
+        direction: FloatArray | None = None,
+        end_kind: tuple[int, int] = (EndKind.FREE, EndKind.FREE),
+        end_vector: FloatArray | None = None,
+    ) -> Self:
+        """Give the data of one curve; arrays as in the class, without the leading batch axis."""
+        n = len(xyz)
+        return cls(
+            np.array([0, n], np.int64),
+            np.array(xyz, np.float64),
+            np.zeros(n, np.int8) if kind is None else np.array(kind, np.int8),
+            np.zeros((n, 3)) if direction is None else np.array(direction, np.float64),
+            np.array([end_kind], np.int8),
+            np.zeros((1, 2, 3)) if end_vector is None else np.array(end_vector, np.float64)[None],
+        )
+
+
+@attrs.frozen(eq=False)
+class SplineBatch:
+    """Cubic composite splines, segment by segment in Hermite form.
+
+    Between the knots i and i + 1 of one curve lies the cubic with the end points
+    ``xyz[i], xyz[i + 1]`` and the end derivatives ``leave[i], arrive[i + 1]`` with respect
+    to the chord-length parameter ``knot``.
+
+    Attributes
+    ----------
+    start : (m + 1,) int
+        Where each curve's knots begin.
+    knot : (n,), m
+        Chord-length parameter, from 0 at the first point of each curve.
+    xyz : (n, 3), m
+        The defining points.
+    leave, arrive : (n, 3)
+        Derivative after and before each knot; they differ at knuckles only.
+    """
+
+    start: IntArray
+    knot: FloatArray
+    xyz: FloatArray
+    leave: FloatArray
+    arrive: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.start, self.knot, self.xyz, self.leave, self.arrive)
+
+    @property
+    def count(self) -> int:
+        """Number of curves."""
+        return len(self.start) - 1
+
+    def curve(self, index: int) -> SplineBatch:
+        """Give one curve of the batch as a batch of one; the arrays are copies."""
+        a, b = int(self.start[index]), int(self.start[index + 1])
+        return SplineBatch(
+            np.array([0, b - a], np.int64),
+            self.knot[a:b].copy(),
+            self.xyz[a:b].copy(),
+            self.leave[a:b].copy(),
+            self.arrive[a:b].copy(),
+        )
+
+    @classmethod
+    def join(cls, parts: Sequence[SplineBatch]) -> SplineBatch:
+        """Put batches one behind the other."""
+        counts = np.concatenate([np.diff(part.start) for part in parts])
+        start = np.zeros(len(counts) + 1, np.int64)
+        np.cumsum(counts, out=start[1:])
+        return cls(
+            start,
+            np.concatenate([part.knot for part in parts]),
+            np.concatenate([part.xyz for part in parts]),
+            np.concatenate([part.leave for part in parts]),
+            np.concatenate([part.arrive for part in parts]),
+        )

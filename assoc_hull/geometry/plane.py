@@ -1,0 +1,141 @@
+"""Planes in space.
+
+Examples
+--------
+>>> from assoc_hull.geometry.plane import Plane
+>>> Plane.across("z", 5.5).axis
+'z'
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["AXES", "Axis", "Plane", "unit_normal"]
+
+Axis = Literal["x", "y", "z"]
+AXES: tuple[Axis, Axis, Axis] = ("x", "y", "z")
+
+_UNIT_SLACK = 1e-9
+"""A normal may be off unit length by this."""
+
+
+def unit_normal(normal: FloatArray) -> FloatArray:
+    """Check that a normal is a unit vector.
+
+    Parameters
+    ----------
+    normal : (3,)
+        The normal.
+
+    Returns
+    -------
+    (3,)
+        The same numbers, frozen.
+
+    Raises
+    ------
+    BadInputError
+        If it has not three finite components or not length 1 within 1e-9.
+
+    Examples
+    --------
+    >>> unit_normal(np.array([0.0, 0.6, 0.8]))
+    array([0. , 0.6, 0.8])
+    """
+    vector = np.array(normal, np.float64)
+    if vector.shape != (3,) or not abs(float((vector * vector).sum()) - 1.0) <= 2 * _UNIT_SLACK:
+        raise BadInputError(
+            f"normal {vector.tolist()} is not a unit vector of three numbers",
+            "in a plane",
+            "divide it by its length",
+        )
+    freeze(vector)
+    return vector
+
+
+@attrs.frozen(eq=False)
+class Plane:
+    """The points P with ``normal . P = offset``.
+
+    Attributes
+    ----------
+    normal : (3,)
+        Unit normal.
+    offset : float, m
+        Distance from the origin along the normal.
+
+    Examples
+    --------
+    >>> Plane(np.array([0.0, 0.6, 0.8]), 2.0).axis is None
+    True
+    """
+
+    normal: FloatArray = attrs.field(converter=unit_normal)
+    offset: float = attrs.field(converter=float)
+
+    @classmethod
+    def across(cls, axis: Axis, offset: float) -> Self:
+        """Give the plane normal to a coordinate axis.
+
+        Parameters
+        ----------
+        axis : "x", "y" or "z"
+            The axis.
+        offset : float, m
+            The coordinate that all points of the plane share.
+
+        Returns
+        -------
+        Plane
+            The plane.
+
+        Raises
+        ------
+        BadInputError
+            If the axis is none of these.
+
+        Examples
+        --------
+        >>> Plane.across("x", 3.0).normal
+        array([1., 0., 0.])
+        """
+        if axis not in AXES:
+            raise BadInputError(f"axis {axis!r} was asked", "in a plane", "ask for x, y or z")
+        return cls(np.eye(3)[AXES.index(axis)], offset)
+
+    @property
+    def axis(self) -> Axis | None:
+        """The coordinate axis that the normal points along, if any."""
+        for index, name in enumerate(AXES):
+            if self.normal[index] == 1.0 and np.count_nonzero(self.normal) == 1:
+                return name
+        return None
+
+    def height(self, xyz: FloatArray) -> FloatArray:
+        """Give the signed distance of points from the plane.
+
+        Parameters
+        ----------
+        xyz : (..., 3), m
+            The points.
+
+        Returns
+        -------
+        (...,), m
+            Positive on the side the normal points to.
+
+        Examples
+        --------
+        >>> Plane.across("z", 1.0).height(np.array([[0.0, 0.0, 3.0]]))
+        array([2.])
+        """
+        products = xyz * self.normal
+        result: FloatArray = products[..., 0] + products[..., 1] + products[..., 2] - self.offset
+        return result

@@ -1,0 +1,355 @@
+"""The cubic composite spline of the kernel: chord length, knuckles, tangent points, all at once.
+
+A curve is cut into pieces at tangent and knuckle points; each piece has continuous second
+derivatives. A curve is a pure function of its own data: its bits are the same alone and in
+any batch, because all arithmetic is elementwise ``+ - * /`` and square root in one fixed
+order per curve.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.curves import CurveData
+>>> from assoc_hull.geometry.spline import evaluate, loft
+>>> spline = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
+>>> evaluate(spline, np.array([0]), np.array([2.5]))
+array([[1.5, 2. , 0. ]])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
+from assoc_hull.geometry.curves import (
+    CurveData,
+    EndKind,
+    FloatArray,
+    IntArray,
+    PointKind,
+    SplineBatch,
+)
+from assoc_hull.geometry.evaluation import control_points, derivative, evaluate, sample
+from assoc_hull.geometry.tridiagonal import Slots, accumulate, slots_of, solve
+from assoc_hull.geometry.workspace import Workspace
+from assoc_hull.tolerance import Tolerances
+
+__all__ = ["control_points", "derivative", "evaluate", "loft", "sample"]
+
+_SOLVED, _GIVEN, _LOOSE, _CURVED = 0, 1, 2, 3
+"""What fixes the derivative at a point: the tridiagonal rows (continuous curvature), a
+given direction, the local rule for knuckle sides and free ends, a given curvature."""
+
+_OPEN = np.array([1.0, 0.0, 0.0, 1.0])
+"""Whether the derivative of each state is an unknown of the tridiagonal rows."""
+
+_STATE_OF_KIND = np.zeros(3, np.int8)
+_STATE_OF_KIND[[PointKind.SMOOTH, PointKind.TANGENT, PointKind.KNUCKLE]] = _SOLVED, _GIVEN, _LOOSE
+_STATE_OF_END = np.zeros(3, np.int8)
+_STATE_OF_END[[EndKind.FREE, EndKind.TANGENT, EndKind.CURVATURE]] = _LOOSE, _GIVEN, _CURVED
+
+_LEAST_COSINE = 0.2
+"""Below this cosine of neighbour direction and chord the local rule would fold back."""
+
+_NO_DIRECTION = 1e-20
+"""Squared relative length of a parabola's derivative that is taken as no direction at all."""
+
+_COINCIDENT = Tolerances().coincident
+
+
+def loft(data: CurveData, names: Sequence[str] | None = None) -> SplineBatch:
+    """Make the cubic composite splines through the points of a batch of curves.
+
+    Parameters
+    ----------
+    data : CurveData
+        Points (n, 3) in m, kinds and end conditions of m curves.
+    names : sequence of m str, optional
+        What error messages call the curves; "curve i of the batch" otherwise.
+
+    Returns
+    -------
+    SplineBatch
+        Knots (n,) in m, points (n, 3) in m and derivatives (n, 3); frozen.
+
+    Raises
+    ------
+    TooFewPointsError
+        If a curve has fewer than two points.
+    CoincidentPointsError
+        If neighbouring points of a curve lie closer than 1e-6 m.
+    BadInputError
+        If a number is not finite, a needed direction is nil, or a kind is unknown.
+
+    Notes
+    -----
+    Given directions become unit derivatives with respect to chord length. A knuckle side
+    or free end takes the derivative that minimises the integral of the squared second
+    derivative over its first interval while the direction at the neighbour is kept.
+    Source: H.J. Son, H.C. Kim, "hull form parameter modules for performance analysis",
+    J. of CAD/CAM (Korea) 13(6), 2008, eq. 1-2.
+
+    Examples
+    --------
+    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])))
+    >>> line.knot
+    array([0., 1., 2.])
+    >>> line.leave[1]
+    array([1., 0., 0.])
+    """
+    slots = slots_of(data.start)
+    if slots.shortest < 2:
+        raise _too_few(data, names)
+    # One block for all results: four smaller ones go back to the operating system each time.
+    block = np.empty((9, len(data.xyz)))
+    points, leave, arrive = block[:3], block[3:6], block[6:]
+    points[:] = data.xyz.T
+    with Workspace() as workspace:
+        chord, slope = _chords(data, points, slots, names, workspace)
+        state = _states(data, slots)
+        _set_known(data, slots, state, chord, slope, names, leave, arrive)
+        rows = _rows(data, slots, state, chord, slope, workspace)
+        _detach_known(rows, state, leave, arrive, workspace)
+        solved = solve(slots, rows, workspace)
+        # A sum, not a choice: known rows solve to nil; it also turns -0.0 into 0.0.
+        leave += solved
+        arrive += solved
+    chord[slots.first] = 0.0
+    chord[-1] = 0.0
+    return SplineBatch(data.start, accumulate(slots, chord), points.T, leave.T, arrive.T)
+
+
+def _chords(
+    data: CurveData,
+    points: FloatArray,
+    slots: Slots,
+    names: Sequence[str] | None,
+    workspace: Workspace,
+) -> tuple[FloatArray, FloatArray]:
+    """Give length (n + 1,) and direction (3, n + 1) of the chord before each point.
+
+    Entries between two curves are 1 and finite, so that arithmetic may run across them.
+    """
+    size = points.shape[1]
+    chord, slope = np.ones(size + 1), workspace.array(3, size + 1)
+    slope[:, 0] = slope[:, size] = 0.0
+    step = slope[:, 1:-1]
+    np.subtract(points[:, 1:], points[:, :-1], out=step)
+    squares = np.multiply(step, step, out=workspace.array(3, size - 1))
+    length = chord[1:-1]
+    np.add(squares[0], squares[1], out=length)
+    length += squares[2]
+    np.sqrt(length, out=length)
+    chord[slots.first] = 1.0
+    if not chord.min() >= _COINCIDENT or not chord.max() < np.inf:
+        raise _bad_points(data, chord, names)
+    slope /= chord
+    return chord, slope
+
+
+def _states(data: CurveData, slots: Slots) -> NDArray[np.int8]:
+    """Say for each point what fixes its derivative."""
+    try:
+        state = _STATE_OF_KIND.take(data.kind)
+        ends = _STATE_OF_END.take(data.end_kind)
+    except IndexError:
+        raise BadInputError(
+            "a point kind or end kind is not 0, 1 or 2",
+            "in the curve data",
+            "use PointKind and EndKind",
+        ) from None
+    state[slots.first] = ends[:, 0]
+    state[slots.last] = ends[:, 1]
+    return state
+
+
+def _set_known(
+    data: CurveData,
+    slots: Slots,
+    state: NDArray[np.int8],
+    chord: FloatArray,
+    slope: FloatArray,
+    names: Sequence[str] | None,
+    leave: FloatArray,
+    arrive: FloatArray,
+) -> None:
+    """Set the derivatives (3, n) after and before each point, nil where still to be solved."""
+    leave[:] = 0.0
+    tangents = np.flatnonzero(state == _GIVEN)
+    if len(tangents):
+        leave[:, tangents] = _unit_directions(data, slots, tangents, names)
+    arrive[:] = leave
+    loose = np.flatnonzero(state == _LOOSE)
+    if len(loose):
+        ahead, behind = loose[~slots.is_last[loose]], loose[~slots.is_first[loose]]
+        ends = _end_derivatives(ahead, behind, state, chord, slope, leave)
+        leave[:, ahead], arrive[:, behind] = ends[:, : len(ahead)], ends[:, len(ahead) :]
+        # The outer side of a curve's end has no meaning of its own: repeat the inner one.
+        arrive[:, slots.first] = leave[:, slots.first]
+        leave[:, slots.last] = arrive[:, slots.last]
+
+
+def _unit_directions(
+    data: CurveData, slots: Slots, tangents: IntArray, names: Sequence[str] | None
+) -> FloatArray:
+    vectors = data.direction.copy()
+    vectors[slots.first] = data.end_vector[:, 0]
+    vectors[slots.last] = data.end_vector[:, 1]
+    given = vectors[tangents].T
+    squares = given * given
+    length = np.sqrt(squares[0] + squares[1] + squares[2])
+    if not length.min() > 0.0 or not length.max() < np.inf:
+        worst = int(tangents[np.flatnonzero(~((length > 0.0) & (length < np.inf)))[0]])
+        raise BadInputError(
+            f"the direction {vectors[worst].tolist()} given at point {worst} is nil or not finite",
+            f"in {_name(int(slots.curve[worst]), names)}",
+            "give a direction, or make the point smooth or the end free",
+        )
+    units: FloatArray = given / length
+    return units
+
+
+def _end_derivatives(
+    ahead: IntArray,
+    behind: IntArray,
+    state: NDArray[np.int8],
+    chord: FloatArray,
+    slope: FloatArray,
+    given: FloatArray,
+) -> FloatArray:
+    """Apply the local rule after the points `ahead` and before the points `behind`.
+
+    Traversed backwards both directions change sign and the rule stays as it is, so one
+    formula serves both sides.
+    """
+    near = np.concatenate([ahead + 1, behind])
+    beyond = np.concatenate([ahead + 2, behind - 1])
+    neighbour = np.concatenate([ahead + 1, behind - 1])
+    along = slope.take(near, axis=1)
+    parabola = chord.take(beyond) * along + chord.take(near) * slope.take(beyond, axis=1)
+    squares = parabola * parabola
+    squared = squares[0] + squares[1] + squares[2]
+    nil = squared < _NO_DIRECTION
+    squared[nil] = 1.0
+    towards = parabola / np.sqrt(squared)
+    fixed = state.take(neighbour)
+    np.copyto(towards, given.take(neighbour, axis=1), where=fixed == _GIVEN)
+    products = along * towards
+    cosine = products[0] + products[1] + products[2]
+    cosine[cosine <= _LEAST_COSINE] = 1.0
+    result: FloatArray = (3.0 * along - cosine * towards) * 0.5
+    # Nothing is known at the neighbour: a straight interval.
+    np.copyto(result, along, where=(fixed >= _LOOSE) | (nil & (fixed == _SOLVED)))
+    return result
+
+
+def _rows(
+    data: CurveData,
+    slots: Slots,
+    state: NDArray[np.int8],
+    chord: FloatArray,
+    slope: FloatArray,
+    workspace: Workspace,
+) -> FloatArray:
+    """Set up the rows of continuous curvature, in the form that `tridiagonal.solve` takes."""
+    size = len(state)
+    rows = workspace.array(5, size + 1)
+    rows[:, size] = 0.0
+    before, right, after = rows[0, :size], rows[1:4, :size], rows[4, :size]
+    total = chord[:-1] + chord[1:]
+    np.divide(chord[1:], total, out=before)
+    np.divide(chord[:-1], total, out=after)
+    curved = (state == _CURVED).any()
+    if curved:
+        _curved_weights(slots, state, before, after)
+    np.multiply(before, slope[:, :-1], out=right)
+    right += np.multiply(after, slope[:, 1:], out=workspace.array(3, size))
+    right *= 1.5
+    before *= -0.5
+    after *= -0.5
+    if curved:
+        _add_curvature(data, slots, state, chord, right)
+    return rows
+
+
+def _curved_weights(
+    slots: Slots, state: NDArray[np.int8], before: FloatArray, after: FloatArray
+) -> None:
+    """At an end with a given curvature all weight is on the one interval there is."""
+    first = slots.first[state[slots.first] == _CURVED]
+    last = slots.last[state[slots.last] == _CURVED]
+    before[first], after[first] = 0.0, 1.0
+    before[last], after[last] = 1.0, 0.0
+
+
+def _add_curvature(
+    data: CurveData, slots: Slots, state: NDArray[np.int8], chord: FloatArray, right: FloatArray
+) -> None:
+    for side, ends, shift, sign in ((0, slots.first, 1, -0.25), (1, slots.last, 0, 0.25)):
+        curves = np.flatnonzero(state[ends] == _CURVED)
+        vector = data.end_vector[curves, side].T
+        if not np.isfinite(vector).all():
+            raise BadInputError(
+                "a given end curvature is not finite", "in the curve data", "correct or free it"
+            )
+        right[:, ends[curves]] += (sign * chord[ends[curves] + shift]) * vector
+
+
+def _detach_known(
+    rows: FloatArray,
+    state: NDArray[np.int8],
+    leave: FloatArray,
+    arrive: FloatArray,
+    workspace: Workspace,
+) -> None:
+    """Move what is known to the right-hand sides of the neighbours; known rows become nil.
+
+    Where nothing is known the derivatives are nil still, and adding nil changes no bit.
+    """
+    size = len(state)
+    open_ = _OPEN.take(state)
+    product = workspace.array(3, size - 1)
+    right = rows[1:4, :size]
+    right[:, 1:] += np.multiply(rows[0, 1:size], leave[:, :-1], out=product)
+    right[:, :-1] += np.multiply(rows[4, : size - 1], arrive[:, 1:], out=product)
+    rows[:, :size] *= open_
+    rows[0, 1:size] *= open_[:-1]
+    rows[4, : size - 1] *= open_[1:]
+
+
+def _name(curve: int, names: Sequence[str] | None) -> str:
+    return f"curve {curve} of the batch" if names is None else names[curve]
+
+
+def _too_few(data: CurveData, names: Sequence[str] | None) -> TooFewPointsError:
+    counts = np.diff(data.start)
+    curve = int(np.argmin(counts))
+    return TooFewPointsError(_name(curve, names), int(counts[curve]))
+
+
+def _bad_points(data: CurveData, chord: FloatArray, names: Sequence[str] | None) -> Exception:
+    broken = np.flatnonzero(~np.isfinite(data.xyz).all(axis=1))
+    if len(broken):
+        place = int(broken[0])
+        return BadInputError(
+            f"point {place} at {data.xyz[place].tolist()} is not finite",
+            f"in {_name(_curve_of(data, place), names)}",
+            "correct or delete the point",
+        )
+    short = np.flatnonzero(chord < _COINCIDENT)
+    if not len(short):
+        return BadInputError(
+            "two points lie too far apart for floating point",
+            "in the curve data",
+            "give coordinates in metres",
+        )
+    place = int(short[0])
+    x, y, z = data.xyz[place].tolist()
+    name = _name(_curve_of(data, place), names)
+    return CoincidentPointsError(name, (x, y, z), float(chord[place]), _COINCIDENT)
+
+
+def _curve_of(data: CurveData, place: int) -> int:
+    return int(np.searchsorted(data.start, place, side="right")) - 1

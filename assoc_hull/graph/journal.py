@@ -1,0 +1,188 @@
+"""Columns that are only written through a journal, so that every write can be taken back.
+
+The journal of one transaction *is* its undo step: the same entries are run backward by
+undo and forward by redo. Nothing is ever computed again.
+
+Examples
+--------
+>>> from assoc_hull.graph.journal import Journal, Table
+>>> table = Table(height=(float, ()))
+>>> journal = Journal()
+>>> journal.grow(table, 2)
+array([0, 1])
+>>> journal.put(table.height, [0, 1], [3.0, 4.0])
+>>> journal.put(table.height, [1], [5.0])
+>>> journal.undo(keep=2)
+>>> table.height.data.tolist()
+[3.0, 4.0]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Protocol
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+__all__ = ["ArrayColumn", "Journal", "ListColumn", "Table"]
+
+
+class _Entry(Protocol):
+    def undo(self) -> None: ...
+
+    def redo(self) -> None: ...
+
+
+class ArrayColumn:
+    """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use."""
+
+    def __init__(self, dtype: DTypeLike, shape: tuple[int, ...], fill: float | bool = 0) -> None:
+        self.store: NDArray[Any] = np.full((16, *shape), fill, dtype)
+        self.fill = fill
+        self.data = self.store[:0]
+
+    def resize(self, count: int) -> None:
+        """Bring the column to `count` rows; new ones hold the fill value."""
+        old = len(self.data)
+        if count > len(self.store):
+            grown = np.full((max(count, 2 * len(self.store)), *self.store.shape[1:]), self.fill)
+            store = grown.astype(self.store.dtype)
+            store[:old] = self.store[:old]
+            self.store = store
+        if count > old:
+            self.store[old:count] = self.fill
+        self.data = self.store[:count]
+        self.data.setflags(write=False)
+
+
+class ListColumn:
+    """A growing list of immutable objects, one entry a row."""
+
+    def __init__(self, fill: object = None) -> None:
+        self.data: list[Any] = []
+        self.fill = fill
+
+    def resize(self, count: int) -> None:
+        """Bring the column to `count` rows; new ones hold the fill value."""
+        del self.data[count:]
+        self.data.extend([self.fill] * (count - len(self.data)))
+
+
+class Table:
+    """Columns of one length, by name.
+
+    Parameters
+    ----------
+    **columns : (dtype, shape), (dtype, shape, fill), or (object, fill)
+        What each column holds per row.
+    """
+
+    def __init__(self, **columns: tuple[Any, ...]) -> None:
+        self.count = 0
+        self.columns: dict[str, ArrayColumn | ListColumn] = {}
+        for name, spec in columns.items():
+            column = ListColumn(spec[1]) if spec[0] is object else ArrayColumn(*spec)
+            self.columns[name] = column
+            setattr(self, name, column)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"this table has no column {name!r}")
+
+    def resize(self, count: int) -> None:
+        """Bring every column to `count` rows."""
+        self.count = count
+        for column in self.columns.values():
+            column.resize(count)
+
+
+@attrs.frozen(eq=False)
+class _ArrayEntry:
+    column: ArrayColumn
+    index: NDArray[np.int64]
+    old: NDArray[Any]
+    new: NDArray[Any]
+
+    def undo(self) -> None:
+        self.column.store[self.index] = self.old
+
+    def redo(self) -> None:
+        self.column.store[self.index] = self.new
+
+
+@attrs.frozen(eq=False)
+class _ListEntry:
+    column: ListColumn
+    index: Sequence[int]
+    old: Sequence[object]
+    new: Sequence[object]
+
+    def undo(self) -> None:
+        for index, value in zip(self.index, self.old, strict=True):
+            self.column.data[index] = value
+
+    def redo(self) -> None:
+        for index, value in zip(self.index, self.new, strict=True):
+            self.column.data[index] = value
+
+
+@attrs.frozen(eq=False)
+class _GrowEntry:
+    table: Table
+    old: int
+    new: int
+
+    def undo(self) -> None:
+        self.table.resize(self.old)
+
+    def redo(self) -> None:
+        self.table.resize(self.new)
+
+
+@attrs.define(eq=False)
+class Journal:
+    """All writes of one transaction, in order."""
+
+    entries: list[_Entry] = attrs.field(factory=list)
+
+    def put(self, column: ArrayColumn, index: ArrayLike, values: ArrayLike) -> None:
+        """Write `values` to the rows `index` (each named once) of an array column."""
+        rows = np.asarray(index, np.int64)
+        if not len(rows):
+            return
+        new = np.array(values, column.store.dtype)
+        if new.shape != (len(rows), *column.store.shape[1:]):
+            new = np.broadcast_to(new, (len(rows), *column.store.shape[1:])).copy()
+        self.entries.append(_ArrayEntry(column, rows, column.store[rows], new))
+        column.store[rows] = new
+
+    def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
+        """Write one object each to the rows `index` of a list column."""
+        rows, new = tuple(index), tuple(values)
+        old = tuple(column.data[row] for row in rows)
+        entry = _ListEntry(column, rows, old, new)
+        self.entries.append(entry)
+        entry.redo()
+
+    def grow(self, table: Table, count: int) -> NDArray[np.int64]:
+        """Add rows to a table and give their numbers."""
+        entry = _GrowEntry(table, table.count, table.count + count)
+        self.entries.append(entry)
+        entry.redo()
+        return np.arange(entry.old, entry.new)
+
+    def undo(self, keep: int = 0) -> None:
+        """Take back every entry after the first `keep`, and forget it."""
+        while len(self.entries) > keep:
+            self.entries.pop().undo()
+
+    def back(self) -> None:
+        """Run the entries backward, keeping them."""
+        for entry in reversed(self.entries):
+            entry.undo()
+
+    def forth(self) -> None:
+        """Run the entries forward again."""
+        for entry in self.entries:
+            entry.redo()

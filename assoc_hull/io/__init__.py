@@ -1,0 +1,1 @@
+"""Files: the hull file, and reading and writing the formats of others."""

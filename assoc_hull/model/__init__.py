@@ -1,0 +1,1 @@
+"""What a hull consists of: points, curves, lines, groups, crossings, associations."""

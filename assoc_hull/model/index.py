@@ -1,0 +1,121 @@
+"""Look-ups derived from the tables: planes to cut with, who drives whom, levels.
+
+Made anew whenever the structure of a hull changes (a line, a role, a birth); an edit of
+shape only reads it.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.rank import levels
+from assoc_hull.model.state import HullState
+
+__all__ = ["Index", "PlaneSet", "build_index"]
+
+
+@attrs.frozen(eq=False)
+class PlaneSet:
+    """Parallel planes of the lines of one group.
+
+    Attributes
+    ----------
+    normal : (3,)
+        Unit normal.
+    offsets : (p,), m
+        Ascending.
+    lines : (p,) int
+        The line in each plane.
+    """
+
+    normal: FloatArray
+    offsets: FloatArray
+    lines: IntArray
+
+
+@attrs.frozen(eq=False)
+class Index:
+    """Derived look-ups of a hull.
+
+    Attributes
+    ----------
+    partners : dict of int to tuple of PlaneSet
+        For a group, the planes its curves are cut with, in the order of the group names.
+    drives : dict of int to (k,) int
+        For a curve, the rows computed from it, ascending.
+    riders : dict of int to (k,) int
+        For a row, the adopted points that ride with it.
+    level : (c,) int
+        Level of each curve in the graph of driven links.
+    """
+
+    partners: dict[int, tuple[PlaneSet, ...]]
+    drives: dict[int, IntArray]
+    riders: dict[int, IntArray]
+    level: IntArray
+
+
+def build_index(state: HullState) -> Index:
+    """Derive the look-ups.
+
+    Raises
+    ------
+    RingError
+        If driven links run in a ring; the path names the curves.
+    """
+    rows = state.rows
+    driver = np.where(rows.alive.data, rows.driver.data, -1)
+    driven = np.flatnonzero(driver >= 0)
+    reader = np.where(rows.reader.data[:, 0] >= 0, rows.reader.data[:, 0], rows.reader.data[:, 1])
+    level = levels(
+        state.curves.count, driver[driven], reader[driven], lambda c: str(state.curves.key.data[c])
+    )
+    return Index(_partners(state), _by_value(driver[driven], driven), _riders(state), level)
+
+
+def _by_value(values: IntArray, items: IntArray) -> dict[int, IntArray]:
+    order = np.argsort(values, kind="stable")
+    keys, first = np.unique(values[order], return_index=True)
+    parts = np.split(items[order], first[1:]) if len(keys) else []
+    return dict(zip(keys.tolist(), parts, strict=True))
+
+
+def _riders(state: HullState) -> dict[int, IntArray]:
+    found: defaultdict[int, list[int]] = defaultdict(list)
+    riding = state.rows.alive.data & (state.rows.anchor.data >= 0).any(axis=1)
+    for row in np.flatnonzero(riding).tolist():
+        for anchor in sorted(set(state.rows.anchor.data[row].tolist()) - {-1}):
+            found[anchor].append(row)
+    return {anchor: np.array(riders, np.int64) for anchor, riders in found.items()}
+
+
+def _partners(state: HullState) -> dict[int, tuple[PlaneSet, ...]]:
+    names = state.groups.name.data
+    number = {name: group for group, name in enumerate(names)}
+    pairs: defaultdict[int, set[str]] = defaultdict(set)
+    for link in state.associations:
+        pairs[number[link.a]].add(link.b)
+        pairs[number[link.b]].add(link.a)
+    planes = {name: _planes(state, group) for name, group in number.items()}
+    return {
+        group: tuple(part for name in sorted(others) for part in planes[name])
+        for group, others in sorted(pairs.items())
+    }
+
+
+def _planes(state: HullState, group: int) -> tuple[PlaneSet, ...]:
+    """Group a family's planes by normal; boundary curves cut nothing, they are contacts."""
+    if state.groups.family.data[group] == "boundary":
+        return ()
+    lines = state.lines
+    mine = np.flatnonzero(lines.alive.data & lines.planar.data & (lines.group.data == group))
+    found: list[PlaneSet] = []
+    for normal in sorted({tuple(row) for row in lines.normal.data[mine].tolist()}):
+        chosen = mine[(lines.normal.data[mine] == normal).all(axis=1)]
+        chosen = chosen[np.argsort(lines.offset.data[chosen], kind="stable")]
+        found.append(PlaneSet(np.array(normal), lines.offset.data[chosen].copy(), chosen))
+    return tuple(found)

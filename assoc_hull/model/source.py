@@ -1,0 +1,152 @@
+"""Lines as they are handed in: arrays of points, before they become a net."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.errors import BadInputError, TooFewPointsError
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.family import FAMILIES, BoundaryKind
+from assoc_hull.model.state import Ends
+
+__all__ = ["LineSource"]
+
+
+@attrs.frozen(eq=False)
+class LineSource:
+    """One curve of a line, as points.
+
+    Attributes
+    ----------
+    group : str
+        The group it belongs to, for instance ``"waterlines"``.
+    name : str
+        Name of the line; several sources of one name are the curves of one line.
+    points : (n, 3), m
+        In order along the curve: sections upward, other lines from aft forward.
+    family : str
+        Family of the group; the group's name by default.
+    normal, offset : (3,), m, or None
+        The plane of the line, normal . P = offset; for sections, waterlines and buttocks
+        found from the points.
+    boundary : BoundaryKind or None
+        What a boundary curve does to the lines that meet it.
+    kind : (n,) int8
+        A `PointKind` per point.
+    direction : (n, 3)
+        Given directions at tangent points.
+    ends : Ends
+        End conditions.
+    placed : bool
+        Whether the points are the designer's own: they then define the curve, all of them,
+        and no update moves them.
+    tolerance : float
+        How far (m) the adopted curve may pass the points.
+    """
+
+    group: str
+    name: str
+    points: FloatArray
+    family: str
+    normal: FloatArray | None
+    offset: float
+    boundary: BoundaryKind | None
+    kind: np.typing.NDArray[np.int8]
+    direction: FloatArray
+    ends: Ends
+    placed: bool
+    tolerance: float
+
+    @classmethod
+    def make(
+        cls,
+        group: str,
+        name: str,
+        points: ArrayLike,
+        *,
+        family: str | None = None,
+        plane: tuple[ArrayLike, float] | None = None,
+        boundary: BoundaryKind | None = None,
+        kind: Sequence[int] | None = None,
+        direction: ArrayLike | None = None,
+        ends: Ends | None = None,
+        placed: bool = False,
+        tolerance: float = 1e-3,
+    ) -> Self:
+        """Check and complete what is given; arguments as the attributes of the class.
+
+        Raises
+        ------
+        BadInputError
+            Points that are not an (n, 3) array of finite numbers, an unknown family, or
+            points that do not lie in one plane of the family.
+        TooFewPointsError
+            Fewer than two points.
+
+        Examples
+        --------
+        >>> from assoc_hull.model.source import LineSource
+        >>> LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]]).offset
+        1.0
+        """
+        where = f"{group} {name!r}"
+        chosen = FAMILIES.get(family or group)
+        if chosen is None:
+            raise BadInputError(
+                f"the family {family or group!r} is unknown", where, f"use one of {', '.join(FAMILIES)}"
+            )
+        xyz = _points(points, where)
+        normal, offset = _plane(xyz, chosen.axis, plane, where)
+        kinds = np.zeros(len(xyz), np.int8) if kind is None else np.array(kind, np.int8)
+        given = np.zeros((len(xyz), 3)) if direction is None else np.array(direction, np.float64)
+        if kinds.shape != (len(xyz),) or given.shape != xyz.shape:
+            raise BadInputError(
+                f"{len(xyz)} points have {len(kinds)} kinds and {len(given)} directions",
+                where,
+                "give one of each per point",
+            )
+        freeze(xyz, kinds, given)
+        return cls(
+            group, name, xyz, chosen.name, normal, offset, boundary, kinds, given,
+            ends or Ends(), placed, tolerance,
+        )  # fmt: skip
+
+
+def _points(points: ArrayLike, where: str) -> FloatArray:
+    try:
+        xyz = np.array(points, np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInputError("the points are not numbers", where, "give an (n, 3) array") from error
+    if xyz.ndim != 2 or xyz.shape[1] != 3:
+        raise BadInputError(f"the points have the shape {xyz.shape}", where, "give an (n, 3) array")
+    if len(xyz) < 2:
+        raise TooFewPointsError(where, len(xyz))
+    bad = np.flatnonzero(~np.isfinite(xyz).all(axis=1))
+    if len(bad):
+        raise BadInputError(f"point {bad[0]} is not finite", where, "leave it out or mend it")
+    return xyz
+
+
+def _plane(
+    xyz: FloatArray, axis: int | None, plane: tuple[ArrayLike, float] | None, where: str
+) -> tuple[FloatArray | None, float]:
+    """Find or check the plane of a line."""
+    if plane is not None:
+        normal, offset = np.array(plane[0], np.float64), float(plane[1])
+        off = float(np.abs(xyz @ normal - offset).max())
+    elif axis is not None:
+        normal = np.eye(3)[axis]
+        offset = float(xyz[0, axis])
+        off = float(np.abs(xyz[:, axis] - offset).max())
+    else:
+        return None, float("nan")
+    if off > 1e-9:
+        raise BadInputError(
+            f"a point lies {off:.3g} m off the plane at {offset:g} m", where, "put it in the plane"
+        )
+    return normal, offset

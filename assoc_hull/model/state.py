@@ -1,0 +1,254 @@
+"""All that a hull holds, as tables: points, curves, lines and groups.
+
+Objects are handles on these rows. Coordinates of all points lie in one column; a crossing
+is one row of it, and the two friend points of the crossing are handles on that row. Side 0
+of a row is curve *a* (the line of lower rank, ties by key), side 1 is curve *b*; a placed
+or adopted point has a curve on side 0 only.
+
+Tables are written through a `Journal` only; see `assoc_hull.graph.journal`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.journal import Table
+from assoc_hull.model.family import FAMILIES, Family
+from assoc_hull.tolerance import Tolerances
+
+__all__ = ["Association", "Ends", "HullState", "Meets", "Particulars", "curve_node", "row_node"]
+
+
+@attrs.frozen
+class Particulars:
+    """Principal dimensions, m.
+
+    Attributes
+    ----------
+    name : str
+        Name of the ship.
+    length : float
+        Between perpendiculars, Lpp.
+    breadth, depth, draught : float
+        Moulded; the draught is the design draught.
+    """
+
+    name: str
+    length: float
+    breadth: float
+    depth: float
+    draught: float
+
+
+@attrs.frozen
+class Association:
+    """Lines of group `a` generate points on those of group `b`, and back if `two_way`."""
+
+    a: str
+    b: str
+    two_way: bool = True
+
+
+@attrs.frozen
+class Ends:
+    """End conditions of a curve: an `EndKind` and a vector at the start and at the finish."""
+
+    kind: tuple[int, int] = (0, 0)
+    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = (
+        (0.0, 0.0, 0.0),
+        (0.0, 0.0, 0.0),
+    )
+
+
+@attrs.frozen(eq=False)
+class Meets:
+    """Where a curve meets the planes of the lines it is associated with.
+
+    Attributes
+    ----------
+    line : (k,) int
+        The lines whose planes are met, group by group, along each group by plane, then by
+        position along the curve.
+    sign : (k,) int8
+        +1 where the curve passes to the positive side of the plane, else -1.
+    row : (k,) int
+        The crossing there; -1 where the other line does not come: the relation is latent.
+    parameter : (k,), m
+        Chord parameter on the curve.
+    xyz : (k, 3), m
+        The place on the curve.
+    """
+
+    line: IntArray
+    sign: np.typing.NDArray[np.int8]
+    row: IntArray
+    parameter: FloatArray
+    xyz: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.line, self.sign, self.row, self.parameter, self.xyz)
+
+    @classmethod
+    def none(cls) -> Meets:
+        """Give no meetings."""
+        whole = np.zeros(0, np.int64)
+        return cls(whole, np.zeros(0, np.int8), whole.copy(), np.zeros(0), np.zeros((0, 3)))
+
+
+def _no_rows() -> IntArray:
+    rows = np.zeros(0, np.int64)
+    freeze(rows)
+    return rows
+
+
+def row_node(row: IntArray) -> IntArray:
+    """Give the engine's node of a point: even numbers."""
+    return 2 * np.asarray(row, np.int64)
+
+
+def curve_node(curve: IntArray) -> IntArray:
+    """Give the engine's node of a curve: odd numbers."""
+    return 2 * np.asarray(curve, np.int64) + 1
+
+
+def _rows() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        sort=(np.int8, ()),
+        xyz=(float, (3,)),
+        kind=(np.int8, (2,)),
+        direction=(float, (2, 3)),
+        curve=(np.int64, (2,), -1),
+        role=(np.int8, ()),
+        override=(np.int8, (), -1),
+        reader=(np.int64, (2,), -1),
+        driver=(np.int64, (), -1),
+        contact=(bool, ()),
+        sign=(np.int8, ()),
+        birth=(np.int64, ()),
+        limit=(float, (), np.nan),
+        gap=(float, (), np.nan),
+        spot=(float, (2, 3), np.nan),
+        parameter=(float, (2,), np.nan),
+        anchor=(np.int64, (2,), -1),
+        anchor_from=(float, (2, 3)),
+        anchor_weight=(float, ()),
+        base=(float, (3,)),
+        state=(np.int8, ()),
+        label=(object, ""),
+    )
+
+
+def _curves() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        line=(np.int64, (), -1),
+        rows=(object, _no_rows()),
+        side=(object, _no_rows()),
+        ends=(object, Ends()),
+        spline=(object, None),
+        meets=(object, Meets.none()),
+        state=(np.int8, ()),
+    )
+
+
+def _lines() -> Table:
+    return Table(
+        key=(object, ""),
+        alive=(bool, ()),
+        name=(object, ""),
+        group=(np.int64, (), -1),
+        planar=(bool, ()),
+        normal=(float, (3,)),
+        offset=(float, (), np.nan),
+        boundary=(np.int8, (), -1),
+        curves=(object, ()),
+        note=(object, ""),
+    )
+
+
+@attrs.define(eq=False)
+class HullState:
+    """The tables of one hull.
+
+    Attributes
+    ----------
+    particulars : Particulars
+        Principal dimensions, m.
+    tolerances : Tolerances
+        Part of the definition.
+    rows, curves, lines, groups : Table
+        The objects.
+    settings : Table
+        One row: the associations (`associations`) and how many crossings of each pair of
+        lines were ever born (`births`), so that a dead id never comes back.
+    revision_row, revision_curve : list of int
+        Revisions; outside the journal, as they never run backward.
+    """
+
+    particulars: Particulars
+    tolerances: Tolerances = attrs.field(factory=Tolerances)
+    rows: Any = attrs.field(factory=_rows)
+    curves: Any = attrs.field(factory=_curves)
+    lines: Any = attrs.field(factory=_lines)
+    groups: Any = attrs.field(
+        factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
+    )
+    settings: Any = attrs.field(
+        factory=lambda: Table(associations=(object, ()), births=(object, None), failed=(object, ()))
+    )
+    revision_row: dict[int, int] = attrs.field(factory=dict)
+    revision_curve: dict[int, int] = attrs.field(factory=dict)
+
+    def __attrs_post_init__(self) -> None:
+        if not self.settings.count:
+            self.settings.resize(1)
+            self.settings.births.data[0] = {}
+
+    @property
+    def associations(self) -> tuple[Association, ...]:
+        """The declared associations."""
+        found: tuple[Association, ...] = self.settings.associations.data[0]
+        return found
+
+    @property
+    def failed(self) -> tuple[int, ...]:
+        """Curves that could not be lofted and keep their last good shape."""
+        found: tuple[int, ...] = self.settings.failed.data[0]
+        return found
+
+    @property
+    def births(self) -> Mapping[tuple[str, str], int]:
+        """How many crossings each pair of lines has ever had, by the keys of the lines."""
+        found: Mapping[tuple[str, str], int] = self.settings.births.data[0]
+        return found
+
+    def family(self, line: int) -> Family:
+        """Give the family of a line."""
+        return FAMILIES[self.groups.family.data[int(self.lines.group.data[line])]]
+
+    def line_of(self, curve: int) -> int:
+        """Give the line that a curve belongs to."""
+        return int(self.curves.line.data[curve])
+
+    def rank(self, curve: int) -> tuple[int, str, str]:
+        """Give the rank of a curve: by family, then by the keys of line and curve."""
+        line = self.line_of(curve)
+        keys = self.lines.key.data[line], self.curves.key.data[curve]
+        return (self.family(line).rank, *keys)
+
+    def spline(self, curve: int) -> SplineBatch:
+        """Give the published spline of a curve, a batch of one."""
+        found: SplineBatch = self.curves.spline.data[curve]
+        return found
+
+    def live(self, table: str) -> IntArray:
+        """Give the numbers of the live rows of a table."""
+        return np.flatnonzero(getattr(self, table).alive.data)

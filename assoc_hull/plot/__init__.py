@@ -1,0 +1,1 @@
+"""Pictures of hulls and of reports."""

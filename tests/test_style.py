@@ -1,0 +1,131 @@
+"""Rules for every file that no linter knows."""
+
+import ast
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+MODULES = sorted((REPOSITORY / "assoc_hull").rglob("*.py"))
+MOST_LINES = 400
+MADE = frozenset({"build", "dist", "__pycache__"})
+
+# Absolute paths, and where packages come from: true on one machine only. Spelt in pieces,
+# so that this file passes its own test.
+LOCAL = re.compile(
+    "|".join(
+        [
+            r"(?<![\w.$})>])/(?:work|root|home|farm|tmp)" + "/",
+            "shared" + "/spec",
+            r"pypi\.(?:org|python)",
+            r"pythonhosted" + r"\.org",
+            "index" + "-url",
+            "find" + "-links",
+        ]
+    ).encode()
+)
+
+
+def repository_files() -> Iterator[Path]:
+    """Every file that people write: nothing made, and of the hidden folders only `.ci`."""
+    for folder, folders, names in os.walk(REPOSITORY):
+        folders[:] = [name for name in folders if name == ".ci" or name[0] != "."]
+        folders[:] = [name for name in folders if name not in MADE]
+        yield from (Path(folder, name) for name in names)
+
+
+def local_places(text: bytes) -> list[str]:
+    """What in a file holds on one machine only, each with its line."""
+    return [
+        f"line {number}: {match.group().decode()}"
+        for number, line in enumerate(text.splitlines(), start=1)
+        for match in LOCAL.finditer(line)
+    ]
+
+
+def module_id(path: Path) -> str:
+    """The module's path in the repository, as the name of its case."""
+    return path.relative_to(REPOSITORY).as_posix()
+
+
+def listed_names(tree: ast.Module) -> list[str] | None:
+    """The names in `__all__`, if the module has one."""
+    for node in tree.body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id="__all__")], value=value):
+                return list(ast.literal_eval(value))
+    return None
+
+
+def sorting_key(name: str) -> tuple[int, list[tuple[int, str]]]:
+    """CONSTANTS, then Classes, then functions, as ruff sorts them (RUF022)."""
+    kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
+    parts = re.findall(r"\d+|\D+", name)
+    return kind, [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=module_id)
+def test_a_module_is_short_and_says_what_it_is(path: Path) -> None:
+    """A module fits a reader's head, has a docstring, and imports names one by one."""
+    text = path.read_text(encoding="utf-8")
+    tree = ast.parse(text)
+    stars = [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.names[0].name == "*"
+    ]
+    assert text.count("\n") <= MOST_LINES
+    assert stars == [], "star imports in these lines"
+    assert ast.get_docstring(tree), "no docstring"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=module_id)
+def test_public_names_are_listed_in_order(path: Path) -> None:
+    """A public module lists its names, sorted and once each; `__init__` may be empty."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    names = listed_names(tree)
+    if names is None:
+        private = path.stem.startswith("_") and path.stem != "__init__"
+        assert private or len(tree.body) == 1, "a public module has no __all__"
+        return
+    assert names == sorted(set(names), key=sorting_key)
+
+
+def test_no_file_holds_on_one_machine_only() -> None:
+    """No absolute path and no address of a package registry stands in any file."""
+    found = {
+        module_id(path): places
+        for path in repository_files()
+        if (places := local_places(path.read_bytes()))
+    }
+    assert found == {}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param("open('/" + "work/main/hull.csv')", id="working folder"),
+        pytest.param("first line\ncd /" + "root/hulls", id="home folder of root"),
+        pytest.param("pip install --index" + "-url somewhere", id="place to install from"),
+        pytest.param("https://" + "py" + "pi.org/simple", id="registry"),
+    ],
+)
+def test_a_local_place_is_found(text: str) -> None:
+    """The rule sees paths and addresses in any line."""
+    assert local_places(text.encode()) != []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param("https://example.org/" + "work/paper.pdf", id="folder of a web site"),
+        pytest.param("$HOME/" + "work/hull.csv", id="folder below a variable"),
+        pytest.param("from pathlib import Path; Path('build/demo')", id="relative path"),
+    ],
+)
+def test_a_portable_place_is_allowed(text: str) -> None:
+    """The rule leaves addresses of papers and relative paths alone."""
+    assert local_places(text.encode()) == []

@@ -1,0 +1,166 @@
+"""The errors: what a program may rely on in every one of them."""
+
+import builtins
+import copy
+import pickle
+from collections.abc import Callable
+
+import pytest
+
+from assoc_hull import errors
+from assoc_hull.errors import AssocHullError
+
+# One sample of each error, the builtin it also is, and what its message must hold.
+SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
+    (
+        errors.BadInputError("draught of -3 m", "argument draught", "give a depth above 0"),
+        ValueError,
+        ["draught of -3 m", "argument draught", "give a depth above 0"],
+    ),
+    (errors.TooFewPointsError("curve 'WL 1'", 1), ValueError, ["curve 'WL 1'", "1", "two"]),
+    (
+        errors.CoincidentPointsError("curve 'ST 7'", (1.5, 2.25, 3.125), 2e-8, 1e-6),
+        ValueError,
+        ["curve 'ST 7'", "1.5000", "2.2500", "3.1250", "2e-08 m", "1e-06 m", "delete"],
+    ),
+    (errors.NameTakenError("line", "WL 1"), ValueError, ["line", "'WL 1'", "choose"]),
+    (
+        errors.UnknownNameError("line", "WL 9", ("WL 1", "BL 2", "profile")),
+        KeyError,
+        ["line", "'WL 9'", "'WL 1'"],
+    ),
+    (
+        errors.FreedomError("point 'WL 1 x ST 7'", ("x",), ("y", "z")),
+        ValueError,
+        ["point 'WL 1 x ST 7'", "x was asked", "give exactly y, z"],
+    ),
+    (
+        errors.PointRoleError("point P", "driven", "curve 'ST 7'", "move the driver"),
+        ValueError,
+        ["point P", "driven", "computed from curve 'ST 7'", "move the driver"],
+    ),
+    (errors.ForeignPointError("point P"), ValueError, ["point P", "look it up again"]),
+    (
+        errors.NoMeetingError("plane x = 400 m", 12.5, "choose x below 355 m"),
+        ValueError,
+        ["plane x = 400 m", "12.5 m", "choose x below 355 m"],
+    ),
+    (errors.RingError(("A", "B", "A")), ValueError, ["A -> B -> A", "two-way"]),
+    (
+        errors.RefusedEditError("fair WL 1", ("gap of 3 mm at ST 7", "gap of 2 mm at ST 8")),
+        RuntimeError,
+        ["'fair WL 1'", "unchanged", "gap of 3 mm at ST 7", "1 more"],
+    ),
+    (
+        errors.MissingExtraError("matplotlib", "plot"),
+        ImportError,
+        ["matplotlib", "pip install 'assoc-hull[plot]'"],
+    ),
+]
+each_error = pytest.mark.parametrize(
+    "error", [pytest.param(sample[0], id=type(sample[0]).__name__) for sample in SAMPLES]
+)
+
+
+def fields(error: AssocHullError) -> dict[str, object]:
+    """The public facts that an error carries."""
+    return {name: value for name, value in vars(error).items() if not name.startswith("_")}
+
+
+def test_every_error_has_a_sample_here() -> None:
+    """An error without a sample would escape the tests below."""
+    sampled = {type(sample[0]).__name__ for sample in SAMPLES}
+    assert sampled | {"AssocHullError"} == set(errors.__all__)
+
+
+@pytest.mark.parametrize(
+    ("error", "builtin"),
+    [pytest.param(error, builtin, id=type(error).__name__) for error, builtin, _ in SAMPLES],
+)
+def test_an_error_is_of_the_family_and_the_fitting_builtin(
+    error: AssocHullError, builtin: type[Exception]
+) -> None:
+    """A caller may catch the family, or the builtin without knowing the package."""
+    assert isinstance(error, AssocHullError)
+    assert isinstance(error, builtin)
+    assert getattr(builtins, builtin.__name__) is builtin
+
+
+@pytest.mark.parametrize(
+    ("error", "parts"),
+    [pytest.param(error, parts, id=type(error).__name__) for error, _, parts in SAMPLES],
+)
+def test_a_message_says_what_where_how_much_and_what_to_do(
+    error: AssocHullError, parts: list[str]
+) -> None:
+    """The message holds the fields with their numbers, in one line."""
+    message = str(error)
+    assert [part for part in parts if part not in message] == []
+    assert "\n" not in message
+
+
+@each_error
+def test_an_error_has_a_docstring_of_its_own(error: AssocHullError) -> None:
+    """`help` on an error says when it is raised."""
+    assert type(error).__dict__["__doc__"]
+
+
+@each_error
+def test_an_error_survives_pickling(error: AssocHullError) -> None:
+    """An error raised in a worker process arrives with its facts."""
+    twin = pickle.loads(pickle.dumps(error))
+    assert type(twin) is type(error)
+    assert fields(twin) == fields(error) != {}
+    assert str(twin) == str(error)
+
+
+@each_error
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy], ids=["shallow", "deep"])
+def test_an_error_can_be_copied(
+    error: AssocHullError, copied: Callable[[AssocHullError], AssocHullError]
+) -> None:
+    """A copy is another error that says the same."""
+    twin = copied(error)
+    assert twin is not error
+    assert type(twin) is type(error)
+    assert fields(twin) == fields(error)
+
+
+@each_error
+def test_equal_facts_do_not_make_one_error_of_two(error: AssocHullError) -> None:
+    """Errors compare by identity, as exceptions do, so that each can be a key."""
+    twin = copy.copy(error)
+    assert twin != error
+    assert len({twin, error}) == 2
+
+
+@pytest.mark.parametrize(
+    ("error", "message"),
+    [
+        pytest.param(
+            errors.UnknownNameError("line", "profile"),
+            "there is no line named 'profile'; list them first",
+            id="unknown name with nothing near",
+        ),
+        pytest.param(
+            errors.PointRoleError("point P", "watched", None, "give it back to the rule"),
+            "point P is watched; give it back to the rule",
+            id="role without a driver",
+        ),
+        pytest.param(
+            errors.FreedomError("point P", (), ()),
+            "point P is free along nothing, and nothing was asked; give exactly nothing",
+            id="no freedom at all",
+        ),
+        pytest.param(
+            errors.RefusedEditError("move", ("gap of 3 mm",)),
+            "edit 'move' refused, the hull is unchanged: gap of 3 mm",
+            id="a single finding",
+        ),
+    ],
+)
+def test_a_message_reads_well_without_its_optional_part(
+    error: AssocHullError, message: str
+) -> None:
+    """What is absent leaves no gap in the sentence."""
+    assert str(error) == message
