@@ -117,7 +117,9 @@ def _make_lines(
 ) -> None:
     groups: dict[str, int] = {}
     lines: dict[tuple[str, str], int] = {}
-    wanted = {name: source.family for source in sources for name in [source.group]}
+    wanted = {source.group: source.family for source in sources}
+    linked = {name for link in associations for name in (link.a, link.b)}
+    wanted |= {name: name for name in linked - set(wanted) if name in FAMILIES}
     for name in sorted(wanted, key=lambda each: (FAMILIES[wanted[each]].rank, each)):
         groups[name] = maker.group(name, wanted[name])
     for source in sources:

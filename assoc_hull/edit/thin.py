@@ -59,6 +59,10 @@ class Thinned:
     order: tuple[tuple[int, ...], ...]
 
 
+_SAME = 1e-4
+"""Places closer than this (m) are one place of the net."""
+
+
 class _Item(NamedTuple):
     """Something on a curve: a contact, a meeting, or a given point; `index` counts them all."""
 
@@ -95,11 +99,19 @@ def thin(net: Net) -> Thinned:
             break
         for curve, point in worst:
             _take_in(work, curve, point)
+    return _outcome(work, roles, orders)
+
+
+def _outcome(work: _Thinning, roles: list[Role], orders: list[list[_Item]]) -> Thinned:
+    """Number the points that are used anew, and put the outcome together."""
+    contacts, first = len(work.net.contacts), work.fixed_count
+    used = sorted({item.index for order in orders for item in order if item.index >= first})
+    number = {old: first + new for new, old in enumerate(used)}
     return Thinned(
-        tuple(roles[: len(net.contacts)]),
-        tuple(roles[len(net.contacts) :]),
-        tuple(work.points),
-        tuple(tuple(item.index for item in order) for order in orders),
+        tuple(roles[:contacts]),
+        tuple(roles[contacts:]),
+        tuple(work.points[index - first] for index in used),
+        tuple(tuple(number.get(item.index, item.index) for item in order) for order in orders),
     )
 
 
@@ -206,8 +218,19 @@ def _orders(work: _Thinning, roles: list[Role]) -> list[list[_Item]]:
     for i, point in enumerate(work.points, work.fixed_count):
         defines[point.curve].add(i)
     return [
-        [item for item in items if item.index in defines[curve]]
+        _apart(work, [item for item in items if item.index in defines[curve]])
         for curve, items in enumerate(work.items)
+    ]
+
+
+def _apart(work: _Thinning, order: list[_Item]) -> list[_Item]:
+    """Leave out adopted points at which a crossing has come to define the curve."""
+    held = [_xyz(work, item.index) for item in order if item.index < work.fixed_count]
+    return [
+        item
+        for item in order
+        if item.index < work.fixed_count
+        or not any(float(np.abs(_xyz(work, item.index) - at).max()) < _SAME for at in held)
     ]
 
 
@@ -263,7 +286,7 @@ def _worst(
         known = np.array([_xyz(work, item.index) for item in orders[curve]])
         away = closest(splines, curve, source.points)[2]
         apart = np.abs(source.points[:, None, :] - known[None, :, :]).max(axis=2).min(axis=1)
-        away = np.where(apart > 1e-4, away, 0.0)
+        away = np.where(apart > _SAME, away, 0.0)
         point = int(away.argmax())
         if away[point] > source.tolerance:
             found.append((curve, point))
@@ -275,7 +298,7 @@ def _take_in(work: _Thinning, curve: int, point: int) -> None:
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
         near = item.index < work.fixed_count and item.index not in work.chosen[curve]
-        if near and float(np.abs(_xyz(work, item.index) - place).max()) < 1e-4:
+        if near and float(np.abs(_xyz(work, item.index) - place).max()) < _SAME:
             work.chosen[curve].add(item.index)
             return
     _add_point(work, curve, point)

@@ -6,14 +6,15 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.edit.thread import thread
 from assoc_hull.model.align import Alignment
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.family import Role
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.make import CrossingSpec, Maker
 from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["Change", "generates", "settle", "unmeet"]
+__all__ = ["Change", "bear", "generates", "settle", "unmeet"]
 
 
 @attrs.frozen
@@ -41,7 +42,7 @@ def settle(maker: Maker, alignments: list[Alignment], edited: set[int]) -> Chang
                 curves |= _remove(maker, row)
     for alignment in sorted(alignments, key=lambda each: each.curve):
         for spot in alignment.come.tolist():
-            row = _bear(maker, alignment.curve, spot, edited)
+            row = bear(maker, alignment.curve, spot, edited)
             if row is not None:
                 born.append(maker.state.rows.key.data[row])
                 curves |= {int(each) for each in maker.state.rows.reader.data[row] if each >= 0}
@@ -77,8 +78,27 @@ def unmeet(maker: Maker, curve: int, row: int) -> None:
         maker.journal.set(maker.state.curves.meets, [curve], [attrs.evolve(meets, row=left)])
 
 
-def _bear(maker: Maker, curve: int, spot: int, edited: set[int]) -> int | None:
-    """Make the crossing at a new meeting, if the other line passes there too."""
+def bear(
+    maker: Maker, curve: int, spot: int, edited: set[int], *, watch: bool = False
+) -> int | None:
+    """Make the crossing at a new meeting, if the other line passes there too.
+
+    Parameters
+    ----------
+    maker : Maker
+        Writes it.
+    curve, spot : int
+        The curve, and the index of the meeting on it.
+    edited : set of int
+        Curves that the designer edited; a birth takes its value from these.
+    watch : bool
+        Whether it is to define neither curve, whatever the role rule says.
+
+    Returns
+    -------
+    int or None
+        The new point; None while the relation stays latent.
+    """
     state = maker.state
     meets: Meets = state.curves.meets.data[curve]
     if meets.row[spot] >= 0:
@@ -93,7 +113,7 @@ def _bear(maker: Maker, curve: int, spot: int, edited: set[int]) -> int | None:
                 best = (gap, other, there)
     if best is None:
         return None
-    return _make(maker, (curve, spot), (best[1], best[2]), best[0], edited)
+    return _make(maker, (curve, spot), (best[1], best[2]), best[0], edited, watch)
 
 
 def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> float:
@@ -111,7 +131,12 @@ def _tangent(state: HullState, curve: int, at: float) -> FloatArray:
 
 
 def _make(
-    maker: Maker, one: tuple[int, int], other: tuple[int, int], gap: float, edited: set[int]
+    maker: Maker,
+    one: tuple[int, int],
+    other: tuple[int, int],
+    gap: float,
+    edited: set[int],
+    watch: bool,
 ) -> int:
     """Make a crossing of two meetings, with the role the rule gives it now."""
     state = maker.state
@@ -120,11 +145,7 @@ def _make(
     meets_b: Meets = state.curves.meets.data[b]
     at = float(meets_a.parameter[spot_a]), float(meets_b.parameter[spot_b])
     line_a, line_b = state.line_of(a), state.line_of(b)
-    role = role_of(
-        _may_define(state, a, line_b, at[0]),
-        _may_define(state, b, line_a, at[1]),
-        generates(state, line_a, line_b),
-    )
+    role = Role.WATCHED if watch else _role(state, (a, b), (line_a, line_b), at)
     spots = meets_a.xyz[spot_a], meets_b.xyz[spot_b]
     value = spots[1] if b in edited and a not in edited and role is Role.SHARED else spots[0]
     row = int(maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0])
@@ -133,24 +154,23 @@ def _make(
         marked = meets.row.copy()
         marked[spot] = row
         maker.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, row=marked)])
-    for curve, parameter in ((a, at[0]), (b, at[1])):
+    for curve in (a, b):
         if (state.rows.reader.data[row] == curve).any():
-            _thread(maker, curve, row, parameter)
+            thread(maker, curve, row)
     maker.journal.put(state.rows.limit, [row], [max(2.0 * state.tolerances.adoption, 1.5 * gap)])
     maker.journal.put(state.rows.gap, [row], [gap])
     maker.journal.put(state.rows.parameter, [row], [at])
     return row
 
 
-def _thread(maker: Maker, curve: int, row: int, parameter: float) -> None:
-    rows: IntArray = maker.state.curves.rows.data[curve]
-    knots = maker.state.spline(curve).knot
-    if len(knots) != len(rows):
-        xyz = maker.state.rows.xyz.data[rows]
-        step = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
-        knots = np.concatenate([[0.0], np.cumsum(step)])
-    position = int(np.clip(np.searchsorted(knots, parameter), 1, len(rows) - 1))
-    maker.define(curve, np.insert(rows, position, row))
+def _role(
+    state: HullState, curves: tuple[int, int], lines: tuple[int, int], at: tuple[float, float]
+) -> Role:
+    return role_of(
+        _may_define(state, curves[0], lines[1], at[0]),
+        _may_define(state, curves[1], lines[0], at[1]),
+        generates(state, *lines),
+    )
 
 
 def _may_define(state: HullState, curve: int, partner: int, at: float) -> bool:
@@ -180,10 +200,3 @@ def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
             return link.two_way, True
     return False, False
 
-
-def crossings_of(state: HullState, curve: int) -> IntArray:
-    """Give the live crossings of a curve, (k,) int, ascending."""
-    table = state.rows
-    mine = table.alive.data & (table.sort.data == Sort.CROSSING)
-    found: IntArray = np.flatnonzero(mine & (table.curve.data == curve).any(axis=1))
-    return found

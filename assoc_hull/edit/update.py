@@ -67,6 +67,8 @@ class Pending:
         Whether lines, points, roles or associations came or went.
     moved_curves : set of int
         Curves that the designer edited: births take their value from these.
+    fresh : list of int
+        Curves that were made in this transaction.
     notes : list of str
         What was left alone, and why.
     """
@@ -76,6 +78,7 @@ class Pending:
     held: set[int] = attrs.field(factory=set)
     structural: bool = False
     moved_curves: set[int] = attrs.field(factory=set)
+    fresh: list[int] = attrs.field(factory=list)
     notes: list[str] = attrs.field(factory=list)
 
 
@@ -236,18 +239,33 @@ def _gap_text(work: _Work, index: int) -> str:
 
 def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
     """Put the finished step together."""
-    parts, state = work.passes, work.state
-    changed = np.concatenate([row_node(rows), *(part.changed[np.isfinite(part.moved) | (part.changed & 1 == 1)] for part in parts)])
-    moved = np.concatenate([away, *(part.moved[np.isfinite(part.moved) | (part.changed & 1 == 1)] for part in parts)])
+    parts, fresh = work.passes, np.array(work.pending.fresh, np.int64)
+    changed, moved = [row_node(rows), curve_node(fresh)], [away, np.full(len(fresh), np.nan)]
+    for part in parts:
+        told = np.isfinite(part.moved) | ((part.changed & 1) == 1)
+        changed.append(part.changed[told])
+        moved.append(part.moved[told])
     cause = Readers(
         np.concatenate([part.cause.reader for part in parts]),
         np.concatenate([part.cause.source for part in parts]),
     )
-    curves = work.evaluated()
+    return Step(
+        work.name, work.journal, cause, np.concatenate(changed), np.concatenate(moved),
+        row_node(rows), work.pending.structural,
+        _report(work, np.concatenate(changed), np.concatenate(moved)),
+    )  # fmt: skip
+
+
+def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
+    state, parts = work.state, work.passes
+    curves = np.union1d(work.evaluated(), np.array(work.pending.fresh, np.int64))
+    curves = curves[state.curves.alive.data[curves]]
     key = state.curves.key.data
-    report = EditReport(
+    after = {curve: state.spline(curve) for curve in curves.tolist()}
+    keys = tuple(key[curve] for curve in curves.tolist())
+    return EditReport(
         work.name,
-        relofted=tuple(key[curve] for curve in curves.tolist()),
+        relofted=keys,
         cut_off=sum(len(part.cut_off) for part in parts),
         born=tuple(work.born),
         gone=tuple(work.gone),
@@ -258,16 +276,14 @@ def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
         largest_gap=0.0 if work.wide is None else work.wide.largest,
         notes=tuple(work.pending.notes),
         seconds=work.seconds,
-        fairness=Fairness(work.network.before, {c: state.spline(c) for c in curves.tolist()}, plane_normals(state, curves), curves, tuple(key[c] for c in curves.tolist())),
+        fairness=Fairness(
+            work.network.before, after, plane_normals(state, curves), curves, keys
+        ),
     )
-    return Step(
-        work.name, work.journal, cause, changed, moved, row_node(rows),
-        work.pending.structural, report,
-    )  # fmt: skip
 
 
 def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement | None:
-    points = (changed & 1) == 0
+    points = ((changed & 1) == 0) & np.isfinite(moved)
     if not points.any():
         return None
     best = int(np.nanargmax(moved[points]))

@@ -23,6 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.geometry.backend import compiled
 from assoc_hull.geometry.bernstein import Heights, heights
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.evaluation import positions
@@ -110,20 +111,31 @@ def meet_planes(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> 
     array([[0., 0., 3.]])
     """
     normal, offsets = checked_planes(normal, offsets)
-    course = heights(batch, normal)
-    parts = find_parts(batch, course, offsets)
-    owner, plane = _expand(batch, parts, len(offsets))
+    kernels = compiled()
+    find = _find if kernels is None else kernels.meet
+    parts, owner, plane, t, xyz = find(batch, normal, offsets)
     segment = parts.segment.take(owner)
-    fraction, falling = _fractions(course, parts, owner, offsets.take(plane))
-    xyz = positions(batch, segment, fraction)
     axis = _coordinate_axis(normal)
     if axis is not None:
         np.multiply(offsets.take(plane), normal[axis], out=xyz[axis])
     curve = slots_of(batch.start).curve.take(segment)
-    sign = np.where(falling, np.int8(-1), np.int8(1))
-    tangential = _tangential(course, parts, owner, curve, plane, offsets)
-    t = _parameters(batch, segment, fraction)
+    falls = parts.below_end < parts.below_begin
+    sign = np.where(falls, np.int8(-1), np.int8(1)).take(owner)
+    tangential = _tangential(batch, normal, parts, owner, curve, plane, offsets)
     return Meetings(curve, plane, segment, t, xyz.T, sign, tangential)
+
+
+def _find(
+    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
+) -> tuple[Parts, IntArray, IntArray, FloatArray, FloatArray]:
+    """Find parts, and owner, plane, parameter and point of every meeting, with numpy."""
+    course = heights(batch, normal)
+    parts = find_parts(batch, course, offsets)
+    owner, plane = _expand(batch, parts, len(offsets))
+    segment = parts.segment.take(owner)
+    fraction = _fractions(course, parts, owner, offsets.take(plane))
+    t = _parameters(batch, segment, fraction)
+    return parts, owner, plane, t, positions(batch, segment, fraction)
 
 
 def _coordinate_axis(normal: FloatArray) -> int | None:
@@ -156,10 +168,8 @@ def _expand(batch: SplineBatch, parts: Parts, planes: int) -> tuple[IntArray, In
     return owner.take(order), plane.take(order)
 
 
-def _fractions(
-    course: Heights, parts: Parts, owner: IntArray, offset: FloatArray
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Find where in its segment each meeting lies, and whether the curve falls there."""
+def _fractions(course: Heights, parts: Parts, owner: IntArray, offset: FloatArray) -> FloatArray:
+    """Find where in its segment each meeting lies."""
     falling = (parts.below_end < parts.below_begin).take(owner)
     cubic = np.empty((4, len(owner)))
     for row, power in zip(cubic, course.powers(parts.segment), strict=True):
@@ -171,11 +181,12 @@ def _fractions(
     at_lower[(at_lower < 0.0) & falling] = 0.0
     at_upper[(at_upper < 0.0) & ~falling] = 0.0
     lower, upper = parts.lower.take(owner), parts.upper.take(owner)
-    return bracketed_roots(cubic, lower, upper, at_lower, at_upper), falling
+    return bracketed_roots(cubic, lower, upper, at_lower, at_upper)
 
 
 def _tangential(
-    course: Heights,
+    batch: SplineBatch,
+    normal: FloatArray,
     parts: Parts,
     owner: IntArray,
     curve: IntArray,
@@ -186,6 +197,9 @@ def _tangential(
     result = np.zeros(len(owner), np.bool_)
     pairs = np.flatnonzero((curve[1:] == curve[:-1]) & (plane[1:] == plane[:-1]))
     near = np.abs(parts.end.take(owner[pairs]) - offsets.take(plane[pairs])) < CONTACT
+    if not near.any():
+        return result
+    course = heights(batch, normal)
     for pair in pairs[near].tolist():
         if _excursion(course, parts, owner[pair : pair + 2], offsets[plane[pair]]) < CONTACT:
             result[pair : pair + 2] = True

@@ -16,13 +16,13 @@ import numpy as np
 from assoc_hull.geometry.bernstein import value
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["bracketed_roots"]
+__all__ = ["FLOOR", "MOST_TRIALS", "RELATIVE", "STEPS", "bracketed_roots"]
 
-_STEPS = 3
+STEPS = 3
 """From the secant, three steps of Halley's rule reach the last bits of nearly all roots."""
 
-_FLOOR, _RELATIVE = 1e-14, 1e-15
-_MOST_TRIALS = 200
+FLOOR, RELATIVE = 1e-14, 1e-15
+MOST_TRIALS = 200
 
 
 def bracketed_roots(
@@ -62,11 +62,11 @@ def bracketed_roots(
     array([0.5])
     """
     origin, first, second, third = cubic
-    limit = _FLOOR + _RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
+    limit = FLOOR + RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
     root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
     with np.errstate(all="ignore"):
         steep = 3.0 * third
-        for _ in range(_STEPS):
+        for _ in range(STEPS):
             root -= _halley(origin, first, second, third, steep, root)
         residual = np.abs(value(origin, first, second, third, root))
         good = (residual <= limit) & (root >= lower) & (root <= upper)
@@ -112,7 +112,7 @@ def _safe_roots(
     """Find roots by Newton's rule, every third trial and whenever it fails by bisection."""
     result = 0.5 * (lower + upper)
     active = np.arange(len(result))
-    for trial in range(_MOST_TRIALS):
+    for trial in range(MOST_TRIALS):
         root = result[active]
         origin, first, second, third = cubic[:, active]
         height = value(origin, first, second, third, root)

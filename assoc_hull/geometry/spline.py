@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
+from assoc_hull.geometry.backend import compiled
 from assoc_hull.geometry.curves import (
     CurveData,
     EndKind,
@@ -36,7 +37,15 @@ from assoc_hull.geometry.tridiagonal import Slots, accumulate, slots_of, solve
 from assoc_hull.geometry.workspace import Workspace
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["control_points", "derivative", "evaluate", "loft", "sample"]
+__all__ = [
+    "LEAST_COSINE",
+    "NO_DIRECTION",
+    "control_points",
+    "derivative",
+    "evaluate",
+    "loft",
+    "sample",
+]
 
 _SOLVED, _GIVEN, _LOOSE, _CURVED = 0, 1, 2, 3
 """What fixes the derivative at a point: the tridiagonal rows (continuous curvature), a
@@ -50,10 +59,10 @@ _STATE_OF_KIND[[PointKind.SMOOTH, PointKind.TANGENT, PointKind.KNUCKLE]] = _SOLV
 _STATE_OF_END = np.zeros(3, np.int8)
 _STATE_OF_END[[EndKind.FREE, EndKind.TANGENT, EndKind.CURVATURE]] = _LOOSE, _GIVEN, _CURVED
 
-_LEAST_COSINE = 0.2
+LEAST_COSINE = 0.2
 """Below this cosine of neighbour direction and chord the local rule would fold back."""
 
-_NO_DIRECTION = 1e-20
+NO_DIRECTION = 1e-20
 """Squared relative length of a parabola's derivative that is taken as no direction at all."""
 
 _COINCIDENT = Tolerances().coincident
@@ -99,6 +108,16 @@ def loft(data: CurveData, names: Sequence[str] | None = None) -> SplineBatch:
     >>> line.leave[1]
     array([1., 0., 0.])
     """
+    kernels = compiled()
+    if kernels is not None:
+        spline: SplineBatch | None = kernels.loft(data)
+        if spline is not None:
+            return spline
+    return _loft(data, names)
+
+
+def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
+    """Loft with numpy."""
     slots = slots_of(data.start)
     if slots.shortest < 2:
         raise _too_few(data, names)
@@ -231,14 +250,14 @@ def _end_derivatives(
     parabola = chord.take(beyond) * along + chord.take(near) * slope.take(beyond, axis=1)
     squares = parabola * parabola
     squared = squares[0] + squares[1] + squares[2]
-    nil = squared < _NO_DIRECTION
+    nil = squared < NO_DIRECTION
     squared[nil] = 1.0
     towards = parabola / np.sqrt(squared)
     fixed = state.take(neighbour)
     np.copyto(towards, given.take(neighbour, axis=1), where=fixed == _GIVEN)
     products = along * towards
     cosine = products[0] + products[1] + products[2]
-    cosine[cosine <= _LEAST_COSINE] = 1.0
+    cosine[cosine <= LEAST_COSINE] = 1.0
     result: FloatArray = (3.0 * along - cosine * towards) * 0.5
     # Nothing is known at the neighbour: a straight interval.
     np.copyto(result, along, where=(fixed >= _LOOSE) | (nil & (fixed == _SOLVED)))

@@ -48,6 +48,7 @@ def read_offsets(
     unit: str = "auto",
     station_zero: str = "auto",
     name: str | None = None,
+    buttocks: str | Path | None = None,
 ) -> tuple[OffsetTable, OffsetReport]:
     """Read a table of offsets.
 
@@ -63,6 +64,9 @@ def read_offsets(
         Perpendicular of station 0, or of x = 0 where the file gives x.
     name : str or None
         Name of the table; by default the name of the file without its ending.
+    buttocks : str, Path or None
+        A second file or text with columns ``bt_<y>`` for the same stations; such a block may
+        also follow the waterlines in the first.
 
     Returns
     -------
@@ -81,6 +85,8 @@ def read_offsets(
     text, source = read_text(path_or_text, book)
     comments, blocks = split_blocks(text, source, book)
     hints = read_hints(comments)
+    if buttocks is not None:
+        blocks += split_blocks(*read_text(buttocks, book), book)[1]
     sheets = [read_sheet(block, book) for block in blocks]
     main, extra = _sort_out(sheets, source)
     _refuse_negative(main)

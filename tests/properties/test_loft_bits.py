@@ -1,14 +1,30 @@
 """A curve has the same bits alone and in any batch."""
 
+from collections.abc import Iterator
+
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.spline import loft
 
 FIELDS = ("knot", "xyz", "leave", "arrive")
+NORMALS = [(1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.48, 0.6, 0.64)]
+
+
+@pytest.fixture(autouse=True, scope="module", params=["numpy", "numba"])
+def backend_in_use(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Every test of this file holds for both backends."""
+    if request.param == "numba":
+        pytest.importorskip("numba")
+    before = backend()
+    set_backend(request.param)
+    yield
+    set_backend(before)
 
 
 def curve_data(seed: int, count: int) -> CurveData:
@@ -60,7 +76,7 @@ def test_a_curve_alone_has_the_bits_it_has_in_a_batch(seed: int, sizes: list[int
 
 
 @settings(max_examples=50, deadline=None)
-@given(seeds, counts, st.sampled_from([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.48, 0.6, 0.64)]))
+@given(seeds, counts, st.sampled_from(NORMALS))
 def test_meetings_alone_have_the_bits_they_have_in_a_batch(
     seed: int, sizes: list[int], normal: tuple[float, float, float]
 ) -> None:
@@ -78,6 +94,27 @@ def test_meetings_alone_have_the_bits_they_have_in_a_batch(
         assert alone.t.tobytes() == together.t[mine].tobytes()
         assert alone.xyz.tobytes() == together.xyz[mine].tobytes()
         assert np.array_equal(alone.segment + batch.start[index], together.segment[mine])
+
+
+@settings(max_examples=50, deadline=None)
+@given(seeds, counts, st.sampled_from(NORMALS))
+def test_both_backends_give_the_same_bits(
+    seed: int, sizes: list[int], normal: tuple[float, float, float]
+) -> None:
+    """numpy does exactly what the backend in use does, splines and meetings alike."""
+    data = joined([curve_data(seed + index, size) for index, size in enumerate(sizes)])
+    mine = loft(data)
+    offsets = np.sort(np.concatenate([np.linspace(-20, 20, 15), mine.xyz[::7, 0]]))
+    met = meet_planes(mine, np.array(normal), offsets)
+    in_use = backend()
+    set_backend("numpy")
+    try:
+        assert same_bits(mine, loft(data))
+        again = meet_planes(mine, np.array(normal), offsets)
+    finally:
+        set_backend(in_use)
+    for name in ("curve", "plane", "segment", "t", "xyz", "sign", "tangential"):
+        assert getattr(met, name).tobytes() == getattr(again, name).tobytes()
 
 
 @settings(max_examples=50, deadline=None)

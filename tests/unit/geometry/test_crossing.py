@@ -1,10 +1,13 @@
 """Meetings of curves and planes."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.contact import lies_in, touches
 from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
@@ -13,6 +16,17 @@ from assoc_hull.geometry.spline import control_points, evaluate, loft
 
 UP = np.array([0.0, 0.0, 1.0])
 SKEW = np.array([0.48, 0.6, 0.64])
+
+
+@pytest.fixture(autouse=True, scope="module", params=["numpy", "numba"])
+def backend_in_use(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Every test of this file holds for both backends."""
+    if request.param == "numba":
+        pytest.importorskip("numba")
+    before = backend()
+    set_backend(request.param)
+    yield
+    set_backend(before)
 
 
 def hermite(z: list[float], leave: list[float], arrive: list[float]) -> SplineBatch:

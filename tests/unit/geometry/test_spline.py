@@ -1,16 +1,30 @@
 """The cubic composite spline."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import control_points, derivative, evaluate, loft, sample
 
 WAVE = np.array([[0, 0, 0], [1, 0.8, 0.1], [2.5, 1, 0.3], [3, 0.2, 0.2], [4.4, -0.5, 0], [6, 0, 1]])
 GIVEN = (EndKind.TANGENT, EndKind.TANGENT)
 ENDS = np.array([[1.0, 2.0, 0.5], [3.0, 0.0, -1.0]])
+
+
+@pytest.fixture(autouse=True, scope="module", params=["numpy", "numba"])
+def backend_in_use(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Every test of this file holds for both backends."""
+    if request.param == "numba":
+        pytest.importorskip("numba")
+    before = backend()
+    set_backend(request.param)
+    yield
+    set_backend(before)
 
 
 def unit(vector: FloatArray) -> FloatArray:

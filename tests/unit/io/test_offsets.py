@@ -185,6 +185,12 @@ station,bt_1,bt_2
     assert table.buttock_height is not None
     np.testing.assert_array_equal(table.buttock_height, [[2.5, 4], [0, 0.1], [np.nan, np.nan]])
     assert "blank" not in report.kinds()
+    first, second = text.split("station,bt", 1)
+    apart, _ = read_offsets(first, length=40.0, breadth=8.0, buttocks="station,bt" + second)
+    assert apart.buttock_height is not None
+    np.testing.assert_array_equal(apart.buttock_height, table.buttock_height)
+    with pytest.raises(BadInputError, match="station 6 has buttock heights and no half-breadths"):
+        read_offsets(text.replace("5,0,0.1", "6,0,0.1"), length=40.0, breadth=8.0)
 
 
 def test_x_from_the_forward_perpendicular_and_at_negative_x() -> None:

@@ -1,0 +1,149 @@
+"""The compiled backend: the operations of the numpy backend, curve by curve, same bits.
+
+`fast_loft` and `fast_meet` repeat the arithmetic of `spline`, `tridiagonal`, `monotone`,
+`roots` and `crossing` in the same order, without fastmath and without fused
+multiplication, so that the last bit agrees; the tests compare them. Change both together.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.curves import CurveData
+>>> from assoc_hull.geometry.fast import loft
+>>> loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]]))).knot
+array([0., 5.])
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import numpy as np
+
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fast_loft import loft_curves
+from assoc_hull.geometry.fast_meet import meet_curves
+from assoc_hull.geometry.monotone import CONTACT, Parts
+from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
+from assoc_hull.geometry.spline import LEAST_COSINE, NO_DIRECTION
+from assoc_hull.geometry.tridiagonal import MOST_LEVELS
+from assoc_hull.geometry.workspace import Workspace
+from assoc_hull.tolerance import Tolerances
+
+__all__ = ["loft", "meet", "warm"]
+
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+def _plain(array: np.typing.NDArray[Scalar]) -> np.typing.NDArray[Scalar]:
+    """Give a contiguous read-only view, so that only one version is ever compiled."""
+    result = np.ascontiguousarray(array).view()
+    result.setflags(write=False)
+    return result
+
+
+def loft(data: CurveData) -> SplineBatch | None:
+    """Make the splines of a batch.
+
+    Parameters
+    ----------
+    data : CurveData
+        Points (n, 3) in m, kinds and end conditions.
+
+    Returns
+    -------
+    SplineBatch or None
+        The splines; None if anything is wrong with the data, which the numpy backend
+        then finds and names.
+
+    Examples
+    --------
+    >>> loft(CurveData.single(np.array([[0.0, 0, 0]]))) is None
+    True
+    """
+    size = len(data.xyz)
+    knot, block = np.empty(size), np.empty((9, size))
+    with Workspace() as workspace:
+        done = loft_curves(
+            _plain(data.start),
+            _plain(data.xyz),
+            _plain(data.kind),
+            _plain(data.direction),
+            _plain(data.end_kind),
+            _plain(data.end_vector),
+            Tolerances().coincident,
+            LEAST_COSINE,
+            NO_DIRECTION,
+            MOST_LEVELS,
+            workspace.array(9, size + 2),
+            knot,
+            block,
+        )
+    if not done:
+        return None
+    return SplineBatch(data.start, knot, block[:3].T, block[3:6].T, block[6:].T)
+
+
+def meet(
+    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
+) -> tuple[Parts, IntArray, IntArray, FloatArray, FloatArray]:
+    """Find the meetings of curves with planes.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normal : (3,)
+        Unit normal of the planes.
+    offsets : (p,), m
+        Their offsets, ascending.
+
+    Returns
+    -------
+    parts : Parts
+        Monotone parts of segments.
+    owner, plane : (k,) int
+        The part and the plane of each meeting.
+    t : (k,), m
+        Its chord-length parameter.
+    points : (3, k), m
+        The point.
+
+    Examples
+    --------
+    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
+    >>> meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))[3]
+    array([2.5])
+    """
+    axes = np.flatnonzero(normal)
+    axis = int(axes[0]) if len(axes) == 1 and normal[axes[0]] == 1.0 else -1
+    places, numbers, owner, plane, t, points = meet_curves(
+        _plain(batch.start),
+        _plain(batch.knot),
+        _plain(batch.xyz.T),
+        _plain(batch.leave.T),
+        _plain(batch.arrive.T),
+        _plain(normal),
+        axis,
+        _plain(offsets),
+        CONTACT,
+        STEPS,
+        FLOOR,
+        RELATIVE,
+        MOST_TRIALS,
+    )
+    segment, order, below_begin, below_end = places
+    lower, upper, begin, end = numbers
+    parts = Parts(segment, order, lower, upper, begin, end, below_begin, below_end)
+    return parts, owner, plane, t, points
+
+
+def warm() -> None:
+    """Compile the backend, or load what was compiled before.
+
+    Examples
+    --------
+    >>> warm()
+    """
+    line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
+    if line is not None:
+        meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))

@@ -1,0 +1,346 @@
+"""The loft of `spline`, compiled: same operations in the same order, same bits.
+
+What needs no decision runs over all points at once, in short loops that the compiler turns
+into vector instructions (these change no bit); the rest runs curve by curve. All constants
+come in as arguments: a compiled function in the cache of numba does not notice when a
+constant of another module changes.
+
+Examples
+--------
+>>> from assoc_hull.geometry.fast_loft import loft_curves
+>>> callable(loft_curves)
+True
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.jit import jit
+
+__all__ = ["loft_curves"]
+
+Flags = NDArray[np.int8]
+
+
+@jit
+def _set_chords(points: FloatArray, chord: FloatArray, slope: FloatArray) -> None:
+    """Set length and direction of the chord before each point, across curves too."""
+    size = points.shape[1]
+    x, y, z = points[0], points[1], points[2]
+    for i in range(1, size):
+        step_x, step_y, step_z = x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]
+        chord[i] = sqrt(step_x * step_x + step_y * step_y + step_z * step_z)
+    for k in range(3):
+        line, result = points[k], slope[k]
+        for i in range(1, size):
+            result[i] = (line[i] - line[i - 1]) / chord[i]
+
+
+@jit
+def _set_rows(chord: FloatArray, slope: FloatArray, rows: FloatArray) -> None:
+    """Set the rows of continuous curvature of all points, as if all were smooth."""
+    size = rows.shape[1]
+    before, after = rows[0], rows[4]
+    for i in range(size):
+        total = chord[i] + chord[i + 1]
+        before[i] = chord[i + 1] / total
+        after[i] = chord[i] / total
+    for k in range(3):
+        line, right = slope[k], rows[1 + k]
+        for i in range(size):
+            right[i] = (before[i] * line[i] + after[i] * line[i + 1]) * 1.5
+    for i in range(size):
+        before[i] *= -0.5
+        after[i] *= -0.5
+
+
+@jit
+def _set_states(
+    begin: int,
+    end: int,
+    kind: Flags,
+    end_kind: Flags,
+    end_vector: FloatArray,
+    state: Flags,
+) -> bool:
+    """Set what fixes each derivative, as in `spline`; False if that is not known."""
+    for i in range(begin, end):
+        if kind[i] < 0 or kind[i] > 2:
+            return False
+        state[i] = kind[i]
+    for side in range(2):
+        if end_kind[side] < 0 or end_kind[side] > 2:
+            return False
+        # Free, tangent, curvature: loose, given, curved.
+        state[begin if side == 0 else end - 1] = (2, 1, 3)[end_kind[side]]
+        for k in range(3):
+            if end_kind[side] == 2 and not abs(end_vector[side, k]) < np.inf:
+                return False
+    return True
+
+
+@jit
+def _set_unit(vector: FloatArray, i: int, leave: FloatArray, arrive: FloatArray) -> bool:
+    """Set a given direction, normalised; False if it is nil or not finite."""
+    length = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
+    if not (length > 0.0 and length < np.inf):
+        return False
+    for k in range(3):
+        leave[k, i] = vector[k] / length
+        arrive[k, i] = leave[k, i]
+    return True
+
+
+@jit
+def _set_end_derivative(
+    near: int,
+    beyond: int,
+    neighbour: int,
+    state: Flags,
+    chord: FloatArray,
+    slope: FloatArray,
+    given: FloatArray,
+    least_cosine: float,
+    no_direction: float,
+    result: FloatArray,
+    i: int,
+) -> None:
+    """Set the derivative of a knuckle side or a free end at point i."""
+    x, y, z = slope[0, near], slope[1, near], slope[2, near]
+    result[0, i], result[1, i], result[2, i] = x, y, z
+    if state[neighbour] >= 2:
+        return
+    if state[neighbour] == 1:
+        e_x, e_y, e_z = given[0, neighbour], given[1, neighbour], given[2, neighbour]
+    else:
+        far, close = chord[beyond], chord[near]
+        e_x = far * x + close * slope[0, beyond]
+        e_y = far * y + close * slope[1, beyond]
+        e_z = far * z + close * slope[2, beyond]
+        squared = e_x * e_x + e_y * e_y + e_z * e_z
+        if squared < no_direction:
+            return
+        length = sqrt(squared)
+        e_x, e_y, e_z = e_x / length, e_y / length, e_z / length
+    cosine = x * e_x + y * e_y + z * e_z
+    if cosine <= least_cosine:
+        cosine = 1.0
+    result[0, i] = (3.0 * x - cosine * e_x) * 0.5
+    result[1, i] = (3.0 * y - cosine * e_y) * 0.5
+    result[2, i] = (3.0 * z - cosine * e_z) * 0.5
+
+
+@jit
+def _set_known(
+    begin: int,
+    end: int,
+    state: Flags,
+    direction: FloatArray,
+    end_vector: FloatArray,
+    chord: FloatArray,
+    slope: FloatArray,
+    least_cosine: float,
+    no_direction: float,
+    leave: FloatArray,
+    arrive: FloatArray,
+) -> bool:
+    """Set the known derivatives of one curve; the others are nil already."""
+    last = end - 1
+    for i in range(begin, end):
+        if state[i] == 1:
+            vector = end_vector[0] if i == begin else end_vector[1] if i == last else direction[i]
+            if not _set_unit(vector, i, leave, arrive):
+                return False
+    for i in range(begin, end):
+        if state[i] != 2:
+            continue
+        if i < last:
+            _set_end_derivative(
+                i + 1, i + 2, i + 1, state, chord, slope, leave,
+                least_cosine, no_direction, leave, i,
+            )  # fmt: skip
+        if i > begin:
+            _set_end_derivative(
+                i, i - 1, i - 1, state, chord, slope, leave,
+                least_cosine, no_direction, arrive, i,
+            )  # fmt: skip
+    for k in range(3):
+        arrive[k, begin] = leave[k, begin]
+        leave[k, last] = arrive[k, last]
+    return True
+
+
+@jit
+def _set_curved_end(
+    i: int, near: int, first: bool, vector: FloatArray, chord: FloatArray,
+    slope: FloatArray, rows: FloatArray,
+) -> None:  # fmt: skip
+    """Set the row of an end whose second derivative is given."""
+    rows[0, i] = 0.0 if first else -0.5
+    rows[4, i] = -0.5 if first else 0.0
+    weight = (-0.25 if first else 0.25) * chord[near]
+    for k in range(3):
+        rows[1 + k, i] = slope[k, near] * 1.5 + weight * vector[k]
+
+
+@jit
+def _detach_known(
+    begin: int, end: int, state: Flags, leave: FloatArray, arrive: FloatArray, rows: FloatArray
+) -> None:
+    """Move what is known to the right-hand sides of its neighbours."""
+    for i in range(begin, end):
+        if state[i] == 1 or state[i] == 2:
+            rows[:, i] = 0.0
+            continue
+        if i > begin and (state[i - 1] == 1 or state[i - 1] == 2):
+            for k in range(3):
+                rows[1 + k, i] += rows[0, i] * leave[k, i - 1]
+            rows[0, i] = 0.0
+        if i < end - 1 and (state[i + 1] == 1 or state[i + 1] == 2):
+            for k in range(3):
+                rows[1 + k, i] += rows[4, i] * arrive[k, i + 1]
+            rows[4, i] = 0.0
+
+
+@jit
+def _reduce(rows: FloatArray, size: int, fewer: FloatArray, scale: FloatArray) -> None:
+    """Eliminate the rows of even place; the row after the last must be nil."""
+    count = size // 2
+    before, after = rows[0], rows[4]
+    for j in range(count):
+        left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
+        scale[j] = 1.0 / (1.0 - (before[kept] * after[left] + after[kept] * before[right]))
+    for k in range(1, 4):
+        line, result = rows[k], fewer[k]
+        for j in range(count):
+            left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
+            sum_ = before[kept] * line[left] + line[kept]
+            result[j] = (sum_ + after[kept] * line[right]) * scale[j]
+    fewer_before, fewer_after = fewer[0], fewer[4]
+    for j in range(count):
+        fewer_before[j] = before[2 * j + 1] * before[2 * j] * scale[j]
+        fewer_after[j] = after[2 * j + 1] * after[2 * j + 2] * scale[j]
+    fewer[:, count] = 0.0
+
+
+@jit
+def _restore(rows: FloatArray, size: int, fewer: FloatArray) -> None:
+    """Put the solutions of the kept rows back between those that follow from them."""
+    before, after = rows[0], rows[4]
+    for k in range(1, 4):
+        line, solved = rows[k], fewer[k]
+        line[0] = after[0] * solved[0] + line[0]
+        for j in range(1, (size + 1) // 2):
+            even = after[2 * j] * solved[j] + line[2 * j]
+            line[2 * j] = even + before[2 * j] * solved[j - 1]
+        for j in range(size // 2):
+            line[2 * j + 1] = solved[j]
+
+
+@jit
+def _solve(tables: FloatArray, size: int, most_levels: int, scale: FloatArray) -> None:
+    """Solve one system by cyclic reduction; the right sides of table 0 become its solution."""
+    level, count = 0, size
+    while level < most_levels and count > 1:
+        _reduce(tables[level], count, tables[level + 1], scale)
+        count //= 2
+        level += 1
+    while level > 0:
+        level -= 1
+        _restore(tables[level], size >> level, tables[level + 1])
+
+
+@jit
+def _solve_curve(
+    begin: int, end: int, rows: FloatArray, tables: FloatArray, most_levels: int,
+    scale: FloatArray, leave: FloatArray, arrive: FloatArray,
+) -> None:  # fmt: skip
+    """Add what was to be solved to the derivatives of one curve."""
+    size = end - begin
+    for k in range(5):
+        source, target = rows[k], tables[0, k]
+        for i in range(size):
+            target[i] = source[begin + i]
+        target[size] = 0.0
+    _solve(tables, size, most_levels, scale)
+    for k in range(3):
+        solved, one, other = tables[0, 1 + k], leave[k], arrive[k]
+        for i in range(size):
+            one[begin + i] += solved[i]
+            other[begin + i] += solved[i]
+
+
+@jit
+def _set_knots(begin: int, end: int, chord: FloatArray, knot: FloatArray) -> None:
+    """Sum the chords of one curve, one after the other."""
+    total = 0.0
+    knot[begin] = 0.0
+    for i in range(begin + 1, end):
+        total += chord[i]
+        knot[i] = total
+
+
+@jit
+def loft_curves(
+    start: IntArray,
+    xyz: FloatArray,
+    kind: Flags,
+    direction: FloatArray,
+    end_kind: Flags,
+    end_vector: FloatArray,
+    coincident: float,
+    least_cosine: float,
+    no_direction: float,
+    most_levels: int,
+    scratch: FloatArray,
+    knot: FloatArray,
+    block: FloatArray,
+) -> bool:
+    """Loft all curves into `knot` (n,) and `block` (9, n): points, derivatives.
+
+    `scratch` has (9, n + 2) numbers.
+    """
+    size, most = len(xyz), 0
+    chord, slope, rows = scratch[0], scratch[1:4], scratch[4:, :size]
+    chord[:] = 1.0
+    slope[:] = 0.0
+    state = np.empty(size, np.int8)
+    points, leave, arrive = block[:3], block[3:6], block[6:]
+    leave[:] = 0.0
+    arrive[:] = 0.0
+    for k in range(3):
+        for i in range(size):
+            points[k, i] = xyz[i, k]
+    _set_chords(points, chord, slope)
+    for curve in range(len(start) - 1):
+        begin, end = start[curve], start[curve + 1]
+        most = max(most, end - begin)
+        if end - begin < 2:
+            return False
+        chord[begin] = 1.0
+    if not (chord.min() >= coincident and chord.max() < np.inf):
+        return False
+    _set_rows(chord, slope, rows)
+    tables, scale = np.empty((most_levels + 1, 5, most + 1)), np.empty(most + 1)
+    for curve in range(len(start) - 1):
+        begin, end, vector = start[curve], start[curve + 1], end_vector[curve]
+        if not _set_states(begin, end, kind, end_kind[curve], vector, state):
+            return False
+        if not _set_known(
+            begin, end, state, direction, vector, chord, slope,
+            least_cosine, no_direction, leave, arrive,
+        ):  # fmt: skip
+            return False
+        if state[begin] == 3:
+            _set_curved_end(begin, begin + 1, True, vector[0], chord, slope, rows)
+        if state[end - 1] == 3:
+            _set_curved_end(end - 1, end - 1, False, vector[1], chord, slope, rows)
+        _detach_known(begin, end, state, leave, arrive, rows)
+        _solve_curve(begin, end, rows, tables, most_levels, scale, leave, arrive)
+        _set_knots(begin, end, chord, knot)
+    return True

@@ -1,0 +1,326 @@
+"""Addresses: what a designer calls a point, a curve or a line.
+
+=============================  ==========================================================
+``WL 0.5``                     the line of this name; ``waterlines/WL 0.5`` where two
+                               groups have one
+``sections``                   the group
+``WL 0.5 [2]``                 the second curve of a line
+``WL 0.5 x ST 7``              the point on WL 0.5 where ST 7 crosses it; the other way
+                               round, its friend on ST 7
+``WL 0.5 x BTK 2 #2``          the second crossing that this pair of lines ever had
+``WL 0.5 @ placed 1``          the first placed point along the line
+``WL 0.5 @ adopted 2``         the second adopted point
+=============================  ==========================================================
+
+A key (`Point.id` and the like) is an address too; it never changes.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cached_property
+
+import attrs
+
+from assoc_hull.errors import UnknownNameError
+from assoc_hull.model.family import Sort
+from assoc_hull.model.state import HullState
+
+__all__ = ["AddressBook", "Place", "address", "resolve"]
+
+_OWN = re.compile(r"(.+) @ (placed|adopted) (\d+)")
+_BIRTH = re.compile(r"(.+?) #(\d+)")
+_PIECE = re.compile(r"(.+) \[(\d+)\]")
+
+
+@attrs.frozen
+class Place:
+    """What an address leads to; -1 where it does not go so deep.
+
+    Attributes
+    ----------
+    group, line, curve : int
+        Numbers of the objects; of a point, those it lies on.
+    row, side : int
+        The point, and on which of its sides the curve stands.
+    """
+
+    group: int = -1
+    line: int = -1
+    curve: int = -1
+    row: int = -1
+    side: int = -1
+
+
+class AddressBook:
+    """All addresses of a hull as it is now; make another one when it has changed.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    """
+
+    def __init__(self, state: HullState) -> None:
+        self.state = state
+
+    @cached_property
+    def lines(self) -> dict[str, list[int]]:
+        """Live lines by name, and by group and name."""
+        found: defaultdict[str, list[int]] = defaultdict(list)
+        table = self.state.lines
+        for line in self.state.live("lines").tolist():
+            group = self.state.groups.name.data[int(table.group.data[line])]
+            for name in {table.name.data[line], f"{group}/{table.name.data[line]}"}:
+                found[name].append(line)
+        return dict(found)
+
+    @cached_property
+    def crossings(self) -> dict[tuple[int, int], dict[int, int]]:
+        """Live crossings: for each pair of lines, row by number of birth."""
+        found: defaultdict[tuple[int, int], dict[int, int]] = defaultdict(dict)
+        table, line = self.state.rows, self.state.curves.line.data
+        for row in self.state.live("rows").tolist():
+            a, b = table.curve.data[row].tolist()
+            if b >= 0:
+                found[int(line[a]), int(line[b])][int(table.birth.data[row])] = row
+        return dict(found)
+
+    @cached_property
+    def keys(self) -> dict[str, Place]:
+        """Everything alive by its key or label."""
+        state = self.state
+        found = {
+            state.groups.name.data[group]: Place(group) for group in state.live("groups").tolist()
+        }
+        found |= {
+            state.lines.key.data[line]: self._line_place(line)
+            for line in state.live("lines").tolist()
+        }
+        found |= {
+            state.curves.key.data[curve]: self._curve_place(curve)
+            for curve in state.live("curves").tolist()
+        }
+        for row in state.live("rows").tolist():
+            found[state.rows.key.data[row]] = self._row_place(row, self._usual_side(row))
+            label = state.rows.label.data[row]
+            if label:
+                found.setdefault(label, found[state.rows.key.data[row]])
+        return found
+
+    def line_name(self, line: int) -> str:
+        """Give the name of a line, with its group where another group has the same."""
+        name = str(self.state.lines.name.data[line])
+        if len(self.lines.get(name, ())) <= 1:
+            return name
+        return f"{self.state.groups.name.data[int(self.state.lines.group.data[line])]}/{name}"
+
+    def curve_name(self, curve: int) -> str:
+        """Give the name of a curve: that of its line, with a number if it is one of several."""
+        line = self.state.line_of(curve)
+        pieces = self._pieces(line)
+        if len(pieces) < 2 or curve not in pieces:
+            return self.line_name(line)
+        return f"{self.line_name(line)} [{pieces.index(curve) + 1}]"
+
+    def address(self, row: int, side: int | None = None) -> str:
+        """Give the address of a point; see the function `address`."""
+        at = self._usual_side(row) if side is None else side
+        short = self._short(row, at)
+        if short is None:
+            return str(self.state.rows.key.data[row])
+        return short
+
+    def resolve(self, text: str) -> Place:
+        """Find what an address leads to; see the function `resolve`."""
+        found = self._lookup(text.strip())
+        if found is None:
+            raise UnknownNameError("object", text, tuple(self._known(text)))
+        return found
+
+    def _lookup(self, text: str) -> Place | None:
+        return (
+            self._line(text)
+            or self._piece(text)
+            or self._own(text)
+            or self._crossing(text)
+            or self.keys.get(text)
+        )
+
+    def _line(self, text: str) -> Place | None:
+        lines = self.lines.get(text, [])
+        if len(lines) > 1:
+            names = tuple(self.line_name(line) for line in lines)
+            raise UnknownNameError("one line", text, names)
+        return self._line_place(lines[0]) if lines else None
+
+    def _piece(self, text: str) -> Place | None:
+        match = _PIECE.fullmatch(text)
+        line = self._line(match[1]) if match else None
+        if match is None or line is None:
+            return None
+        pieces = self._pieces(line.line)
+        number = int(match[2])
+        return self._curve_place(pieces[number - 1]) if 1 <= number <= len(pieces) else None
+
+    def _own(self, text: str) -> Place | None:
+        match = _OWN.fullmatch(text)
+        line = self._line(match[1]) if match else None
+        if match is None or line is None:
+            return None
+        rows = self._own_rows(line.line, Sort[match[2].upper()])
+        number = int(match[3])
+        return self._row_place(rows[number - 1], 0) if 1 <= number <= len(rows) else None
+
+    def _crossing(self, text: str) -> Place | None:
+        """Try every place at which the text may fall into two names."""
+        parts = text.split(" x ")
+        for i in range(1, len(parts)):
+            first, second = " x ".join(parts[:i]), " x ".join(parts[i:])
+            found = self._meeting(first, second, None)
+            match = _BIRTH.fullmatch(second)
+            if found is None and match:
+                found = self._meeting(first, match[1], int(match[2]))
+            if found is not None:
+                return found
+        return None
+
+    def _meeting(self, first: str, second: str, birth: int | None) -> Place | None:
+        one, other = self._line(first), self._line(second)
+        if one is None or other is None:
+            return None
+        for side, pair in enumerate([(one.line, other.line), (other.line, one.line)]):
+            rows = self.crossings.get(pair, {})
+            if birth is None and len(rows) == 1:
+                return self._row_place(next(iter(rows.values())), side)
+            if (birth or 1) in rows:
+                return self._row_place(rows[birth or 1], side)
+        return None
+
+    def _short(self, row: int, side: int) -> str | None:
+        """Give the address of a point in names, None if these do not lead to it."""
+        table = self.state.rows
+        a, b = table.curve.data[row].tolist()
+        lines = self.state.curves.line.data
+        if b < 0:
+            sort = Sort(int(table.sort.data[row]))
+            rows = self._own_rows(int(lines[a]), sort)
+            if row not in rows:
+                return None
+            text = f"{self.line_name(int(lines[a]))} @ {sort.name.lower()} {rows.index(row) + 1}"
+        else:
+            first, second = (a, b) if side == 0 else (b, a)
+            birth = int(table.birth.data[row])
+            number = f" #{birth}" if birth > 1 else ""
+            names = self.line_name(int(lines[first])), self.line_name(int(lines[second]))
+            text = f"{names[0]} x {names[1]}{number}"
+        return text if self._leads_to(text, row, side) else None
+
+    def _leads_to(self, text: str, row: int, side: int) -> bool:
+        try:
+            found = self._line(text) or self._piece(text) or self._own(text) or self._crossing(text)
+        except UnknownNameError:
+            return False
+        return found is not None and (found.row, found.side) == (row, side)
+
+    def _known(self, text: str) -> Iterator[str]:
+        """Give the names that a wrong address may have meant: points of its line, or lines."""
+        line = next((part for part in re.split(r" x | @ ", text) if part in self.lines), None)
+        if line is None or line == text:
+            yield from self.lines
+            yield from self.state.groups.name.data
+            return
+        numbers = set(self.lines[line])
+        table = self.state.rows
+        for row in self.state.live("rows").tolist():
+            for side, curve in enumerate(table.curve.data[row].tolist()):
+                if curve >= 0 and self.state.line_of(curve) in numbers:
+                    yield self.address(row, side)
+
+    def _pieces(self, line: int) -> list[int]:
+        alive = self.state.curves.alive.data
+        return [curve for curve in self.state.lines.curves.data[line] if alive[curve]]
+
+    def _own_rows(self, line: int, sort: Sort) -> list[int]:
+        """Give the placed or adopted points of a line, in order along it."""
+        table = self.state.rows
+        return [
+            row
+            for curve in self._pieces(line)
+            for row in self.state.curves.rows.data[curve].tolist()
+            if table.sort.data[row] == sort and table.alive.data[row]
+        ]
+
+    def _usual_side(self, row: int) -> int:
+        return int(self.state.rows.curve.data[row, 1] >= 0)
+
+    def _line_place(self, line: int) -> Place:
+        return Place(int(self.state.lines.group.data[line]), line)
+
+    def _curve_place(self, curve: int) -> Place:
+        line = self.state.line_of(curve)
+        return attrs.evolve(self._line_place(line), curve=curve)
+
+    def _row_place(self, row: int, side: int) -> Place:
+        curve = int(self.state.rows.curve.data[row, side])
+        return attrs.evolve(self._curve_place(curve), row=row, side=side)
+
+
+def address(state: HullState, row: int, side: int | None = None) -> str:
+    """Give the address of a point.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    row : int
+        Number of the point.
+    side : 0, 1 or None
+        The curve named first; None for the one of higher rank.
+
+    Returns
+    -------
+    str
+        `resolve` leads back to the same point. The key, where names alone do not lead there.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.model.address import address, resolve
+    >>> state = wigley()
+    >>> address(state, resolve(state, "ST 7 x WL 2.5").row)
+    'WL 2.5 x ST 7'
+    """
+    return AddressBook(state).address(row, side)
+
+
+def resolve(state: HullState, text: str) -> Place:
+    """Find what an address leads to.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    text : str
+        The address, or a key.
+
+    Returns
+    -------
+    Place
+
+    Raises
+    ------
+    UnknownNameError
+        Nothing has this address; near ones are named. Or two groups have a line of this
+        name, and both full names are given.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.model.address import resolve
+    >>> resolve(wigley(), "waterlines/WL 2.5 x ST 7").side
+    1
+    """
+    return AddressBook(state).resolve(text)
