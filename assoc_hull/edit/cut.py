@@ -92,9 +92,27 @@ def new_plane(state: HullState, group: str, position: float) -> tuple[int, Float
 
 
 def add_line(
-    edit: Transaction, group: str, position: float, name: str | None = None
+    edit: Transaction,
+    group: str,
+    position: float,
+    name: str | None = None,
+    keep: float | None = None,
 ) -> int:
     """Cut a new line and give its number.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    group : str
+        The group it joins.
+    position : float, m
+        Place of its plane along the family's axis.
+    name : str or None
+        Prefix and position if None.
+    keep : float or None, m
+        Its crossings define the old curves only where these move by no more than this;
+        `Tolerances.keep` if None.
 
     Raises
     ------
@@ -112,7 +130,7 @@ def add_line(
     line = edit.maker.line(number, title, (normal, position))
     axis = 2 if family.axis == 0 else 0
     for piece in chain(marks.xyz, marks.boundary == BoundaryKind.END, axis):
-        _make_piece(edit, line, _spread(marks.take(piece)))
+        _make_piece(edit, line, _spread(marks.take(piece)), keep or state.tolerances.keep)
     enter_line(edit, line)
     return line
 
@@ -183,7 +201,7 @@ def _spread(marks: _Marks) -> _Marks:
     return marks.take(np.array(sorted(kept), np.int64))
 
 
-def _make_piece(edit: Transaction, line: int, marks: _Marks) -> None:
+def _make_piece(edit: Transaction, line: int, marks: _Marks, keep: float) -> None:
     """Make one curve of the new line from marks in order along it."""
     state = edit.state
     kind, direction = _kinds(state, line, marks)
@@ -191,7 +209,7 @@ def _make_piece(edit: Transaction, line: int, marks: _Marks) -> None:
     picked = _pick(state, line, marks, spline)
     curve = edit.maker.curve(line, Ends())
     chosen = marks.take(np.flatnonzero(picked))
-    roles = _roles(state, line, chosen)
+    roles = _roles(state, line, chosen, keep)
     specs = [
         _spec(state, curve, chosen, i, role, int(kind[picked][i]), direction[picked][i])
         for i, role in enumerate(roles)
@@ -243,9 +261,9 @@ def _pick(
     )
 
 
-def _roles(state: HullState, line: int, marks: _Marks) -> list[Role]:
+def _roles(state: HullState, line: int, marks: _Marks, keep: float) -> list[Role]:
     """Say of each chosen mark what it does, beside defining the new line."""
-    may = _old_may(state, line, marks)
+    may = _old_may(state, line, marks, keep)
     rank = state.family(line).rank
     roles: list[Role] = []
     for i, curve in enumerate(marks.curve.tolist()):
@@ -261,18 +279,16 @@ def _roles(state: HullState, line: int, marks: _Marks) -> list[Role]:
     return roles
 
 
-def _old_may(state: HullState, line: int, marks: _Marks) -> np.typing.NDArray[np.bool_]:
+def _old_may(
+    state: HullState, line: int, marks: _Marks, keep: float
+) -> np.typing.NDArray[np.bool_]:
     """Tell which old curves may be defined by their mark: transversal, spaced, unmoved."""
     slope = tangents(state, marks.curve, marks.at)
     sine = np.minimum(np.abs(slope @ state.lines.normal.data[line]), 1.0)
     may = np.degrees(np.arcsin(sine)) >= state.tolerances.transversal_deg
-    for i in np.flatnonzero(may).tolist():
-        knots = state.spline(int(marks.curve[i])).knot
-        least = state.tolerances.spacing * float(np.median(np.diff(knots)))
-        may[i] = float(np.abs(knots - marks.at[i]).min()) >= least
     some = np.flatnonzero(may)
-    moved = deviation_with(state, marks.curve[some], marks.at[some], marks.xyz[some])
-    may[some] = moved <= state.tolerances.keep
+    moved, room = deviation_with(state, marks.curve[some], marks.xyz[some])
+    may[some] = (moved <= keep) & (room >= state.tolerances.spacing)
     return may
 
 

@@ -12,6 +12,9 @@ from assoc_hull.model.state import HullState
 
 __all__ = ["deviation", "deviation_with"]
 
+_COINCIDENT = 1e-3
+"""A point nearer to a defining one than this part of the spacing adds nothing."""
+
 
 def deviation(old: SplineBatch, new: SplineBatch) -> FloatArray:
     """Give the largest distance of each new curve from the old one, (m,), m."""
@@ -22,9 +25,12 @@ def deviation(old: SplineBatch, new: SplineBatch) -> FloatArray:
 
 
 def deviation_with(
-    state: HullState, curves: IntArray, at: FloatArray, xyz: FloatArray
-) -> FloatArray:
+    state: HullState, curves: IntArray, xyz: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Say how far each curve would move if it were also made through one point on it.
+
+    The curves are taken as their defining points make them now, which in the middle of a
+    transaction may be more than the published splines hold.
 
     Parameters
     ----------
@@ -32,32 +38,28 @@ def deviation_with(
         The tables.
     curves : (m,) int
         Each curve once or more, one trial an entry.
-    at : (m,), m
-        Parameter of the point on the curve's spline.
     xyz : (m, 3), m
         The point.
 
     Returns
     -------
-    (m,), m
+    moved : (m,), m
         inf where the point would coincide with one that defines the curve already.
+    room : (m,)
+        Distance along the curve to the nearest defining point, as a part of the median
+        spacing of the defining points.
     """
     if not len(curves):
-        return np.zeros(0)
-    old = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+        return np.zeros(0), np.zeros(0)
     data = curve_data(state, curves)
-    where = np.array(
-        [np.searchsorted(old.knot[a:b], t) for a, b, t in zip(old.start[:-1], old.start[1:], at, strict=True)]
-    )
-    near = np.array(
-        [
-            np.abs(old.xyz[a:b] - place).max(axis=1).min()
-            for a, b, place in zip(old.start[:-1], old.start[1:], xyz, strict=True)
-        ]
-    )
-    counts = np.diff(old.start)
-    fits = (near > 1e-3) & (where > 0) & (where < counts)
-    position = data.start[:-1] + np.clip(where, 1, counts - 1)
+    old = loft(data)
+    room, position = np.zeros(len(curves)), np.zeros(len(curves), np.int64)
+    for i in range(len(curves)):
+        knots = old.knot[old.start[i] : old.start[i + 1]]
+        at = float(closest(old, i, xyz[i][None])[0][0])
+        room[i] = float(np.abs(knots - at).min()) / float(np.median(np.diff(knots)))
+        position[i] = old.start[i] + np.clip(np.searchsorted(knots, at), 1, len(knots) - 1)
+    fits = room > _COINCIDENT
     safe = np.where(fits[:, None], xyz, 0.5 * (data.xyz[position - 1] + data.xyz[position]))
     trial = loft(
         CurveData(
@@ -69,4 +71,4 @@ def deviation_with(
             data.end_vector.copy(),
         )
     )
-    return np.where(fits, deviation(old, trial), np.inf)
+    return np.where(fits, deviation(old, trial), np.inf), room

@@ -12,6 +12,7 @@ import numpy as np
 
 from assoc_hull.edit.check import Wide, find_folds, find_unbounded, measure_gaps, plane_normals
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
@@ -22,7 +23,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Readers
 from assoc_hull.graph.run import Pass, Policy, run
-from assoc_hull.model.family import State
+from assoc_hull.model.family import Sort, State
 from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
 from assoc_hull.model.state import HullState, curve_node, row_node
@@ -67,6 +68,8 @@ class Pending:
         Whether lines, points, roles or associations came or went.
     moved_curves : set of int
         Curves that the designer edited: births take their value from these.
+    fields : list of Field
+        Displacements of the hull; several add.
     fresh : list of int
         Curves that were made in this transaction.
     notes : list of str
@@ -78,6 +81,7 @@ class Pending:
     held: set[int] = attrs.field(factory=set)
     structural: bool = False
     moved_curves: set[int] = attrs.field(factory=set)
+    fields: list[Field] = attrs.field(factory=list)
     fresh: list[int] = attrs.field(factory=list)
     notes: list[str] = attrs.field(factory=list)
 
@@ -153,9 +157,11 @@ def update(
     network = HullNetwork(document.state, document.index)
     work = _Work(document, name, journal, pending, settings, network)
     try:
-        work.go(rows, np.array(sorted(pending.curves), np.int64))
-        _settle(work)
-        rebase(document.state, np.array(sorted(pending.held), np.int64), journal)
+        if pending.fields:
+            rows, away = _run_fields(work, rows, away)
+        else:
+            work.go(rows, np.array(sorted(pending.curves), np.int64))
+            _settle(work)
         ran = time.perf_counter()
         findings = _check(work)
     except RingError:
@@ -181,6 +187,46 @@ def _set_values(
     journal.put(state.rows.xyz, rows[differs], value[differs])
     step = value[differs] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))
+
+
+def _run_fields(
+    work: _Work, rows: IntArray, away: FloatArray
+) -> tuple[IntArray, FloatArray]:
+    """Run the fields, in sub-steps where they are large; give all points that were set."""
+    state, fields = work.state, work.pending.fields
+    across = any(field.across_flats for field in fields)
+    pinned = set(work.pending.values)
+    origin = state.rows.xyz.data.copy()
+    ground = context(state, across_flats=across)
+    shift = add_shifts([field.shift(ground, 1.0) for field in fields], pinned)
+    steps = sub_steps(state, shift)
+    curves = np.array(sorted(work.pending.curves), np.int64)
+    touched: set[int] = set(rows.tolist())
+    for step in range(steps):
+        if step:
+            ground = context(state, across_flats=across)
+        shift = add_shifts([field.shift(ground, 1.0 / steps) for field in fields], pinned)
+        work.journal.put(
+            state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta
+        )
+        if step == steps - 1:
+            land(state, work.journal, fields)
+        adopted = state.rows.sort.data[shift.rows] == Sort.ADOPTED
+        work.pending.held |= set(shift.rows[adopted].tolist())
+        touched |= set(shift.rows.tolist())
+        seeds = np.union1d(shift.rows, rows) if step == 0 else shift.rows
+        work.go(seeds, curves if step == 0 else _NONE)
+        _settle(work)
+    work.pending.notes += [
+        f"{state.rows.key.data[row]}: left alone, it is free almost along the hull only"
+        for row in shift.left.tolist()
+    ]
+    rebase(state, np.array(sorted(work.pending.held), np.int64), work.journal)
+    work.pending.held.clear()
+    every = np.array(sorted(touched), np.int64)
+    every = every[every < len(origin)]
+    moved = state.rows.xyz.data[every] - origin[every]
+    return every, np.sqrt((moved * moved).sum(axis=1))
 
 
 def _settle(work: _Work) -> None:

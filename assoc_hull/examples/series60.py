@@ -95,7 +95,7 @@ def series60(cb: float = 0.70) -> HullState:
     ):
         with Transaction(document, f"cut {group}") as edit:
             for part in parts:
-                add_line(edit, group, part * unit, f"{prefix} {part:g}")
+                add_line(edit, group, part * unit, f"{prefix} {part:g}", _KEEP)
     return state
 
 
@@ -108,6 +108,9 @@ def _widening(border: FloatArray) -> FloatArray:
         border[i, 0] = max(border[i, 0], border[i - 1, 0] + _WIDENS)
     return border
 
+
+_KEEP = 0.6e-3
+"""How far (m) one crossing of a line that is cut may move a line that was there."""
 
 _WIDENS = 0.15
 """Least widening (m) from one waterline to the next."""

@@ -34,7 +34,7 @@ def set_backend(name: Backend) -> None:
     ----------
     name : "numpy" or "numba"
         The backend. Choosing numba compiles, or loads what was compiled before: this
-        takes about half a second, a minute the first time on a machine.
+        takes about half a second, a quarter of a minute the first time on a machine.
 
     Raises
     ------

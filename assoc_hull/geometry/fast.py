@@ -1,4 +1,4 @@
-"""The compiled backend: the operations of the numpy backend, curve by curve, same bits.
+"""The compiled backend: the operations of the numpy backend, with the same bits.
 
 `fast_loft` and `fast_meet` repeat the arithmetic of `spline`, `tridiagonal`, `monotone`,
 `roots` and `crossing` in the same order, without fastmath and without fused
@@ -21,7 +21,8 @@ import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fast_loft import loft_curves
-from assoc_hull.geometry.fast_meet import meet_curves
+from assoc_hull.geometry.fast_meet import meet_curves, place_points
+from assoc_hull.geometry.fast_roots import find_roots
 from assoc_hull.geometry.monotone import CONTACT, Parts
 from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.spline import LEAST_COSINE, NO_DIRECTION
@@ -116,21 +117,16 @@ def meet(
     """
     axes = np.flatnonzero(normal)
     axis = int(axes[0]) if len(axes) == 1 and normal[axes[0]] == 1.0 else -1
-    places, numbers, owner, plane, t, points = meet_curves(
-        _plain(batch.start),
-        _plain(batch.knot),
-        _plain(batch.xyz.T),
-        _plain(batch.leave.T),
-        _plain(batch.arrive.T),
-        _plain(normal),
-        axis,
-        _plain(offsets),
-        CONTACT,
-        STEPS,
-        FLOOR,
-        RELATIVE,
-        MOST_TRIALS,
-    )
+    knot, offsets = _plain(batch.knot), _plain(offsets)
+    vectors = _plain(batch.xyz.T), _plain(batch.leave.T), _plain(batch.arrive.T)
+    with Workspace() as workspace:
+        scratch = workspace.array(4, len(knot))
+        places, numbers, owner, plane, cubics = meet_curves(
+            _plain(batch.start), knot, *vectors, _plain(normal), axis, offsets, CONTACT, scratch
+        )
+    roots = find_roots(cubics, STEPS, FLOOR, RELATIVE, MOST_TRIALS)
+    t, points = np.empty(len(roots)), np.empty((3, len(roots)))
+    place_points(knot, *vectors, places[0], owner, roots, t, points)
     segment, order, below_begin, below_end = places
     lower, upper, begin, end = numbers
     parts = Parts(segment, order, lower, upper, begin, end, below_begin, below_end)

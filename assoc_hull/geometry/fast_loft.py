@@ -61,6 +61,7 @@ def _set_rows(chord: FloatArray, slope: FloatArray, rows: FloatArray) -> None:
 
 @jit
 def _set_states(
+    curve: int,
     begin: int,
     end: int,
     kind: Flags,
@@ -74,24 +75,25 @@ def _set_states(
             return False
         state[i] = kind[i]
     for side in range(2):
-        if end_kind[side] < 0 or end_kind[side] > 2:
+        given = end_kind[curve, side]
+        if given < 0 or given > 2:
             return False
         # Free, tangent, curvature: loose, given, curved.
-        state[begin if side == 0 else end - 1] = (2, 1, 3)[end_kind[side]]
+        state[begin if side == 0 else end - 1] = (2, 1, 3)[given]
         for k in range(3):
-            if end_kind[side] == 2 and not abs(end_vector[side, k]) < np.inf:
+            if given == 2 and not abs(end_vector[curve, side, k]) < np.inf:
                 return False
     return True
 
 
 @jit
-def _set_unit(vector: FloatArray, i: int, leave: FloatArray, arrive: FloatArray) -> bool:
+def _set_unit(x: float, y: float, z: float, i: int, leave: FloatArray, arrive: FloatArray) -> bool:
     """Set a given direction, normalised; False if it is nil or not finite."""
-    length = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
+    length = sqrt(x * x + y * y + z * z)
     if not (length > 0.0 and length < np.inf):
         return False
+    leave[0, i], leave[1, i], leave[2, i] = x / length, y / length, z / length
     for k in range(3):
-        leave[k, i] = vector[k] / length
         arrive[k, i] = leave[k, i]
     return True
 
@@ -137,6 +139,7 @@ def _set_end_derivative(
 
 @jit
 def _set_known(
+    curve: int,
     begin: int,
     end: int,
     state: Flags,
@@ -153,8 +156,15 @@ def _set_known(
     last = end - 1
     for i in range(begin, end):
         if state[i] == 1:
-            vector = end_vector[0] if i == begin else end_vector[1] if i == last else direction[i]
-            if not _set_unit(vector, i, leave, arrive):
+            x, y, z = direction[i, 0], direction[i, 1], direction[i, 2]
+            if i in (begin, last):
+                side = 0 if i == begin else 1
+                x, y, z = (
+                    end_vector[curve, side, 0],
+                    end_vector[curve, side, 1],
+                    end_vector[curve, side, 2],
+                )
+            if not _set_unit(x, y, z, i, leave, arrive):
                 return False
     for i in range(begin, end):
         if state[i] != 2:
@@ -177,15 +187,17 @@ def _set_known(
 
 @jit
 def _set_curved_end(
-    i: int, near: int, first: bool, vector: FloatArray, chord: FloatArray,
+    curve: int, i: int, near: int, end_vector: FloatArray, chord: FloatArray,
     slope: FloatArray, rows: FloatArray,
 ) -> None:  # fmt: skip
     """Set the row of an end whose second derivative is given."""
+    first = near > i
+    side = 0 if first else 1
     rows[0, i] = 0.0 if first else -0.5
     rows[4, i] = -0.5 if first else 0.0
     weight = (-0.25 if first else 0.25) * chord[near]
     for k in range(3):
-        rows[1 + k, i] = slope[k, near] * 1.5 + weight * vector[k]
+        rows[1 + k, i] = slope[k, near] * 1.5 + weight * end_vector[curve, side, k]
 
 
 @jit
@@ -195,7 +207,8 @@ def _detach_known(
     """Move what is known to the right-hand sides of its neighbours."""
     for i in range(begin, end):
         if state[i] == 1 or state[i] == 2:
-            rows[:, i] = 0.0
+            for k in range(5):
+                rows[k, i] = 0.0
             continue
         if i > begin and (state[i - 1] == 1 or state[i - 1] == 2):
             for k in range(3):
@@ -208,51 +221,44 @@ def _detach_known(
 
 
 @jit
-def _reduce(rows: FloatArray, size: int, fewer: FloatArray, scale: FloatArray) -> None:
-    """Eliminate the rows of even place; the row after the last must be nil."""
-    count = size // 2
-    before, after = rows[0], rows[4]
+def _reduce(tables: FloatArray, level: int, size: int, scale: FloatArray) -> None:
+    """Eliminate the rows of even place; the row after the last must be nil.
+
+    Everything is indexed in full: a view of a row costs more than the work on it.
+    """
+    count, more = size // 2, level + 1
     for j in range(count):
         left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
-        scale[j] = 1.0 / (1.0 - (before[kept] * after[left] + after[kept] * before[right]))
+        from_left = tables[level, 0, kept] * tables[level, 4, left]
+        from_right = tables[level, 4, kept] * tables[level, 0, right]
+        scale[j] = 1.0 / (1.0 - (from_left + from_right))
     for k in range(1, 4):
-        line, result = rows[k], fewer[k]
         for j in range(count):
             left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
-            sum_ = before[kept] * line[left] + line[kept]
-            result[j] = (sum_ + after[kept] * line[right]) * scale[j]
-    fewer_before, fewer_after = fewer[0], fewer[4]
+            sum_ = tables[level, 0, kept] * tables[level, k, left] + tables[level, k, kept]
+            sum_ = sum_ + tables[level, 4, kept] * tables[level, k, right]
+            tables[more, k, j] = sum_ * scale[j]
     for j in range(count):
-        fewer_before[j] = before[2 * j + 1] * before[2 * j] * scale[j]
-        fewer_after[j] = after[2 * j + 1] * after[2 * j + 2] * scale[j]
-    fewer[:, count] = 0.0
+        left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
+        tables[more, 0, j] = tables[level, 0, kept] * tables[level, 0, left] * scale[j]
+        tables[more, 4, j] = tables[level, 4, kept] * tables[level, 4, right] * scale[j]
+    for k in range(5):
+        tables[more, k, count] = 0.0
 
 
 @jit
-def _restore(rows: FloatArray, size: int, fewer: FloatArray) -> None:
+def _restore(tables: FloatArray, level: int, size: int) -> None:
     """Put the solutions of the kept rows back between those that follow from them."""
-    before, after = rows[0], rows[4]
+    more = level + 1
     for k in range(1, 4):
-        line, solved = rows[k], fewer[k]
-        line[0] = after[0] * solved[0] + line[0]
+        first = tables[level, 4, 0] * tables[more, k, 0]
+        tables[level, k, 0] = first + tables[level, k, 0]
         for j in range(1, (size + 1) // 2):
-            even = after[2 * j] * solved[j] + line[2 * j]
-            line[2 * j] = even + before[2 * j] * solved[j - 1]
+            even = tables[level, 4, 2 * j] * tables[more, k, j] + tables[level, k, 2 * j]
+            even = even + tables[level, 0, 2 * j] * tables[more, k, j - 1]
+            tables[level, k, 2 * j] = even
         for j in range(size // 2):
-            line[2 * j + 1] = solved[j]
-
-
-@jit
-def _solve(tables: FloatArray, size: int, most_levels: int, scale: FloatArray) -> None:
-    """Solve one system by cyclic reduction; the right sides of table 0 become its solution."""
-    level, count = 0, size
-    while level < most_levels and count > 1:
-        _reduce(tables[level], count, tables[level + 1], scale)
-        count //= 2
-        level += 1
-    while level > 0:
-        level -= 1
-        _restore(tables[level], size >> level, tables[level + 1])
+            tables[level, k, 2 * j + 1] = tables[more, k, j]
 
 
 @jit
@@ -260,19 +266,24 @@ def _solve_curve(
     begin: int, end: int, rows: FloatArray, tables: FloatArray, most_levels: int,
     scale: FloatArray, leave: FloatArray, arrive: FloatArray,
 ) -> None:  # fmt: skip
-    """Add what was to be solved to the derivatives of one curve."""
+    """Solve one curve by cyclic reduction and add the solution to its derivatives."""
     size = end - begin
     for k in range(5):
-        source, target = rows[k], tables[0, k]
         for i in range(size):
-            target[i] = source[begin + i]
-        target[size] = 0.0
-    _solve(tables, size, most_levels, scale)
+            tables[0, k, i] = rows[k, begin + i]
+        tables[0, k, size] = 0.0
+    level, count = 0, size
+    while level < most_levels and count > 1:
+        _reduce(tables, level, count, scale)
+        count //= 2
+        level += 1
+    while level > 0:
+        level -= 1
+        _restore(tables, level, size >> level)
     for k in range(3):
-        solved, one, other = tables[0, 1 + k], leave[k], arrive[k]
         for i in range(size):
-            one[begin + i] += solved[i]
-            other[begin + i] += solved[i]
+            leave[k, begin + i] += tables[0, 1 + k, i]
+            arrive[k, begin + i] += tables[0, 1 + k, i]
 
 
 @jit
@@ -328,18 +339,18 @@ def loft_curves(
     _set_rows(chord, slope, rows)
     tables, scale = np.empty((most_levels + 1, 5, most + 1)), np.empty(most + 1)
     for curve in range(len(start) - 1):
-        begin, end, vector = start[curve], start[curve + 1], end_vector[curve]
-        if not _set_states(begin, end, kind, end_kind[curve], vector, state):
+        begin, end = start[curve], start[curve + 1]
+        if not _set_states(curve, begin, end, kind, end_kind, end_vector, state):
             return False
         if not _set_known(
-            begin, end, state, direction, vector, chord, slope,
+            curve, begin, end, state, direction, end_vector, chord, slope,
             least_cosine, no_direction, leave, arrive,
         ):  # fmt: skip
             return False
         if state[begin] == 3:
-            _set_curved_end(begin, begin + 1, True, vector[0], chord, slope, rows)
+            _set_curved_end(curve, begin, begin + 1, end_vector, chord, slope, rows)
         if state[end - 1] == 3:
-            _set_curved_end(end - 1, end - 1, False, vector[1], chord, slope, rows)
+            _set_curved_end(curve, end - 1, end - 1, end_vector, chord, slope, rows)
         _detach_known(begin, end, state, leave, arrive, rows)
         _solve_curve(begin, end, rows, tables, most_levels, scale, leave, arrive)
         _set_knots(begin, end, chord, knot)

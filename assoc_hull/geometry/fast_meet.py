@@ -1,4 +1,4 @@
-"""The meetings of `crossing`, compiled: same operations in the same order, curve by curve.
+"""The meetings of `crossing`, compiled: same operations in the same order, same bits.
 
 All constants come in as arguments: a compiled function in the cache of numba does not
 notice when a constant of another module changes.
@@ -20,21 +20,12 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.jit import jit
 
-__all__ = ["meet_curves"]
+__all__ = ["meet_curves", "place_points"]
 
 Flags = NDArray[np.int8]
 PLAIN, BENT, LYING = 0, 1, 2
 SEGMENT, ORDER, BELOW_BEGIN, BELOW_END = 0, 1, 2, 3
 LOWER, UPPER, BEGIN, END = 0, 1, 2, 3
-
-
-@jit
-def _along(vectors: FloatArray, i: int, normal: FloatArray, axis: int) -> float:
-    """Give the component of a vector along the normal."""
-    result: float = vectors[axis, i]
-    if axis < 0:
-        result = vectors[0, i] * normal[0] + vectors[1, i] * normal[1] + vectors[2, i] * normal[2]
-    return result
 
 
 @jit
@@ -70,46 +61,73 @@ def _value(origin: float, first: float, second: float, third: float, u: float) -
 
 
 @jit
-def _set_courses(
+def _set_along(vectors: FloatArray, normal: FloatArray, axis: int, result: FloatArray) -> None:
+    """Set the components of vectors along the normal."""
+    if axis >= 0:
+        for i in range(vectors.shape[1]):
+            result[i] = vectors[axis, i]
+        return
+    for i in range(vectors.shape[1]):
+        first = vectors[0, i] * normal[0] + vectors[1, i] * normal[1]
+        result[i] = first + vectors[2, i] * normal[2]
+
+
+@jit
+def _set_courses(knot: FloatArray, courses: FloatArray) -> None:
+    """Turn heights and derivatives at the knots into rise and derivatives of segments."""
+    for i in range(len(knot) - 1):
+        length = knot[i + 1] - knot[i]
+        courses[1, i] = courses[0, i + 1] - courses[0, i]
+        courses[2, i] *= length
+    for i in range(len(knot) - 1):
+        courses[3, i] = courses[3, i + 1] * (knot[i + 1] - knot[i])
+
+
+@jit
+def _set_kinds(courses: FloatArray, contact: float, kinds: Flags) -> None:
+    """Tell bent segments, and those that may lie in a plane, from the others."""
+    for i in range(len(kinds) - 1):
+        rise, first, last = courses[1, i], courses[2, i], courses[3, i]
+        middle = 3.0 * rise - first - last
+        most, least = first, first
+        most = last if last > most else most
+        most = middle if middle > most else most
+        least = last if last < least else least
+        least = middle if middle < least else least
+        kind = BENT if (least < 0.0) & (most > 0.0) else PLAIN
+        kinds[i] = kind + (LYING if most - least <= 12.0 * contact else 0)
+
+
+@jit
+def _set_ranks(
     start: IntArray,
-    knot: FloatArray,
-    xyz: FloatArray,
-    leave: FloatArray,
-    arrive: FloatArray,
-    normal: FloatArray,
-    axis: int,
+    courses: FloatArray,
     offsets: FloatArray,
     contact: float,
-    courses: FloatArray,
     below: IntArray,
     kinds: Flags,
 ) -> int:
-    """Set height, rise and end derivatives of segments; give a bound for the number of parts."""
+    """Count the planes not above each knot; give a bound for the number of parts."""
+    rank = 0
+    for i in range(len(below)):
+        height = courses[0, i]
+        # From the rank of the knot before: as many steps as there are meetings.
+        while rank < len(offsets) and offsets[rank] <= height:
+            rank += 1
+        while rank > 0 and not offsets[rank - 1] <= height:
+            rank -= 1
+        below[i] = rank
     bound = 0
     for curve in range(len(start) - 1):
-        begin, end = start[curve], start[curve + 1]
-        rank = 0
-        for i in range(begin, end):
-            height = _along(xyz, i, normal, axis)
-            courses[0, i] = height
-            # From the rank of the knot before: as many steps as there are meetings.
-            while rank < len(offsets) and offsets[rank] <= height:
-                rank += 1
-            while rank > 0 and not offsets[rank - 1] <= height:
-                rank -= 1
-            below[i] = rank
-        for i in range(begin, end - 1):
-            length = knot[i + 1] - knot[i]
-            rise = courses[0, i + 1] - courses[0, i]
-            first = _along(leave, i, normal, axis) * length
-            last = _along(arrive, i + 1, normal, axis) * length
-            courses[1, i], courses[2, i], courses[3, i] = rise, first, last
-            middle = 3.0 * rise - first - last
-            most, least = max(max(first, last), middle), min(min(first, last), middle)
-            kinds[i] = BENT if least < 0.0 < most else PLAIN
-            if most - least <= 12.0 * contact and _count_flat(courses, i, offsets, contact, below):
-                kinds[i] = LYING
-            bound += 3 if kinds[i] == BENT else 1
+        for i in range(start[curve], start[curve + 1] - 1):
+            if kinds[i] >= LYING:
+                lies = _count_flat(courses, i, offsets, contact, below)
+                kinds[i] = LYING if lies else kinds[i] - LYING
+            if kinds[i] != PLAIN:
+                # Knots that lie may now count otherwise: the neighbours too may pass planes.
+                bound += 3
+            elif below[i] != below[i + 1]:
+                bound += 1
     return bound
 
 
@@ -247,94 +265,29 @@ def _sort(
 
 
 @jit
-def _safe_root(
-    origin: float,
-    first: float,
-    second: float,
-    third: float,
-    lower: float,
-    upper: float,
-    rising: bool,
-    limit: float,
-    most_trials: int,
-) -> float:
-    """Find a root by Newton's rule, every third trial and whenever it fails by bisection."""
-    root = 0.5 * (lower + upper)
-    for trial in range(most_trials):
-        height = _value(origin, first, second, third, root)
-        if (height >= 0.0) == rising:
-            upper = root
-        else:
-            lower = root
-        middle = 0.5 * (lower + upper)
-        if not (abs(height) > limit and lower < middle < upper):
-            break
-        slope = first + root * (2.0 * second + root * (3.0 * third))
-        newton = root - height / slope
-        root = newton if lower < newton < upper and trial % 3 != 2 else middle
-    return root
-
-
-@jit
-def _root(
-    origin: float,
-    first: float,
-    second: float,
-    third: float,
-    lower: float,
-    upper: float,
-    at_lower: float,
-    at_upper: float,
-    steps: int,
-    floor: float,
-    relative: float,
-    most_trials: int,
-) -> float:
-    """Give the one root in a bracket, as in `roots`."""
-    if at_upper == 0.0:
-        return upper
-    if at_lower == 0.0:
-        return lower
-    limit = floor + relative * (abs(at_lower) + abs(at_upper))
-    root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
-    steep = 3.0 * third
-    for _ in range(steps):
-        height = _value(origin, first, second, third, root)
-        bend = steep * root + second
-        slope = (bend + second) * root + first
-        root -= (height * slope) / (slope * slope - bend * height)
-    residual = abs(_value(origin, first, second, third, root))
-    if residual <= limit and lower <= root <= upper:
-        return root
-    rising = at_lower < 0.0
-    return _safe_root(origin, first, second, third, lower, upper, rising, limit, most_trials)
-
-
-@jit
-def _fraction(
+def _set_cubics(
     courses: FloatArray,
     places: IntArray,
     numbers: FloatArray,
-    part: int,
-    offset: float,
-    steps: int,
-    floor: float,
-    relative: float,
-    most_trials: int,
-) -> float:
-    """Where in its segment a meeting lies."""
-    first, second, third = _powers(courses, places[SEGMENT, part])
-    origin = courses[0, places[SEGMENT, part]] - offset
-    at_lower, at_upper = numbers[BEGIN, part] - offset, numbers[END, part] - offset
-    falling = places[BELOW_END, part] < places[BELOW_BEGIN, part]
-    if falling and at_lower < 0.0:
-        at_lower = 0.0
-    if not falling and at_upper < 0.0:
-        at_upper = 0.0
-    return _root(
-        origin, first, second, third, numbers[LOWER, part], numbers[UPPER, part],
-        at_lower, at_upper, steps, floor, relative, most_trials,
-    )  # fmt: skip
+    offsets: FloatArray,
+    owner: IntArray,
+    plane: IntArray,
+    cubics: FloatArray,
+) -> None:
+    """Set powers, bracket and values at its ends for every meeting."""
+    for m in range(len(owner)):
+        part, offset = owner[m], offsets[plane[m]]
+        i = places[SEGMENT, part]
+        cubics[0, m] = courses[0, i] - offset
+        cubics[1, m], cubics[2, m], cubics[3, m] = _powers(courses, i)
+        cubics[4, m], cubics[5, m] = numbers[LOWER, part], numbers[UPPER, part]
+        at_lower, at_upper = numbers[BEGIN, part] - offset, numbers[END, part] - offset
+        falling = places[BELOW_END, part] < places[BELOW_BEGIN, part]
+        if falling and at_lower < 0.0:
+            at_lower = 0.0
+        if not falling and at_upper < 0.0:
+            at_upper = 0.0
+        cubics[6, m], cubics[7, m] = at_lower, at_upper
 
 
 @jit
@@ -348,41 +301,52 @@ def meet_curves(
     axis: int,
     offsets: FloatArray,
     contact: float,
-    steps: int,
-    floor: float,
-    relative: float,
-    most_trials: int,
-) -> tuple[IntArray, FloatArray, IntArray, IntArray, FloatArray, FloatArray]:
-    """Find all meetings: tables of the parts, owner and plane of each, parameters, points."""
-    courses, below = np.empty((4, len(knot))), np.empty(len(knot), np.int64)
-    kinds = np.empty(len(knot), np.int8)
-    bound = _set_courses(
-        start, knot, xyz, leave, arrive, normal, axis, offsets, contact, courses, below, kinds
-    )
+    courses: FloatArray,
+) -> tuple[IntArray, FloatArray, IntArray, IntArray, FloatArray]:
+    """Find all meetings: tables of the parts, owner, plane and cubic of each.
+
+    `courses` is scratch memory for (4, n) numbers. A cubic has eight rows: its powers, the
+    ends of the bracket and the values there.
+    """
+    below, kinds = np.empty(len(knot), np.int64), np.empty(len(knot), np.int8)
+    _set_along(xyz, normal, axis, courses[0])
+    _set_along(leave, normal, axis, courses[2])
+    _set_along(arrive, normal, axis, courses[3])
+    _set_courses(knot, courses)
+    _set_kinds(courses, contact, kinds)
+    bound = _set_ranks(start, courses, offsets, contact, below, kinds)
     places, numbers = np.empty((4, bound), np.int64), np.empty((4, bound))
     part_start = np.empty(len(start), np.int64)
     total = _set_parts(start, courses, below, kinds, offsets, places, numbers, part_start)
     owner, plane = np.empty(total, np.int64), np.empty(total, np.int64)
     _sort(part_start, places, np.empty(len(offsets), np.int64), owner, plane)
-    t, points = np.empty(total), np.empty((3, total))
-    for k in range(total):
-        u = _fraction(
-            courses, places, numbers, owner[k], offsets[plane[k]],
-            steps, floor, relative, most_trials,
-        )  # fmt: skip
-        i = places[SEGMENT, owner[k]]
+    cubics = np.empty((8, total))
+    _set_cubics(courses, places, numbers, offsets, owner, plane, cubics)
+    return places, numbers, owner, plane, cubics
+
+
+@jit
+def place_points(
+    knot: FloatArray,
+    xyz: FloatArray,
+    leave: FloatArray,
+    arrive: FloatArray,
+    segment: IntArray,
+    owner: IntArray,
+    roots: FloatArray,
+    t: FloatArray,
+    points: FloatArray,
+) -> None:
+    """Set parameters (k,) and points (3, k) of meetings at fractions `roots` of segments."""
+    for m in range(len(roots)):
+        i, u = segment[owner[m]], roots[m]
         length = knot[i + 1] - knot[i]
-        if u == 1.0:
-            t[k] = knot[i + 1]
-            for coordinate in range(3):
-                points[coordinate, k] = xyz[coordinate, i + 1]
-            continue
-        t[k] = min(length * u + knot[i], knot[i + 1])
-        for coordinate in range(3):
-            origin = xyz[coordinate, i]
-            step = xyz[coordinate, i + 1] - origin
-            first = leave[coordinate, i] * length
-            both = first + arrive[coordinate, i + 1] * length
+        t[m] = knot[i + 1] if u == 1.0 else min(length * u + knot[i], knot[i + 1])
+        for k in range(3):
+            origin, end = xyz[k, i], xyz[k, i + 1]
+            step = end - origin
+            first = leave[k, i] * length
+            both = first + arrive[k, i + 1] * length
             second = 3.0 * step - first - both
-            points[coordinate, k] = _value(origin, first, second, both - 2.0 * step, u)
-    return places, numbers, owner, plane, t, points
+            inside = (((both - 2.0 * step) * u + second) * u + first) * u + origin
+            points[k, m] = end if u == 1.0 else inside

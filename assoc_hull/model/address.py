@@ -201,22 +201,29 @@ class AddressBook:
 
     def _short(self, row: int, side: int) -> str | None:
         """Give the address of a point in names, None if these do not lead to it."""
-        table = self.state.rows
+        table, names = self.state.rows, tuple[str, ...]()
         a, b = table.curve.data[row].tolist()
         lines = self.state.curves.line.data
         if b < 0:
+            names = (self.line_name(int(lines[a])),)
             sort = Sort(int(table.sort.data[row]))
             rows = self._own_rows(int(lines[a]), sort)
             if row not in rows:
                 return None
-            text = f"{self.line_name(int(lines[a]))} @ {sort.name.lower()} {rows.index(row) + 1}"
+            text = f"{names[0]} @ {sort.name.lower()} {rows.index(row) + 1}"
         else:
             first, second = (a, b) if side == 0 else (b, a)
             birth = int(table.birth.data[row])
             number = f" #{birth}" if birth > 1 else ""
-            names = self.line_name(int(lines[first])), self.line_name(int(lines[second]))
+            names = (self.line_name(int(lines[first])), self.line_name(int(lines[second])))
             text = f"{names[0]} x {names[1]}{number}"
-        return text if self._leads_to(text, row, side) else None
+        return text if self._plain(text, names) or self._leads_to(text, row, side) else None
+
+    def _plain(self, text: str, names: tuple[str, ...]) -> bool:
+        """Tell at a glance that an address made of names can be read in one way only."""
+        odd = any(mark in name for name in names for mark in (" x ", " @ ", "#", "["))
+        taken = {text, text.partition(" x ")[2]} - set(names)
+        return not odd and not taken & self.lines.keys()
 
     def _leads_to(self, text: str, row: int, side: int) -> bool:
         try:

@@ -63,10 +63,16 @@ class Places:
 
 def places(state: HullState) -> Places:
     """Sort the live objects of a hull by key."""
-    found = [_sorted(state, name, "key") for name in ("rows", "curves", "lines")]
-    counts = (state.rows.count, state.curves.count, state.lines.count)
-    back = [_inverse(part, count) for part, count in zip(found, counts, strict=True)]
-    return Places(*found, _sorted(state, "groups", "name"), *back)
+    rows, curves, lines = (_sorted(state, name, "key") for name in ("rows", "curves", "lines"))
+    return Places(
+        rows,
+        curves,
+        lines,
+        _sorted(state, "groups", "name"),
+        _inverse(rows, state.rows.count),
+        _inverse(curves, state.curves.count),
+        _inverse(lines, state.lines.count),
+    )
 
 
 def _sorted(state: HullState, table: str, key: str) -> IntArray:

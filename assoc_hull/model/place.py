@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.plane import AXES
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState
@@ -86,7 +86,7 @@ def points_on(state: HullState, curve: int) -> OnCurve:
     at = table.parameter.data[row, side].copy()
     _put_knots(state, curve, row, at)
     lost = np.flatnonzero(~np.isfinite(at))
-    if len(lost) and state.spline(curve) is not None:
+    if len(lost) and state.curves.spline.data[curve] is not None:
         at[lost] = closest(state.spline(curve), 0, places(state, row[lost], side[lost]))[0]
     keys = [table.key.data[each] for each in row.tolist()]
     order = np.array(sorted(range(len(row)), key=lambda i: (at[i], keys[i])), np.int64)
@@ -96,7 +96,7 @@ def points_on(state: HullState, curve: int) -> OnCurve:
 def _put_knots(state: HullState, curve: int, row: IntArray, at: FloatArray) -> None:
     """Write the knots of the defining points, unless the curve has failed since."""
     rows: IntArray = state.curves.rows.data[curve]
-    spline = state.spline(curve)
+    spline: SplineBatch | None = state.curves.spline.data[curve]
     if spline is None or len(spline.knot) != len(rows):
         return
     knot = dict(zip(rows.tolist(), spline.knot.tolist(), strict=True))

@@ -111,13 +111,12 @@ def _listed(inner: Check, least: int = 0, most: int | None = None) -> Check:
                 else f"{least} to {most}"
             )
             raise _WrongError(f"the list holds {len(value)} items, not {wanted}")
-        index = 0
-        try:
-            for index, item in enumerate(value):  # noqa: B007 - read when an item is wrong
+        for index, item in enumerate(value):
+            try:
                 inner(item)
-        except _WrongError as wrong:
-            wrong.path.append(f"[{index}]")
-            raise
+            except _WrongError as wrong:
+                wrong.path.append(f"[{index}]")
+                raise
 
     return check
 
@@ -127,15 +126,12 @@ def _tuple(*inner: Check) -> Check:
 
     def check(value: object) -> None:
         whole(value)
-        index = 0
-        try:
-            for index, (item, each) in enumerate(
-                zip(cast("list[object]", value), inner, strict=True)
-            ):  # noqa: B007
+        for index, (item, each) in enumerate(zip(cast("list[object]", value), inner, strict=True)):
+            try:
                 each(item)
-        except _WrongError as wrong:
-            wrong.path.append(f"[{index}]")
-            raise
+            except _WrongError as wrong:
+                wrong.path.append(f"[{index}]")
+                raise
 
     return check
 

@@ -1,0 +1,109 @@
+"""What is wrong with a hull, each finding with its place and number; empty if nothing is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.check_links import find_links
+from assoc_hull.edit.check_roles import find_roles
+from assoc_hull.edit.check_shape import find_shape
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.finding import Finding, row_finding
+from assoc_hull.errors import RingError
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import State
+from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.index import build_index
+from assoc_hull.model.state import HullState
+
+__all__ = ["Finding", "check"]
+
+
+def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, ...]:
+    """Look a whole hull over.
+
+    Parameters
+    ----------
+    source : Document or HullState
+        The hull.
+    notes : bool
+        Whether to tell also what is not wrong: crossings whose role the role rule would
+        choose otherwise today.
+
+    Returns
+    -------
+    tuple of Finding
+        In the order of their kinds, each kind by the keys of the objects.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.check_hull import check
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> check(wigley())
+    ()
+    """
+    state = source.state if isinstance(source, Document) else source
+    book = AddressBook(state)
+    found: list[Finding] = []
+    for look in (*_LOOKS, *((find_roles,) if notes else ())):
+        found += sorted(look(state, book), key=lambda each: (each.kind, each.object))
+    return tuple(found)
+
+
+def _broken(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Curves that could not be made, and all that is made from them."""
+    for curve in state.live("curves").tolist():
+        kind = State(int(state.curves.state.data[curve]))
+        if kind is not State.CLEAN:
+            yield attrs.evolve(
+                _of_curve(state, book, curve), kind=kind.name.lower(), message=_BROKEN[kind]
+            )
+    rows = state.live("rows")
+    for row in rows[state.rows.state.data[rows] != State.CLEAN].tolist():
+        kind = State(int(state.rows.state.data[row]))
+        yield row_finding(state, book, row, kind.name.lower(), _BROKEN[kind])
+
+
+_BROKEN = {
+    State.FAILED: "could not be lofted and keeps its last good shape: undo the edit or mend it",
+    State.BLOCKED: "is not up to date: something it is made from has failed",
+}
+
+
+def _of_curve(state: HullState, book: AddressBook, curve: int) -> Finding:
+    rows = state.curves.rows.data[curve]
+    place = tuple(state.rows.xyz.data[int(rows[0])].tolist()) if len(rows) else None
+    return Finding("", book.curve_name(curve), place, None, "")
+
+
+def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Watched crossings whose curves pass each other farther apart than they may."""
+    rows = watched_on(state, state.live("curves"))
+    rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    gap, limit = gap_at(state, rows), state.rows.limit.data[rows]
+    for i in np.flatnonzero(gap > limit).tolist():
+        text = (
+            f"its curves pass {1e3 * gap[i]:.2f} mm apart, over the limit of "
+            f"{1e3 * limit[i]:.2f} mm: pull here, or place a point on the curve of higher rank"
+        )
+        yield row_finding(state, book, int(rows[i]), "gap", text, float(gap[i]))
+
+
+def _rings(state: HullState, _: AddressBook) -> Iterator[Finding]:
+    """Driven links that run in a ring."""
+    try:
+        build_index(state)
+    except RingError as error:
+        yield Finding("ring", error.path[0], None, float(len(error.path) - 1), str(error))
+
+
+_LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
+    _broken,
+    find_shape,
+    _gaps,
+    find_links,
+    _rings,
+)

@@ -1,0 +1,189 @@
+"""Why an object is as it is: the edit, the objects through which it came, and where it stopped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import Step
+from assoc_hull.graph.explain import Trace, Tracer
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.state import HullState
+
+__all__ = ["Why", "why"]
+
+_MADE = "as it was made: no edit has reached it"
+_SET = "set by the edit"
+_RECIPE = "its points, kinds or end conditions were changed by the edit"
+_FOLLOWED = "followed"
+_CUT_OFF = "evaluated again, and came out with the same bits: nothing was told to its readers"
+_BLOCKED = "not evaluated: something it is made from has failed"
+_FAILED = "could not be made: it keeps its last good shape"
+
+
+@attrs.frozen
+class Why:
+    """The causes of the last change of one object, a tree.
+
+    Attributes
+    ----------
+    object, name : str
+        Key and address of the object.
+    edit : str or None
+        Name of the edit; None if none has reached the object.
+    step : int
+        Number of the edit in the history, from 1; 0 if none.
+    moved : float or None, m
+        By how much the object changed; None where the edit itself set it, or nothing is
+        known.
+    what : str
+        What happened to it.
+    causes : tuple of Why
+        The objects whose change made this one be evaluated, the one that moved most first.
+    stopped : tuple of str
+        Where it stopped: objects made from this one that came out as they were.
+    """
+
+    object: str
+    name: str
+    edit: str | None
+    step: int
+    moved: float | None
+    what: str
+    causes: tuple[Why, ...] = ()
+    stopped: tuple[str, ...] = ()
+
+    def chain(self) -> list[str]:
+        """Give the keys from the object back to the edit, by the causes that moved most."""
+        found = [self.object]
+        link = self
+        while link.causes:
+            link = link.causes[0]
+            found.append(link.object)
+        return found
+
+    def __str__(self) -> str:
+        head = [] if self.edit is None else [f"edit {self.step}, {self.edit!r}:"]
+        return "\n".join([*head, *self._lines(0, set())])
+
+    def _lines(self, depth: int, told: set[str]) -> Iterator[str]:
+        indent = "  " * depth
+        amount = "" if self.moved is None else f" by {1e3 * self.moved:.3f} mm"
+        again = self.object in told and bool(self.causes)
+        yield f"{indent}{self.name}: {self.what}{amount}" + (" (see above)" if again else "")
+        if again:
+            return
+        told.add(self.object)
+        if self.stopped:
+            yield f"{indent}  stopped at {', '.join(self.stopped)}: same bits as before"
+        for cause in self.causes:
+            yield from cause._lines(depth + 1, told)
+
+
+def why(document: Document, node: int) -> Why:
+    """Explain the last change of a node.
+
+    Parameters
+    ----------
+    document : Document
+        The hull with its history.
+    node : int
+        Twice the row of a point, or twice the number of a curve and one.
+
+    Returns
+    -------
+    Why
+        The last committed edit that changed or evaluated the node, and the causes back to
+        what the designer set. A watched crossing has no value of its own: its causes are
+        its curves.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.document import Document
+    >>> from assoc_hull.edit.explain import why
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> print(why(Document(wigley()), 0))
+    ST 1 x profile: as it was made: no edit has reached it
+    """
+    book = AddressBook(document.state)
+    if _is_watched(document.state, node):
+        return _watched(document, book, node)
+    for number in range(len(document.history), 0, -1):
+        teller = _Teller(document.state, book, document.history[number - 1], number)
+        if teller.tracer.knows(node):
+            return teller.tell(teller.tracer.trace(node))
+    return Why(_key(document.state, node), _name(book, node), None, 0, None, _still(document, node))
+
+
+def _is_watched(state: HullState, node: int) -> bool:
+    if node & 1:
+        return False
+    row = node >> 1
+    crossing = state.rows.sort.data[row] == Sort.CROSSING
+    return bool(crossing and state.rows.role.data[row] == Role.WATCHED)
+
+
+def _watched(document: Document, book: AddressBook, node: int) -> Why:
+    curves = document.state.rows.curve.data[node >> 1].tolist()
+    causes = [why(document, 2 * curve + 1) for curve in curves]
+    causes.sort(key=lambda each: -each.step)
+    last = causes[0]
+    return Why(
+        _key(document.state, node), _name(book, node), last.edit, last.step, None,
+        "watched, it lies where its curves pass", tuple(causes),
+    )  # fmt: skip
+
+
+def _key(state: HullState, node: int) -> str:
+    table = state.curves if node & 1 else state.rows
+    return str(table.key.data[node >> 1])
+
+
+def _name(book: AddressBook, node: int) -> str:
+    if node & 1:
+        return book.curve_name(node >> 1)
+    if not book.state.rows.alive.data[node >> 1]:
+        return _key(book.state, node)
+    return book.address(node >> 1)
+
+
+def _still(document: Document, node: int) -> str:
+    return {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}.get(_state(document.state, node), _MADE)
+
+
+def _state(state: HullState, node: int) -> State:
+    table = state.curves if node & 1 else state.rows
+    return State(int(table.state.data[node >> 1]))
+
+
+class _Teller:
+    """Puts the traces of one step into names."""
+
+    def __init__(self, state: HullState, book: AddressBook, step: Step, number: int) -> None:
+        self.state, self.book, self.step, self.number = state, book, step, number
+        self.tracer = Tracer(step.cause, step.changed, step.moved, step.seeds)
+        self._done: dict[int, Why] = {}
+
+    def tell(self, trace: Trace) -> Why:
+        """Put a trace into names."""
+        node = trace.node
+        if node not in self._done:
+            self._done[node] = Why(
+                _key(self.state, node), _name(self.book, node), self.step.name, self.number,
+                None if np.isnan(trace.moved) else trace.moved, self._what(trace),
+                tuple(self.tell(each) for each in trace.causes),
+                tuple(_name(self.book, each) for each in self.tracer.cut_off(node)),
+            )  # fmt: skip
+        return self._done[node]
+
+    def _what(self, trace: Trace) -> str:
+        if trace.seed:
+            return _SET
+        if trace.node not in self.tracer.moved:
+            halted = {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}
+            return halted.get(_state(self.state, trace.node), _CUT_OFF)
+        return _FOLLOWED if trace.causes else _RECIPE

@@ -1,0 +1,226 @@
+"""Field edits: a displacement normal to the hull that fades along the length and the girth.
+
+Every point in reach moves along its own freedom by the shortest way that gives the normal
+displacement d: with n the outward normal and U the orthonormal basis of the freedom,
+
+    delta = U U^T n d / |U^T n|^2.
+
+Shared crossings and adopted points move. Driven ones are computed from their driver,
+watched ones have no value, placed points stay; a flat is moved as a feature, never dented,
+and ends on the profile move with the profile only. Re-shaping a curve and letting only its
+shared crossings follow was measured to leave up to 80 % of the edit as gaps elsewhere.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.normals import free_normals, hull_normals
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.spline import sample
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.family import BoundaryKind, Role, Sort
+from assoc_hull.model.state import HullState
+
+__all__ = [
+    "Field", "FieldContext", "Shift", "add_shifts", "bell", "context", "land", "move_normal",
+    "row_spacing", "sub_steps",
+]  # fmt: skip
+
+BoolArray = np.typing.NDArray[np.bool_]
+
+
+def bell(part: FloatArray) -> FloatArray:
+    """Give 1 - (10 s^3 - 15 s^4 + 6 s^5) for s below 1, else 0: a fade with flat ends.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.edit.field import bell
+    >>> bell(np.array([0.0, 0.5, 1.0, 2.0])).tolist()
+    [1.0, 0.5, 0.0, 0.0]
+    """
+    s = np.minimum(np.abs(part), 1.0)
+    value: FloatArray = 1.0 - s * s * s * (10.0 - s * (15.0 - 6.0 * s))
+    return np.where(s < 1.0, value, 0.0)
+
+
+@attrs.frozen(eq=False)
+class FieldContext:
+    """What all fields of one (sub-)step read.
+
+    Attributes
+    ----------
+    state : HullState
+        The tables as they stand.
+    normal : (rows, 3)
+        Unit outward normals.
+    free : (k,) int
+        Points that fields may move.
+    flat_distance : (k,), m
+        Distance of each of these from the nearest border of a flat; inf if there is none.
+    """
+
+    state: HullState
+    normal: FloatArray
+    free: IntArray
+    flat_distance: FloatArray
+
+
+@attrs.frozen(eq=False)
+class Shift:
+    """Points with their displacements.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The points.
+    delta : (k, 3), m
+        Displacements, each along the point's freedom.
+    left : (l,) int
+        Points in reach that were left alone: their freedom is almost tangential.
+    """
+
+    rows: IntArray
+    delta: FloatArray
+    left: IntArray
+
+
+class Field(Protocol):
+    """A displacement of the hull."""
+
+    across_flats: bool
+
+    def shift(self, ground: FieldContext, part: float) -> Shift:
+        """Give the displacements for a part (of 1) of the whole field."""
+
+    def exact(self) -> tuple[IntArray, FloatArray]:
+        """Give points that must land in given places, to the bit, and the places."""
+
+
+def context(state: HullState, *, across_flats: bool = False) -> FieldContext:
+    """Find the points that fields may move."""
+    table = state.rows
+    shared = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.SHARED)
+    free = table.alive.data & (shared | (table.sort.data == Sort.ADOPTED))
+    free &= ~_on_profile(state)
+    if not across_flats:
+        free &= ~_on_flat(state)
+    rows = np.flatnonzero(free)
+    return FieldContext(state, hull_normals(state), rows, _flat_distance(state, rows))
+
+
+def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
+    found: IntArray = np.flatnonzero(state.lines.alive.data & (state.lines.boundary.data == kind))
+    return found
+
+
+def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
+    """Tell which points lie on curves of the given lines."""
+    curve = state.rows.curve.data
+    line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
+    found: BoolArray = np.isin(line, lines).any(axis=1)
+    return found
+
+
+def _on_profile(state: HullState) -> BoolArray:
+    """Tell which points lie on an END boundary in the centre plane."""
+    ends = _boundary_lines(state, BoundaryKind.END)
+    centre = np.abs(state.lines.normal.data[ends, 1]) == 1.0
+    return _of_lines(state, ends[state.lines.planar.data[ends] & centre])
+
+
+def _on_flat(state: HullState) -> BoolArray:
+    """Tell which points lie in a flat or on its border."""
+    flats = _boundary_lines(state, BoundaryKind.FLAT)
+    found = _of_lines(state, flats)
+    for line in flats.tolist():
+        if state.lines.planar.data[line]:
+            off = state.rows.xyz.data @ state.lines.normal.data[line] - state.lines.offset.data[line]
+            found |= np.abs(off) < 1e-9
+    return found
+
+
+def _flat_distance(state: HullState, rows: IntArray) -> FloatArray:
+    """Measure how far points lie from the borders of flats."""
+    distance = np.full(len(rows), np.inf)
+    for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
+        for curve in state.lines.curves.data[line]:
+            border = sample(state.spline(curve), 4)[1]
+            step = state.rows.xyz.data[rows][:, None, :] - border[None, :, :]
+            nearest = np.sqrt((step * step).sum(axis=2)).min(axis=1)
+            distance = np.minimum(distance, nearest)
+    return distance
+
+
+def move_normal(ground: FieldContext, rows: IntArray, amount: FloatArray) -> Shift:
+    """Move points by the shortest way along their freedom that gives a normal displacement.
+
+    Parameters
+    ----------
+    ground : FieldContext
+        Normals.
+    rows : (k,) int
+        The points.
+    amount : (k,), m
+        Displacement along the outward normal.
+    """
+    normal = ground.normal[rows]
+    along = free_normals(ground.state, rows, normal)
+    square = (along * along).sum(axis=1)
+    good = np.sqrt(square) >= ground.state.tolerances.field_normal
+    delta = along * (amount / np.where(good, square, 1.0))[:, None]
+    moved = good & (amount != 0.0)
+    return Shift(rows[moved], delta[moved], rows[~good & (amount != 0.0)])
+
+
+def row_spacing(state: HullState, place: FloatArray) -> float:
+    """Give the median distance, seen along x, of the nearest points from a place, m."""
+    rows = state.live("rows")
+    step = state.rows.xyz.data[rows] - place
+    near = rows[np.argsort((step * step).sum(axis=1), kind="stable")[:24]]
+    curves = np.unique(state.rows.curve.data[near].ravel())
+    gaps: list[float] = []
+    for curve in curves[curves >= 0].tolist():
+        spline: SplineBatch = state.spline(curve)
+        chord = np.diff(spline.xyz[:, 1:], axis=0)
+        length = np.sqrt((chord * chord).sum(axis=1))
+        at = int(np.argmin(((spline.xyz - place) ** 2).sum(axis=1)))
+        gaps += length[max(at - 1, 0) : at + 1].tolist()
+    positive = [gap for gap in gaps if gap > 1e-6]
+    return float(np.median(positive)) if positive else 1.0
+
+
+def add_shifts(shifts: list[Shift], pinned: set[int]) -> Shift:
+    """Add up displacements per point; points that the edit sets itself stay out.
+
+    Summed in the order in which the fields were asked for, so the bits do not depend on
+    anything else.
+    """
+    rows = np.unique(np.concatenate([shift.rows for shift in shifts]))
+    rows = rows[~np.isin(rows, sorted(pinned))]
+    total = np.zeros((len(rows), 3))
+    for shift in shifts:
+        mine = np.isin(shift.rows, rows)
+        total[np.searchsorted(rows, shift.rows[mine])] += shift.delta[mine]
+    return Shift(rows, total, np.unique(np.concatenate([shift.left for shift in shifts])))
+
+
+def land(state: HullState, journal: Journal, fields: list[Field]) -> None:
+    """Put the points that must land in given places there, to the bit."""
+    if len(fields) != 1:
+        return
+    rows, places = fields[0].exact()
+    journal.put(state.rows.xyz, rows, places)
+
+
+def sub_steps(state: HullState, shift: Shift) -> int:
+    """Say in how many steps a field is run: while a step exceeds 0.1 m, it is halved."""
+    largest = float(np.sqrt((shift.delta * shift.delta).sum(axis=1)).max(initial=0.0))
+    steps = 1
+    while largest / steps > state.tolerances.substep:
+        steps *= 2
+    return steps

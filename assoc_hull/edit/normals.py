@@ -1,0 +1,121 @@
+"""The outward normal of the hull at every point of the net, and how far points are free."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.family import Sort
+from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.model.state import HullState
+
+__all__ = ["free_normals", "hull_normals"]
+
+
+def hull_normals(state: HullState) -> FloatArray:
+    """Give the unit outward normal at every point, (rows, 3); nil where it is not known.
+
+    At a crossing it is the cross product of the two tangents; at points that have one curve
+    only it is interpolated along that curve between its crossings.
+    """
+    table = state.rows
+    tangent = _tangents(state)
+    crossing = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
+    normal = np.zeros((table.count, 3))
+    normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
+    normal = _outward(state, normal)
+    for curve in state.live("curves").tolist():
+        _interpolate(state, curve, normal)
+    return normal
+
+
+def _tangents(state: HullState) -> FloatArray:
+    """Give the unit tangents of both curves at every point, (rows, 2, 3)."""
+    table = state.rows
+    found = np.zeros((table.count, 2, 3))
+    known = np.zeros((table.count, 2), bool)
+    for curve in state.live("curves").tolist():
+        spline, rows = state.spline(curve), state.curves.rows.data[curve]
+        slope = spline.leave + spline.arrive
+        slope[0], slope[-1] = spline.leave[0], spline.arrive[-1]
+        length = np.sqrt((slope * slope).sum(axis=1))
+        side = state.curves.side.data[curve]
+        found[rows, side] = slope / np.where(length > 0.0, length, 1.0)[:, None]
+        known[rows, side] = True
+    for side in (0, 1):
+        missing = table.alive.data & ~known[:, side] & np.isfinite(table.parameter.data[:, side])
+        rows = np.flatnonzero(missing & (table.curve.data[:, side] >= 0))
+        found[rows, side] = tangents(
+            state, table.curve.data[rows, side], table.parameter.data[rows, side]
+        )
+    return found
+
+
+def _outward(state: HullState, normal: FloatArray) -> FloatArray:
+    """Turn normals away from the line of the deck in the centre plane."""
+    xyz = state.rows.xyz.data
+    top = max(state.particulars.depth, float(xyz[state.live("rows"), 2].max(initial=0.0)))
+    away = normal[:, 1] * xyz[:, 1] + normal[:, 2] * (xyz[:, 2] - top)
+    return np.where((away < 0.0)[:, None], -normal, normal)
+
+
+def _interpolate(state: HullState, curve: int, normal: FloatArray) -> None:
+    """Fill in the normals at a curve's own points, from those at its crossings."""
+    rows: IntArray = state.curves.rows.data[curve]
+    knots = state.spline(curve).knot
+    own = state.rows.sort.data[rows] != Sort.CROSSING
+    meets = state.curves.meets.data[curve]
+    met = meets.row >= 0
+    at = np.concatenate([knots[~own], meets.parameter[met]])
+    values = normal[np.concatenate([rows[~own], meets.row[met]])]
+    good = (values != 0.0).any(axis=1)
+    if not own.any() or not good.any():
+        return
+    order = np.argsort(at[good], kind="stable")
+    at, values = at[good][order], values[good][order]
+    blend = np.column_stack([np.interp(knots[own], at, values[:, i]) for i in range(3)])
+    length = np.sqrt((blend * blend).sum(axis=1))
+    normal[rows[own]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
+
+
+@attrs.frozen(eq=False)
+class _Planes:
+    normal: FloatArray
+    planar: np.typing.NDArray[np.bool_]
+
+
+def free_normals(state: HullState, rows: IntArray, normal: FloatArray) -> FloatArray:
+    """Project normals on the freedom of points: U U^T n.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    rows : (k,) int
+        The points.
+    normal : (k, 3)
+        A normal each.
+
+    Returns
+    -------
+    (k, 3)
+        Along the line where two planes meet, or in the one plane a point must stay in.
+    """
+    free = np.array(normal)
+    first, second = (_plane(state, rows, side) for side in (0, 1))
+    both = first.planar & second.planar
+    along = crossing_normals(first.normal, second.normal)
+    free = np.where(both[:, None], (normal * along).sum(axis=1)[:, None] * along, free)
+    for side in (first, second):
+        one = side.planar & ~both
+        off = (free * side.normal).sum(axis=1)[:, None] * side.normal
+        free = np.where(one[:, None], free - off, free)
+    return free
+
+
+def _plane(state: HullState, rows: IntArray, side: int) -> _Planes:
+    curve = state.rows.curve.data[rows, side]
+    line = state.curves.line.data[np.maximum(curve, 0)]
+    planar = (curve >= 0) & state.lines.planar.data[line]
+    return _Planes(np.where(planar[:, None], state.lines.normal.data[line], 0.0), planar)

@@ -1,0 +1,256 @@
+"""The canonical text of a hull, `.hull.json`: the same hull gives the same bytes.
+
+One JSON document, UTF-8. Every group, line, curve and point stands on a line of its own,
+sorted by key, so that the difference of two texts shows what an edit changed and no more.
+Floats are written as the shortest decimal that reads back to the same bits.
+
+Top level, in this order::
+
+    format       "assoc-hull"
+    schema       version of this form, a whole number; this module reads and writes 1
+    fingerprint  SHA-256 of definition and published values
+    definition   see `assoc_hull.model.definition.definition`
+    published    see `assoc_hull.model.definition.published`
+
+Opening puts the stored values back and compares the fingerprint; nothing is recomputed.
+
+Examples
+--------
+>>> from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
+>>> from assoc_hull.model.state import HullState, Particulars
+>>> text = dumps_hull_json(HullState(Particulars("S", 9.0, 2.0, 1.0, 1.0)))
+>>> dumps_hull_json(read_hull_json(text)) == text
+True
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.model.definition import definition, fingerprint, published
+from assoc_hull.model.restore import from_definition
+from assoc_hull.model.state import HullState
+
+__all__ = ["SCHEMA", "dumps_hull_json", "read_hull_json", "write_hull_json"]
+
+SCHEMA = 1
+"""Version of the form that is written and read."""
+
+_FORMAT = "assoc-hull"
+_KEYS = ("format", "schema", "fingerprint", "definition", "published")
+_AGAIN = "take the file from where it was written, or write it anew"
+
+
+def dumps_hull_json(state: HullState) -> str:
+    """Give the canonical text of a hull; it ends with a newline.
+
+    Raises
+    ------
+    BadInputError
+        If the hull holds a number that is not finite.
+    """
+    document = {
+        "format": _FORMAT,
+        "schema": SCHEMA,
+        "fingerprint": fingerprint(state),
+        "definition": definition(state),
+        "published": published(state),
+    }
+    try:
+        return "".join(_lines(document, 0, 2)) + "\n"
+    except ValueError as error:
+        raise BadInputError(
+            "a number is not finite", f"in the hull {state.particulars.name!r}", "verify the hull"
+        ) from error
+
+
+def _lines(value: object, depth: int, opened: int) -> Iterator[str]:
+    """Lay out a value: containers are opened to lines down to a depth, then stay on one."""
+    pad = "\n" + " " * (depth + 1)
+    if isinstance(value, Mapping) and depth < opened:
+        for index, (key, item) in enumerate(value.items()):
+            inner = opened + 1 if key in ("curves", "points") and depth == 1 else opened
+            yield f"{',' if index else '{'}{pad}{_compact(key)}: "
+            yield from _lines(item, depth + 1, inner)
+        yield "\n" + " " * depth + "}" if value else "{}"
+    elif isinstance(value, list) and depth <= opened and any(map(_large, value)):
+        for index, item in enumerate(value):
+            yield f"{',' if index else '['}{pad}{_compact(item)}"
+        yield "\n" + " " * depth + "]"
+    else:
+        yield _compact(value)
+
+
+def _large(value: object) -> bool:
+    return isinstance(value, (dict, list))
+
+
+def _compact(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(", ", ": "))
+
+
+def write_hull_json(state: HullState, path: str | os.PathLike[str]) -> None:
+    """Write the canonical text of a hull; the file is replaced whole or not at all.
+
+    Parameters
+    ----------
+    state : HullState
+        The hull.
+    path : path
+        The file; its folder must exist.
+
+    Raises
+    ------
+    BadInputError
+        If the file cannot be written, or the hull holds a number that is not finite.
+    """
+    target = Path(path)
+    data = dumps_hull_json(state).encode()
+    if target.is_dir():
+        raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
+    try:
+        _replace(target, data)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise BadInputError(
+            f"the file cannot be written ({reason})",
+            f"at {target}",
+            "give a place you may write to",
+        ) from error
+
+
+def _replace(target: Path, data: bytes) -> None:
+    """Write beside the target, bring it to the disk, then take the target's place."""
+    handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, _mode(target))
+        os.replace(name, target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(name)
+        raise
+
+
+def _mode(target: Path) -> int:
+    """Give the permissions of the file that is there, or those of a new one."""
+    with contextlib.suppress(OSError):
+        return target.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
+def read_hull_json(source: str | os.PathLike[str]) -> HullState:
+    """Read a hull back; nothing is recomputed, and the fingerprint must agree.
+
+    Parameters
+    ----------
+    source : path or str
+        A file, or the text itself: a string that begins with a brace.
+
+    Returns
+    -------
+    HullState
+
+    Raises
+    ------
+    BadInputError
+        With file, place, what is wrong and the remedy.
+    """
+    if isinstance(source, str) and source.lstrip()[:1] == "{":
+        return _read(source, "the text")
+    path = Path(source)
+    return _read(_text(path), str(path))
+
+
+def _text(path: Path) -> str:
+    """Read a file as text."""
+    if path.is_dir():
+        raise BadInputError("this is a folder", f"at {path}", "give the name of a .hull.json file")
+    try:
+        return path.read_bytes().decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise BadInputError(
+            f"byte {error.start} is no UTF-8 text", f"in {path}", "give a .hull.json file"
+        ) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise BadInputError(
+            f"the file cannot be read ({reason})", f"at {path}", "check name and permissions"
+        ) from error
+
+
+def _read(text: str, name: str) -> HullState:
+    document = _parse(text, name)
+    _check_head(document, name)
+    try:
+        state = from_definition(document["definition"], document["published"])
+    except BadInputError as error:
+        raise BadInputError(error.what, f"{error.where} of {name}", error.remedy) from error
+    except AssocHullError as error:
+        raise BadInputError(str(error), f"in {name}", _AGAIN) from error
+    found = fingerprint(state)
+    if found != document["fingerprint"]:
+        raise BadInputError(
+            f"the content has the fingerprint {found[:12]}, the file says "
+            f"{str(document['fingerprint'])[:12]}",
+            f"in {name}, at 'fingerprint'",
+            "it was changed after it was written: " + _AGAIN,
+        )
+    return state
+
+
+def _parse(text: str, name: str) -> dict[str, Any]:
+    try:
+        found = json.loads(text, object_pairs_hook=_unique, parse_constant=_not_finite)
+    except json.JSONDecodeError as error:
+        where = f"in {name}, line {error.lineno}, column {error.colno}"
+        raise BadInputError(f"this is no JSON ({error.msg})", where, _AGAIN) from error
+    except (ValueError, RecursionError) as error:
+        raise BadInputError(f"this is no hull ({error})", f"in {name}", _AGAIN) from error
+    if not isinstance(found, dict):
+        raise BadInputError("this is no JSON object", f"in {name}", "give a .hull.json file")
+    return found
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"the key {twice!r} stands there twice")
+    return found
+
+
+def _not_finite(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no finite number")
+
+
+def _check_head(document: dict[str, Any], name: str) -> None:
+    """Check format, version and the keys of the top level."""
+    if document.get("format") != _FORMAT:
+        raise BadInputError(
+            f"'format' is {document.get('format')!r}, not {_FORMAT!r}", f"in {name}", _AGAIN
+        )
+    schema = document.get("schema")
+    if type(schema) is not int or schema != SCHEMA:
+        raise BadInputError(
+            f"'schema' is {schema!r}, and this version reads {SCHEMA}",
+            f"in {name}",
+            "open it with the version of assoc-hull that wrote it",
+        )
+    for key in (*_KEYS, *document):
+        if key not in document or key not in _KEYS:
+            state = "missing" if key in _KEYS else "unknown"
+            raise BadInputError(f"the key {key!r} is {state}", f"in {name}", _AGAIN)
