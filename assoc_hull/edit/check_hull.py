@@ -30,8 +30,8 @@ def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, .
     source : Document or HullState
         The hull.
     notes : bool
-        Whether to tell also what is not wrong: crossings whose role the role rule would
-        choose otherwise today.
+        Whether to tell also what is not wrong: crossings that define a curve and that the
+        role rule would not choose any more.
 
     Returns
     -------

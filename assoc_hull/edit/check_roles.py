@@ -1,8 +1,9 @@
-"""Notes on roles: crossings for which the role rule would choose otherwise today.
+"""Notes on roles: crossings that define a curve and that the role rule would not choose today.
 
-An edit of shape never changes a role. So after many edits a crossing may have one that the
-rule would not give it any more; it is noted only with 3 degrees or a fifth of the spacing to
-spare.
+An edit of shape never changes a role. So after many edits a crossing may define a curve
+that it now crosses too flatly, or too near to another one; it is noted only with 3 degrees
+or a fifth of the spacing to spare. The other way round says nothing: a crossing that could
+define a curve may have been left out because the curve would have moved.
 """
 
 from __future__ import annotations
@@ -13,12 +14,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.finding import Finding, row_finding
-from assoc_hull.edit.topology import generates
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.place import OnCurve, points_on
-from assoc_hull.model.roles import Candidates, choose, role_of
+from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import HullState
 from assoc_hull.tolerance import Tolerances
 
@@ -29,7 +29,7 @@ _PART = 0.2
 
 
 def find_roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Give a note for each crossing whose role the rule would no longer choose.
+    """Give a note for each curve and crossing that should not define it any more.
 
     Examples
     --------
@@ -45,18 +45,13 @@ def find_roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
     free = (state.rows.sort.data[rows] == Sort.CROSSING) & ~state.rows.contact.data[rows]
     free &= state.rows.override.data[rows] < 0
     for row in rows[free].tolist():
-        a, b = state.rows.curve.data[row].tolist()
-        links = generates(state, state.line_of(a), state.line_of(b))
-        role = Role(int(state.rows.role.data[row]))
-        ways = {
-            role_of(first, second, links)
-            for first in may.get((row, a), {False, True})
-            for second in may.get((row, b), {False, True})
-        }
-        if role not in ways:
-            wanted = " or ".join(sorted(each.text for each in ways))
-            text = f"is {role.text}; by the role rule it would now be {wanted}"
-            yield row_finding(state, book, row, "role", text)
+        for curve in state.rows.reader.data[row].tolist():
+            if may.get((row, curve)) == {False}:
+                text = (
+                    f"defines {book.curve_name(curve)}, and the role rule would not choose it "
+                    "any more: renew the roles of its lines if the curve looks pinched"
+                )
+                yield row_finding(state, book, row, "role", text)
 
 
 def _may_define(state: HullState) -> dict[tuple[int, int], set[bool]]:

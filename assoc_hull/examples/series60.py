@@ -18,6 +18,7 @@ from assoc_hull.examples.series60_table import todd_table
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.offset_net import Completion, net_from_offsets
 from assoc_hull.model.state import HullState
+from assoc_hull.tolerance import Tolerances
 
 __all__ = ["series60", "series60_adopted"]
 
@@ -62,7 +63,7 @@ def series60_adopted(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
     profile, kinds = centre_profile(table)
     side = _widening(np.array(flat_of_side(table).border))
     completion = Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)
-    return net_from_offsets(table, completion)
+    return net_from_offsets(table, completion, tolerances=_TOLERANCES)
 
 
 def series60(cb: float = 0.70) -> HullState:
@@ -108,6 +109,10 @@ def _widening(border: FloatArray) -> FloatArray:
         border[i, 0] = max(border[i, 0], border[i - 1, 0] + _WIDENS)
     return border
 
+
+_TOLERANCES = Tolerances(spacing=0.35, turn_spacing=0.3)
+"""Three lines of this dense net often pass near one place; an edit of centimetres then lets
+driven crossings slide by decimetres along a buttock, so they must not stand too close."""
 
 _KEEP = 0.6e-3
 """How far (m) one crossing of a line that is cut may move a line that was there."""

@@ -64,11 +64,19 @@ def dumps_hull_json(state: HullState) -> str:
         "published": published(state),
     }
     try:
-        return "".join(_lines(document, 0, 2)) + "\n"
+        text = "".join(_lines(document, 0, 2)) + "\n"
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise BadInputError(
+            f"a name holds {error.object[error.start]!r}, which is no character",
+            f"in the hull {state.particulars.name!r}",
+            "choose another name",
+        ) from error
     except ValueError as error:
         raise BadInputError(
             "a number is not finite", f"in the hull {state.particulars.name!r}", "verify the hull"
         ) from error
+    return text
 
 
 def _lines(value: object, depth: int, opened: int) -> Iterator[str]:
@@ -111,7 +119,7 @@ def write_hull_json(state: HullState, path: str | os.PathLike[str]) -> None:
     BadInputError
         If the file cannot be written, or the hull holds a number that is not finite.
     """
-    target = Path(path)
+    target = Path(os.path.realpath(path))
     data = dumps_hull_json(state).encode()
     if target.is_dir():
         raise BadInputError("this is a folder", f"at {target}", "give the name of a file")

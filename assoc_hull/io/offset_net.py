@@ -14,6 +14,7 @@ from assoc_hull.io.offset_table import OffsetTable
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
+from assoc_hull.tolerance import Tolerances
 
 __all__ = ["ASSOCIATIONS", "Completion", "net_from_offsets"]
 
@@ -55,7 +56,10 @@ class Completion:
 
 
 def net_from_offsets(
-    table: OffsetTable, completion: Completion, particulars: Particulars | None = None
+    table: OffsetTable,
+    completion: Completion,
+    particulars: Particulars | None = None,
+    tolerances: Tolerances | None = None,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets as a net of sections, waterlines and boundary curves.
 
@@ -70,6 +74,8 @@ def net_from_offsets(
         Profile, ends and flats.
     particulars : Particulars or None
         From the table if None.
+    tolerances : Tolerances or None
+        Defaults if None.
 
     Returns
     -------
@@ -92,7 +98,7 @@ def net_from_offsets(
     sources = _boundaries(table, completion, flats)
     sources += [_section(table, completion, flats, i) for i in range(len(table.x))]
     sources += [_waterline(table, completion, flats, j) for j in range(1, len(table.z) - 1)]
-    return adopt(sources, ship, ASSOCIATIONS)
+    return adopt(sources, ship, ASSOCIATIONS, tolerances)
 
 
 class _Flats:

@@ -84,22 +84,30 @@ def definition(state: HullState) -> dict[str, object]:
     """
     order = places(state)
     return {
-        "particulars": attrs.asdict(state.particulars),
-        "tolerances": attrs.asdict(state.tolerances),
+        "particulars": _plain(state.particulars),
+        "tolerances": _plain(state.tolerances),
         "groups": [
             {"name": state.groups.name.data[i], "family": state.groups.family.data[i]}
             for i in order.groups.tolist()
         ],
-        "associations": [
-            attrs.asdict(link)
-            for link in sorted(state.associations, key=lambda each: (each.a, each.b))
-        ],
+        "associations": _links(state),
         "lines": list(_line_records(line_columns(state, order))),
         "curves": list(_curve_records(state, order)),
         "points": list(_point_records(state, order)),
         "births": _births(state),
         "retired": retired(state),
     }
+
+
+def _plain(fields: attrs.AttrsInstance) -> Record:
+    """Give the fields of a class of numbers and names; whole numbers become floats."""
+    values = attrs.asdict(fields)
+    return {name: v if isinstance(v, str) else float(v) for name, v in values.items()}
+
+
+def _links(state: HullState) -> list[Record]:
+    found = sorted((link.a, link.b, bool(link.two_way)) for link in state.associations)
+    return [{"a": a, "b": b, "two_way": two_way} for a, b, two_way in found]
 
 
 def _births(state: HullState) -> list[list[object]]:
@@ -289,7 +297,7 @@ def fingerprint(state: HullState) -> str:
         "spline": spline_columns(state, order),
     }
     for part in (state.particulars, state.tolerances):
-        fields = attrs.asdict(part)
+        fields = _plain(part)
         texts = [value for value in fields.values() if isinstance(value, str)]
         numbers = [value for value in fields.values() if not isinstance(value, str)]
         digest.update(_bytes(",".join(fields), texts) + _bytes("", np.array(numbers, np.float64)))
@@ -305,8 +313,7 @@ def _settings(state: HullState, order: Places) -> list[object]:
     names = [
         (state.groups.name.data[i], state.groups.family.data[i]) for i in order.groups.tolist()
     ]
-    links = sorted((link.a, link.b, link.two_way) for link in state.associations)
-    return [names, links, _births(state), retired(state)]
+    return [names, _links(state), _births(state), retired(state)]
 
 
 def _bytes(name: str, column: Column) -> bytes:

@@ -1,0 +1,207 @@
+"""A hull as a graph for people and tools: objects and links, and who drives whom.
+
+An exported view. Choi & Lee, "A Study on the Hull Form Design System on the Basis of the
+Associative Geometry Objects", J. SNAK 36(4), 1999, name the links: container, parent,
+friend, and the objects a curve touches, actually or latently.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.place import defines, generates_on, latent_curves
+from assoc_hull.model.state import HullState
+
+if TYPE_CHECKING:
+    import networkx
+
+__all__ = ["dependencies", "graph", "point_id"]
+
+
+def point_id(state: HullState, row: int, side: int) -> str:
+    """Name the node of a point on one of its curves: its key, and the curve it lies on."""
+    key = str(state.rows.key.data[row])
+    if state.rows.sort.data[row] != Sort.CROSSING:
+        return key
+    return f"{key} on {state.curves.key.data[int(state.rows.curve.data[row, side])]}"
+
+
+def graph(state: HullState) -> networkx.MultiDiGraph[str]:
+    """Give all objects and links of a hull.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+        Nodes are keys, with ``kind`` (group, line, curve, point), ``name``, and for curves
+        and points ``state``, ``revision`` and ``role``. Edges have a ``kind``:
+
+        - ``membership``: from a line to its group, from a curve to its line;
+        - ``container``: from a point to the curve it lies on;
+        - ``parent``: from a point to the curve that generated it;
+        - ``friend``: between the two points of a crossing, both ways;
+        - ``touch actual``: from a curve to a point it has generated on another;
+        - ``touch latent``: from a curve to one it may come to meet;
+        - ``association``: from a group to one on which it generates.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.model.view import graph
+    >>> found = graph(wigley())
+    >>> found.nodes["sections:35.000000"]["name"]
+    'ST 7'
+    """
+    import networkx
+
+    found: networkx.MultiDiGraph[str] = networkx.MultiDiGraph()
+    book = AddressBook(state)
+    _add_groups(found, state)
+    _add_lines(found, state, book)
+    _add_curves(found, state, book)
+    _add_points(found, state, book)
+    _add_links(found, state)
+    return found
+
+
+def _add_groups(found: networkx.MultiDiGraph[str], state: HullState) -> None:
+    names = state.groups.name.data
+    for group in state.live("groups").tolist():
+        family = state.groups.family.data[group]
+        found.add_node(names[group], kind="group", name=names[group], family=family)
+    for group in state.live("groups").tolist():
+        for other in generates_on(state, group).tolist():
+            found.add_edge(names[group], names[other], kind="association")
+
+
+def _add_lines(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
+    for line in state.live("lines").tolist():
+        key, group = state.lines.key.data[line], int(state.lines.group.data[line])
+        found.add_node(key, kind="line", name=book.line_name(line))
+        found.add_edge(key, state.groups.name.data[group], kind="membership")
+
+
+def _add_curves(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
+    keys = state.curves.key.data
+    for curve in state.live("curves").tolist():
+        found.add_node(
+            keys[curve], kind="curve", name=book.curve_name(curve), role="curve",
+            state=State(int(state.curves.state.data[curve])).name.lower(),
+            revision=state.revision_curve.get(curve, 0),
+        )  # fmt: skip
+        found.add_edge(keys[curve], state.lines.key.data[state.line_of(curve)], kind="membership")
+    for curve in state.live("curves").tolist():
+        for other in latent_curves(state, curve).tolist():
+            found.add_edge(keys[curve], keys[other], kind="touch latent")
+
+
+def _add_points(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
+    for row, side in _points(state):
+        crossing = state.rows.sort.data[row] == Sort.CROSSING
+        found.add_node(
+            point_id(state, row, side), kind="point", name=book.address(row, side),
+            sort=Sort(int(state.rows.sort.data[row])).name.lower(),
+            role="defining" if defines(state, row, side) else "derived",
+            crossing_role=Role(int(state.rows.role.data[row])).text if crossing else "",
+            state=State(int(state.rows.state.data[row])).name.lower(),
+            revision=state.revision_row.get(row, 0),
+        )  # fmt: skip
+
+
+def _points(state: HullState) -> list[tuple[int, int]]:
+    curve = state.rows.curve.data
+    return [
+        (row, side)
+        for row in state.live("rows").tolist()
+        for side in (0, 1)
+        if curve[row, side] >= 0
+    ]
+
+
+def _add_links(found: networkx.MultiDiGraph[str], state: HullState) -> None:
+    keys, curves = state.curves.key.data, state.rows.curve.data
+    groups = state.lines.group.data[state.curves.line.data]
+    reach = {group: set(generates_on(state, group).tolist()) for group in set(groups.tolist())}
+    for row, side in _points(state):
+        here, mine, parent = point_id(state, row, side), curves[row, side], curves[row, 1 - side]
+        found.add_edge(here, keys[mine], kind="container")
+        if parent < 0:
+            continue
+        found.add_edge(here, keys[parent], kind="parent")
+        found.add_edge(here, point_id(state, row, 1 - side), kind="friend")
+        if int(groups[mine]) in reach[int(groups[parent])]:
+            found.add_edge(keys[parent], here, kind="touch actual")
+
+
+def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str]:
+    """Give who drives whom now.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    points : bool
+        Whether to show the points between the curves: what the update really follows.
+
+    Returns
+    -------
+    networkx.DiGraph
+        Edges run from what drives to what is made from it, with a ``kind``: ``drives``
+        between curves, with the keys of the points through which (``through``); or, with
+        points, ``defines`` (a point and a curve made through it), ``gives`` (a curve and a
+        point computed from it), ``carries`` (a point and one that rides with it).
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.model.view import dependencies
+    >>> dependencies(wigley()).number_of_nodes()
+    31
+    """
+    import networkx
+
+    found: networkx.DiGraph[str] = networkx.DiGraph()
+    book = AddressBook(state)
+    for curve in state.live("curves").tolist():
+        name = book.curve_name(curve)
+        found.add_node(state.curves.key.data[curve], kind="curve", name=name)
+    if points:
+        _add_rows(found, state, book)
+    else:
+        _add_drives(found, state)
+    return found
+
+
+def _add_drives(found: networkx.DiGraph[str], state: HullState) -> None:
+    keys, table = state.curves.key.data, state.rows
+    for row in state.live("rows").tolist():
+        driver = int(table.driver.data[row])
+        for reader in table.reader.data[row].tolist():
+            if driver < 0 or reader < 0:
+                continue
+            tail, head = keys[driver], keys[reader]
+            through = found.edges[tail, head]["through"] if found.has_edge(tail, head) else []
+            found.add_edge(tail, head, kind="drives", through=[*through, table.key.data[row]])
+
+
+def _add_rows(found: networkx.DiGraph[str], state: HullState, book: AddressBook) -> None:
+    keys, table = state.curves.key.data, state.rows
+    for row in state.live("rows").tolist():
+        readers = [reader for reader in table.reader.data[row].tolist() if reader >= 0]
+        if not readers:
+            continue
+        key = table.key.data[row]
+        found.add_node(key, kind="point", name=book.address(row))
+        for reader in readers:
+            found.add_edge(key, keys[reader], kind="defines")
+        if table.driver.data[row] >= 0:
+            found.add_edge(keys[int(table.driver.data[row])], key, kind="gives")
+        for anchor in table.anchor.data[row].tolist():
+            if anchor >= 0:
+                found.add_edge(table.key.data[anchor], key, kind="carries")
