@@ -9,12 +9,16 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import Step
+from assoc_hull.errors import BadInputError, ForeignPointError
 from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.state import HullState
 
-__all__ = ["Why", "why"]
+__all__ = ["Thing", "Why", "node_of", "why"]
+
+Thing = Group | Line | Curve | Point | Crossing
 
 _MADE = "as it was made: no edit has reached it"
 _SET = "set by the edit"
@@ -72,7 +76,7 @@ class Why:
 
     def _lines(self, depth: int, told: set[str]) -> Iterator[str]:
         indent = "  " * depth
-        amount = "" if self.moved is None else f" by {1e3 * self.moved:.3f} mm"
+        amount = "" if self.moved is None else f", moved {1e3 * self.moved:.3f} mm"
         again = self.object in told and bool(self.causes)
         yield f"{indent}{self.name}: {self.what}{amount}" + (" (see above)" if again else "")
         if again:
@@ -117,6 +121,41 @@ def why(document: Document, node: int) -> Why:
         if teller.tracer.knows(node):
             return teller.tell(teller.tracer.trace(node))
     return Why(_key(document.state, node), _name(book, node), None, 0, None, _still(document, node))
+
+
+def node_of(state: HullState, thing: Thing | str) -> int:
+    """Give the engine's node of a point, a curve, or the first curve of a line.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    thing : handle or address
+        The object.
+
+    Raises
+    ------
+    ForeignPointError
+        A handle of another hull, or of an object that has gone.
+    BadInputError
+        A group, or a line without curves.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.explain import node_of
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> node_of(wigley(), "ST 1")
+    7
+    """
+    found = handle(state, thing) if isinstance(thing, str) else thing
+    if found.tables is not state:
+        raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
+    number = found.row
+    if isinstance(found, Line) and found.curves:
+        return 2 * found.curves[0].row + 1
+    if isinstance(found, Group | Line):
+        raise BadInputError(f"{found.name!r} is no point or curve", "in why", "name one of them")
+    return 2 * number + isinstance(found, Curve)
 
 
 def _is_watched(state: HullState, node: int) -> bool:

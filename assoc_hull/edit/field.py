@@ -26,7 +26,7 @@ from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "Field", "FieldContext", "Shift", "add_shifts", "bell", "context", "land", "move_normal",
+    "Field", "FieldContext", "Shift", "add_shifts", "bell", "context", "flat_distance", "land", "move_normal", "on_flat", "on_profile",
     "row_spacing", "sub_steps",
 ]  # fmt: skip
 
@@ -106,11 +106,11 @@ def context(state: HullState, *, across_flats: bool = False) -> FieldContext:
     table = state.rows
     shared = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.SHARED)
     free = table.alive.data & (shared | (table.sort.data == Sort.ADOPTED))
-    free &= ~_on_profile(state)
+    free &= ~on_profile(state)
     if not across_flats:
-        free &= ~_on_flat(state)
+        free &= ~on_flat(state)
     rows = np.flatnonzero(free)
-    return FieldContext(state, hull_normals(state), rows, _flat_distance(state, rows))
+    return FieldContext(state, hull_normals(state), rows, flat_distance(state, state.rows.xyz.data[rows]))
 
 
 def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
@@ -126,14 +126,14 @@ def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
     return found
 
 
-def _on_profile(state: HullState) -> BoolArray:
+def on_profile(state: HullState) -> BoolArray:
     """Tell which points lie on an END boundary in the centre plane."""
     ends = _boundary_lines(state, BoundaryKind.END)
     centre = np.abs(state.lines.normal.data[ends, 1]) == 1.0
     return _of_lines(state, ends[state.lines.planar.data[ends] & centre])
 
 
-def _on_flat(state: HullState) -> BoolArray:
+def on_flat(state: HullState) -> BoolArray:
     """Tell which points lie in a flat or on its border."""
     flats = _boundary_lines(state, BoundaryKind.FLAT)
     found = _of_lines(state, flats)
@@ -144,13 +144,13 @@ def _on_flat(state: HullState) -> BoolArray:
     return found
 
 
-def _flat_distance(state: HullState, rows: IntArray) -> FloatArray:
-    """Measure how far points lie from the borders of flats."""
-    distance = np.full(len(rows), np.inf)
+def flat_distance(state: HullState, places: FloatArray) -> FloatArray:
+    """Measure how far places (k, 3) lie from the nearest border of a flat, (k,), m."""
+    distance = np.full(len(places), np.inf)
     for line in _boundary_lines(state, BoundaryKind.FLAT).tolist():
         for curve in state.lines.curves.data[line]:
             border = sample(state.spline(curve), 4)[1]
-            step = state.rows.xyz.data[rows][:, None, :] - border[None, :, :]
+            step = places[:, None, :] - border[None, :, :]
             nearest = np.sqrt((step * step).sum(axis=2)).min(axis=1)
             distance = np.minimum(distance, nearest)
     return distance

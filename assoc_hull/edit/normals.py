@@ -5,9 +5,10 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.model.recipe import loft_curves
 from assoc_hull.model.state import HullState
 
 __all__ = ["free_normals", "hull_normals"]
@@ -36,7 +37,7 @@ def _tangents(state: HullState) -> FloatArray:
     found = np.zeros((table.count, 2, 3))
     known = np.zeros((table.count, 2), bool)
     for curve in state.live("curves").tolist():
-        spline, rows = state.spline(curve), state.curves.rows.data[curve]
+        spline, rows = _present(state, curve), state.curves.rows.data[curve]
         slope = spline.leave + spline.arrive
         slope[0], slope[-1] = spline.leave[0], spline.arrive[-1]
         length = np.sqrt((slope * slope).sum(axis=1))
@@ -52,6 +53,13 @@ def _tangents(state: HullState) -> FloatArray:
     return found
 
 
+def _present(state: HullState, curve: int) -> SplineBatch:
+    """Give the spline through a curve's points as they are, in mid-transaction too."""
+    spline = state.spline(curve)
+    same = len(spline.knot) == len(state.curves.rows.data[curve])
+    return spline if same else loft_curves(state, np.array([curve]))
+
+
 def _outward(state: HullState, normal: FloatArray) -> FloatArray:
     """Turn normals away from the line of the deck in the centre plane."""
     xyz = state.rows.xyz.data
@@ -63,7 +71,7 @@ def _outward(state: HullState, normal: FloatArray) -> FloatArray:
 def _interpolate(state: HullState, curve: int, normal: FloatArray) -> None:
     """Fill in the normals at a curve's own points, from those at its crossings."""
     rows: IntArray = state.curves.rows.data[curve]
-    knots = state.spline(curve).knot
+    knots = _present(state, curve).knot
     own = state.rows.sort.data[rows] != Sort.CROSSING
     meets = state.curves.meets.data[curve]
     met = meets.row >= 0

@@ -15,7 +15,7 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import HullState, Meets, curve_node
 
-__all__ = ["enter_line", "partner_curves", "strike_line"]
+__all__ = ["enter_line", "meet_groups", "partner_curves", "strike_line"]
 
 _ROUNDS = 4
 
@@ -37,6 +37,29 @@ def enter_line(edit: Transaction, line: int) -> None:
     _hold_shape(edit, network, mine)
     set_limits(state, journal, watched_on(state, mine))
     edit.pending.fresh += mine.tolist()
+
+
+def meet_groups(edit: Transaction, a: str, b: str) -> None:
+    """Let the lines of two groups that were strangers meet; all crossings are watched."""
+    state = edit.state
+    edit.document.refresh()
+    names = state.groups.name.data
+    owner = state.lines.group.data[state.curves.line.data]
+    for mine, theirs in ((a, b), (b, a)):
+        curves = state.live("curves")
+        curves = curves[owner[curves] == names.index(mine)]
+        lines = state.live("lines")
+        lines = lines[state.lines.group.data[lines] == names.index(theirs)]
+        for line in lines[state.lines.boundary.data[lines] < 0].tolist():
+            _add_meets(edit, curves, line)
+    first = state.live("curves")
+    born: list[int] = []
+    for curve in first[owner[first] == names.index(a)].tolist():
+        meets: Meets = state.curves.meets.data[curve]
+        for spot in np.flatnonzero(meets.row < 0).tolist():
+            row = bear(edit.maker, curve, spot, set(), watch=True)
+            born += [] if row is None else [row]
+    set_limits(state, edit.journal, np.array(born, np.int64))
 
 
 def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray) -> None:

@@ -1,9 +1,9 @@
 """Re-shaping a curve: it takes the designer's new shape, the hull around it follows.
 
-The curve's own shared points take the exact meeting of the designer's curve with the
-partner planes. All other points in reach get the normal change of the curve, times a fade:
-for a waterline or a buttock the change at the same x, fading with the distance seen along
-x; for a section the change at its nearest point seen along x, fading along the length.
+The designer gives points the curve is to pass. Between them, and out to the ends of the
+span, their displacements are blended smoothly (quintic, curvature-continuous) and added to
+the present shape, so what the curve had of detail it keeps. The curve's own shared points
+take the exact meeting of this new shape with the partner planes.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.edit.field import FieldContext, Shift, bell, move_normal, row_spacing
+from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
 from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.points import pin
+from assoc_hull.edit.reshape_field import Reshape
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.edit.transaction import Transaction
@@ -23,119 +25,53 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import evaluate, loft
+from assoc_hull.geometry.spline import loft
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.make import PointSpec
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
-__all__ = ["Reshape", "reshape"]
+__all__ = ["reshape"]
+
+_NEAR = 0.5
+"""A point of the new shape as near as this (m) to a crossing, and in its plane, is that crossing."""
+
+_CROWDED = 0.2
+"""Old points as near as this (m) to a given one do not shape the designer's curve."""
 
 Fade = Literal["auto"] | tuple[float, float] | None
 
 
 @attrs.frozen(eq=False)
-class Reshape:
-    """The field of a re-shaped curve.
+class _Design:
+    """A curve's displacement: given points, their parameters, and how they blend.
 
     Attributes
     ----------
-    curve : int
-        The curve.
-    old, new : SplineBatch
-        Its spline before, and the designer's.
-    normal : (k, 3)
-        Outward normals of the hull at the knots of `old`.
-    rows, places : (r,) int, (r, 3), m
-        The curve's own points, and where the designer's curve has them.
-    start : (r, 3), m
-        Where they were.
-    radius : (float, float), m, or None
-        Fade along the length and the girth; None: no other point moves.
-    along_x : bool
-        Whether the curve is a section, whose change fades along the length.
-    span : (float, float), m
-        Parameters on `old` between which the curve changes.
-    across_flats : bool
-        Whether flats are moved too.
+    at : (k,), m
+        Parameters on the old curve, ascending; the ends of the stretch stand first and last.
+    shift : (k, 3), m
+        Displacements there.
+    shape : (g, 3), m
+        The designer's points, in order along the curve.
+    shape_at : (g,), m
+        Their parameters.
     """
 
-    curve: int
-    old: SplineBatch
-    new: SplineBatch
-    normal: FloatArray
-    rows: IntArray
-    places: FloatArray
-    start: FloatArray
-    radius: tuple[float, float] | None
-    along_x: bool
-    span: tuple[float, float]
-    across_flats: bool
+    at: FloatArray
+    shift: FloatArray
+    shape: FloatArray
+    shape_at: FloatArray
 
-    def shift(self, ground: FieldContext, part: float) -> Shift:
-        """Give the displacements for a part of the whole change."""
-        own = part * (self.places - self.start)
-        if self.radius is None:
-            return Shift(self.rows, own, np.zeros(0, np.int64))
-        others = ground.free[~np.isin(ground.free, self.rows)]
-        others = others[~(ground.state.rows.reader.data[others] == self.curve).any(axis=1)]
-        distance = ground.flat_distance[np.searchsorted(ground.free, others)]
-        amount = part * self._amount(ground.state.rows.xyz.data[others])
-        if not self.across_flats:
-            amount = amount * (1.0 - bell(distance / self.radius[1]))
-        reach = amount != 0.0
-        rest = move_normal(ground, others[reach], amount[reach])
-        return Shift(
-            np.concatenate([self.rows, rest.rows]), np.concatenate([own, rest.delta]), rest.left
-        )
-
-    def exact(self) -> tuple[IntArray, FloatArray]:
-        """The curve's own points land on the designer's curve."""
-        return self.rows, self.places
-
-    def _amount(self, xyz: FloatArray) -> FloatArray:
-        """Give the faded normal change at points, (k,), m."""
-        assert self.radius is not None  # noqa: S101 - shift has looked
-        if self.along_x:
-            fade = bell((xyz[:, 0] - self.old.xyz[0, 0]) / self.radius[0])
-            near = np.flatnonzero(fade != 0.0)
-            flat = np.array(xyz[near])
-            flat[:, 0] = self.old.xyz[0, 0]
-            at = closest(self.old, 0, flat)[0] if len(near) else np.zeros(0)
-            amount = np.zeros(len(xyz))
-            amount[near] = fade[near] * self._change(at)
-            return amount
-        return self._at_same_x(xyz)
-
-    def _at_same_x(self, xyz: FloatArray) -> FloatArray:
-        """Take the change where the old curve has the same x, nearest seen along x."""
-        assert self.radius is not None  # noqa: S101 - shift has looked
-        levels, place = np.unique(xyz[:, 0], return_inverse=True)
-        met = meet_planes(self.old, np.array([1.0, 0.0, 0.0]), levels)
-        first = np.searchsorted(met.plane, np.arange(len(levels) + 1))
-        amount = np.zeros(len(xyz))
-        change = self._change(met.t) if len(met.t) else np.zeros(0)
-        for turn in range(int(np.diff(first).max(initial=0))):
-            index = first[:-1][place] + turn
-            has = np.flatnonzero(index < first[1:][place])
-            step = xyz[has, 1:] - met.xyz[index[has], 1:]
-            girth = np.sqrt((step * step).sum(axis=1))
-            value = change[index[has]] * bell(girth / self.radius[1])
-            stronger = np.abs(value) > np.abs(amount[has])
-            amount[has[stronger]] = value[stronger]
-        return amount
-
-    def _change(self, at: FloatArray) -> FloatArray:
-        """Give the normal change of the curve at parameters of the old one, (k,), m."""
-        zero = np.zeros(len(at), np.int64)
-        here = evaluate(self.old, zero, np.clip(at, 0.0, self.old.knot[-1]))
-        inside = (at > self.span[0]) & (at < self.span[1])
-        there = closest(self.new, 0, here)[1]
-        normal = np.column_stack([np.interp(at, self.old.knot, self.normal[:, i]) for i in range(3)])
-        length = np.sqrt((normal * normal).sum(axis=1))
-        normal = normal / np.where(length > 1e-12, length, 1.0)[:, None]
-        change: FloatArray = ((there - here) * normal).sum(axis=1)
-        return np.where(inside, change, 0.0)
+    def at_parameters(self, parameters: FloatArray) -> FloatArray:
+        """Blend the displacements, (k, 3), m; nil outside the stretch."""
+        index = np.clip(np.searchsorted(self.at, parameters, side="right") - 1, 0, len(self.at) - 2)
+        low, high = self.at[index], self.at[index + 1]
+        part = (parameters - low) / np.where(high > low, high - low, 1.0)
+        fade = bell(part)[:, None]
+        value = self.shift[index] * fade + self.shift[index + 1] * (1.0 - fade)
+        inside = (parameters >= self.at[0]) & (parameters <= self.at[-1])
+        return np.where(inside[:, None], value, 0.0)
 
 
 def reshape(
@@ -165,7 +101,7 @@ def reshape(
         How the change fades; None: only this curve's own points move, and gaps are what
         they become.
     across_flats : bool
-        Whether the field may move flats.
+        Whether the edit may move flats.
 
     Returns
     -------
@@ -179,22 +115,27 @@ def reshape(
     """
     state = edit.state
     section = state.family(state.line_of(curve)).axis == 0
-    shape = _checked(state, curve, points, span, 2 if section else 0)
+    axis = 2 if section else 0
+    shape = _checked(state, curve, points, span, axis)
     old = state.spline(curve)
-    window = _window(old, shape, span, 2 if section else 0)
-    new = _designed(state, curve, old, shape, window)
-    rows = _own_rows(state, curve, old, window)
-    places = _places(state, curve, rows, new)
-    mine = (state.rows.sort.data[rows] == Sort.ADOPTED) | (state.rows.role.data[rows] == Role.SHARED)
-    rows, places = rows[mine], places[mine]
-    radius = _radius(state, fade, shape)
+    design = _design(old, shape, span, axis, _free_ends(state, curve))
+    flat = flat_distance(state, old.xyz)
+    moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)
+    moved[[0, -1]] = _slide(state, curve, old, moved[[0, -1]])
+    new = _designed(state, curve, old, design, moved)
+    rows = _own_rows(state, curve, old, design, across_flats=across_flats)
+    places = _places(state, curve, rows, old.xyz + moved, new)
     start = state.rows.xyz.data[rows].copy()
     normals = hull_normals(state)[state.curves.rows.data[curve]]
+    made = _place(edit, curve, design.shape, rows, places)
     edit.pending.fields.append(
-        Reshape(curve, old, new, normals, rows, places, start, radius, section, window, across_flats)
-    )
+        Reshape(
+            curve, old, new, normals, rows, places, start, _radius(state, fade, shape), section,
+            (float(design.at[0]), float(design.at[-1])), flat, across_flats,
+        )
+    )  # fmt: skip
     edit.pending.moved_curves.add(curve)
-    return _place(edit, curve, shape, places)
+    return made
 
 
 def _checked(
@@ -223,35 +164,85 @@ def _checked(
     return shape
 
 
-def _window(
-    old: SplineBatch, shape: FloatArray, span: tuple[float, float], axis: int
-) -> tuple[float, float]:
-    """Give the stretch of the old curve, by parameter, that holds the points within the span."""
-    at = closest(old, 0, shape)[0]
-    outside = (old.xyz[:, axis] <= span[0]) | (old.xyz[:, axis] >= span[1])
-    before = old.knot[outside & (old.knot <= at.min())]
-    after = old.knot[outside & (old.knot >= at.max())]
-    low = float(before.max()) if len(before) else float(old.knot[0])
-    high = float(after.min()) if len(after) else float(old.knot[-1])
-    return low, high
+def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:
+    """Tell whether each end may move: it does not if it lies on the profile."""
+    rows: IntArray = state.curves.rows.data[curve]
+    fixed = on_profile(state)[rows[[0, -1]]]
+    return not fixed[0], not fixed[1]
+
+
+def _slide(state: HullState, curve: int, old: SplineBatch, moved: FloatArray) -> FloatArray:
+    """Let displaced ends slide along the curve into the plane of their boundary curve."""
+    rows: IntArray = state.curves.rows.data[curve][[0, -1]]
+    slopes = np.array([old.leave[0], old.arrive[-1]])
+    out = moved.copy()
+    for i, row in enumerate(rows.tolist()):
+        other = state.line_of(int(state.rows.curve.data[row, 0]))
+        if not state.rows.contact.data[row] or not state.lines.planar.data[other]:
+            continue
+        normal = state.lines.normal.data[other]
+        along = float(slopes[i] @ normal)
+        if abs(along) > 0.1 * float(np.sqrt((slopes[i] * slopes[i]).sum())):
+            out[i] = moved[i] - slopes[i] * (float(moved[i] @ normal) / along)
+    return out
+
+
+def _design(
+    old: SplineBatch,
+    shape: FloatArray,
+    span: tuple[float, float],
+    axis: int,
+    free: tuple[bool, bool],
+) -> _Design:
+    """Find the stretch of the old curve, and how far each given point lies from it.
+
+    Where the span reaches past a free end, the blend does too, and that end moves along.
+    """
+    at, foot, _ = closest(old, 0, shape)
+    order = np.argsort(at, kind="stable")
+    at, foot, shape = at[order], foot[order], shape[order]
+    met = meet_planes(old, np.eye(3)[axis], np.array(span))
+    before, after = met.t[met.t < at[0]], met.t[met.t > at[-1]]
+    reach = [float(np.abs(np.array(span) - end).min()) for end in old.xyz[[0, -1], axis]]
+    low = float(before.max()) if len(before) else float(old.knot[0]) - free[0] * reach[0]
+    high = float(after.min()) if len(after) else float(old.knot[-1]) + free[1] * reach[1]
+    first, last = int(at[0] > low), int(at[-1] < high)
+    nil = np.zeros((1, 3))
+    return _Design(
+        np.concatenate([np.full(first, low), at, np.full(last, high)]),
+        np.concatenate([nil[:first], shape - foot, nil[:last]]),
+        shape,
+        at,
+    )
+
+
+def _displaced(old: SplineBatch, design: _Design, flat: FloatArray) -> FloatArray:
+    """Give the displacement of the old curve's points; it fades towards flats."""
+    moved = design.at_parameters(old.knot)
+    reference = float(np.interp(design.shape_at, old.knot, flat).min())
+    if np.isfinite(reference) and reference > 0.0:
+        moved = moved * (1.0 - bell(flat / reference))[:, None]
+    return moved
 
 
 def _designed(
-    state: HullState, curve: int, old: SplineBatch, shape: FloatArray, window: tuple[float, float]
+    state: HullState, curve: int, old: SplineBatch, design: _Design, moved: FloatArray
 ) -> SplineBatch:
-    """Loft the designer's curve: the old points outside the stretch, the new ones inside."""
+    """Loft the designer's curve: the old points displaced, and the given points."""
     data = curve_data(state, np.array([curve]))
-    keep = (old.knot <= window[0]) | (old.knot >= window[1])
-    at = closest(old, 0, shape)[0]
-    order = np.argsort(np.concatenate([old.knot[keep], at]), kind="stable")
-    kind = np.concatenate([data.kind[keep], np.full(len(shape), int(PointKind.SMOOTH), np.int8)])
-    direction = np.concatenate([data.direction[keep], np.zeros((len(shape), 3))])
+    apart = np.abs(old.knot[:, None] - design.shape_at[None, :]).min(axis=1)
+    free = data.kind == PointKind.SMOOTH
+    inner = (old.knot > old.knot[0]) & (old.knot < old.knot[-1])
+    replaced = apart < np.where(free & inner, _CROWDED, 1e-9)
+    keep = ~replaced
+    order = np.argsort(np.concatenate([old.knot[keep], design.shape_at]), kind="stable")
+    given = len(design.shape)
     return loft(
         CurveData(
             np.array([0, len(order)]),
-            np.concatenate([old.xyz[keep], shape])[order],
-            kind[order],
-            direction[order],
+            np.concatenate([(old.xyz + moved)[keep], design.shape])[order],
+            np.concatenate([data.kind[keep], np.zeros(given, np.int8)])[order],
+            np.concatenate([data.direction[keep], np.zeros((given, 3))])[order],
             data.end_kind.copy(),
             data.end_vector.copy(),
         ),
@@ -260,34 +251,54 @@ def _designed(
 
 
 def _own_rows(
-    state: HullState, curve: int, old: SplineBatch, window: tuple[float, float]
+    state: HullState, curve: int, old: SplineBatch, design: _Design, *, across_flats: bool
 ) -> IntArray:
-    inside = (old.knot > window[0]) & (old.knot < window[1])
-    rows: IntArray = state.curves.rows.data[curve][inside]
-    return rows[state.rows.sort.data[rows] != Sort.PLACED]
+    """Give the curve's own points that take the new shape: shared and adopted ones."""
+    rows: IntArray = state.curves.rows.data[curve]
+    inside = (old.knot >= design.at[0]) & (old.knot <= design.at[-1])
+    shared = state.rows.role.data[rows] == Role.SHARED
+    sort = state.rows.sort.data[rows]
+    mine = inside & ((sort == Sort.ADOPTED) | ((sort == Sort.CROSSING) & shared))
+    mine &= ~on_profile(state)[rows]
+    if not across_flats:
+        mine &= ~on_flat(state)[rows]
+    return rows[mine]
 
 
-def _places(state: HullState, curve: int, rows: IntArray, new: SplineBatch) -> FloatArray:
-    """Give the meeting of the designer's curve with each crossing's plane, nearest first."""
-    places = closest(new, 0, state.rows.xyz.data[rows])[1].copy() if len(rows) else np.zeros((0, 3))
+def _places(
+    state: HullState, curve: int, rows: IntArray, displaced: FloatArray, new: SplineBatch
+) -> FloatArray:
+    """Give where own points go: crossings to the new shape's meeting with their plane."""
+    order: IntArray = state.curves.rows.data[curve]
+    index = {row: i for i, row in enumerate(order.tolist())}
+    places = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
     for i, row in enumerate(rows.tolist()):
-        if state.rows.sort.data[row] != Sort.CROSSING:
-            continue
-        pair = state.rows.curve.data[row]
-        other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
-        if not state.lines.planar.data[other]:
-            continue
-        plane = state.lines.normal.data[other].copy(), state.lines.offset.data[[other]].copy()
-        met = meet_planes(new, *plane)
-        if len(met.t):
-            step = met.xyz - state.rows.xyz.data[row]
-            places[i] = met.xyz[int(np.argmin((step * step).sum(axis=1)))]
-        exact = state.lines.normal.data[other] == 1.0
-        places[i, exact] = state.lines.offset.data[other]
+        if state.rows.sort.data[row] == Sort.CROSSING:
+            places[i] = _meeting(state, curve, row, places[i], new)
     line = state.line_of(curve)
     if state.lines.planar.data[line]:
         places[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
     return places
+
+
+def _meeting(
+    state: HullState, curve: int, row: int, place: FloatArray, new: SplineBatch
+) -> FloatArray:
+    """Give the meeting of the new shape with the other line's plane that is nearest."""
+    pair = state.rows.curve.data[row]
+    other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
+    if not state.lines.planar.data[other]:
+        return place
+    normal, offset = state.lines.normal.data[other].copy(), state.lines.offset.data[[other]].copy()
+    met = meet_planes(new, normal, offset)
+    ends = new.xyz[[0, -1]]
+    found = np.concatenate([met.xyz, ends[np.abs(ends @ normal - offset) < 1e-9]])
+    out = place.copy()
+    if len(found):
+        step = found - place
+        out = found[int(np.argmin((step * step).sum(axis=1)))].copy()
+    out[normal == 1.0] = offset
+    return out
 
 
 def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
@@ -310,18 +321,28 @@ def _station_spacing(state: HullState) -> float:
 
 
 def _place(
-    edit: Transaction, curve: int, shape: FloatArray, places: FloatArray
+    edit: Transaction, curve: int, shape: FloatArray, rows: IntArray, places: FloatArray
 ) -> list[int]:
-    """Make placed points of the designer's points that no crossing holds."""
+    """Make placed points of the designer's points that no crossing holds.
+
+    An adopted point near by takes the place, and is placed from then on; `places` is
+    changed accordingly.
+    """
     state = edit.state
     made: list[int] = []
     for point in shape:
-        if len(places) and float(np.abs(places - point).max(axis=1).min()) < 1e-9:
+        held = len(places) and float(np.abs(places - point).max(axis=1).min()) < 1e-9
+        if held or _at_crossing(state, curve, point):
+            continue
+        near = _adopted_near(state, rows, places, point)
+        if near is not None:
+            places[near] = point
+            pin(edit, int(rows[near]))
             continue
         row = int(edit.maker.points([PointSpec(curve, point, Sort.PLACED)])[0])
-        rows: IntArray = state.curves.rows.data[curve]
-        index = interval_of(state.rows.xyz.data[rows], point)
-        edit.maker.define(curve, np.insert(rows, index, row))
+        order: IntArray = state.curves.rows.data[curve]
+        index = interval_of(state.rows.xyz.data[order], point)
+        edit.maker.define(curve, np.insert(order, index, row))
         edit.pending.structural = True
         edit.pending.curves.add(curve)
         made.append(row)
@@ -329,3 +350,36 @@ def _place(
         ride_links(state, np.array([curve]), edit.journal)
     return made
 
+
+def _adopted_near(
+    state: HullState, rows: IntArray, places: FloatArray, point: FloatArray
+) -> int | None:
+    """Give the index of the nearest adopted point, if it is near enough."""
+    mine = np.flatnonzero(state.rows.sort.data[rows] == Sort.ADOPTED)
+    if not len(mine):
+        return None
+    step = places[mine] - point
+    away = np.sqrt((step * step).sum(axis=1))
+    best = int(away.argmin())
+    return int(mine[best]) if away[best] < _NEAR else None
+
+
+def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
+    """Tell whether a point lies where a crossing is that the curve does not define.
+
+    Such a crossing comes along with its driver, which the field moves.
+    """
+    table = state.rows
+    rows = np.flatnonzero(
+        table.alive.data & (table.curve.data == curve).any(axis=1) & (table.sort.data == Sort.CROSSING)
+    )
+    near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < _NEAR]
+    for row in near.tolist():
+        pair = table.curve.data[row]
+        line = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
+        if not state.lines.planar.data[line]:
+            continue
+        away = float(state.lines.normal.data[line] @ point) - float(state.lines.offset.data[line])
+        if abs(away) < 1e-9:
+            return True
+    return False

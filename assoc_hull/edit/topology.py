@@ -5,6 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.edit.thread import thread
 from assoc_hull.model.align import Alignment
@@ -14,7 +15,7 @@ from assoc_hull.model.make import CrossingSpec, Maker
 from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["Change", "bear", "generates", "settle", "unmeet"]
+__all__ = ["Change", "bear", "generates", "role_by_rule", "settle", "unmeet"]
 
 
 @attrs.frozen
@@ -164,19 +165,38 @@ def _make(
 
 
 def _role(
-    state: HullState, curves: tuple[int, int], lines: tuple[int, int], at: tuple[float, float]
+    state: HullState,
+    curves: tuple[int, int],
+    lines: tuple[int, int],
+    at: tuple[float, float],
+    row: int = -1,
 ) -> Role:
     return role_of(
-        _may_define(state, curves[0], lines[1], at[0]),
-        _may_define(state, curves[1], lines[0], at[1]),
+        _may_define(state, curves[0], lines[1], at[0], row),
+        _may_define(state, curves[1], lines[0], at[1], row),
         generates(state, *lines),
     )
 
 
-def _may_define(state: HullState, curve: int, partner: int, at: float) -> bool:
-    """Apply the role rule to one new crossing; what defines the curve already stays."""
-    spline = state.spline(curve)
-    knots = spline.knot
+def role_by_rule(state: HullState, row: int) -> Role:
+    """Give the role that the rule chooses for a crossing, the rest of its curves as it is."""
+    a, b = state.rows.curve.data[row].tolist()
+    places = [
+        float(closest(state.spline(curve), 0, state.rows.spot.data[row, [side]])[0][0])
+        for side, curve in enumerate((a, b))
+    ]
+    lines = state.line_of(a), state.line_of(b)
+    if state.rows.contact.data[row]:
+        shared = _may_define(state, a, lines[1], places[0], row)
+        return Role.SHARED if shared else Role.DRIVES_B
+    return _role(state, (a, b), lines, (places[0], places[1]), row)
+
+
+def _may_define(state: HullState, curve: int, partner: int, at: float, row: int = -1) -> bool:
+    """Apply the role rule to one crossing; what else defines the curve already stays."""
+    knots, rows = state.spline(curve).knot, state.curves.rows.data[curve]
+    if len(knots) == len(rows):
+        knots = knots[rows != row]
     if float(np.abs(knots - at).min()) < 1e-3:
         return False
     position = int(np.searchsorted(knots, at))

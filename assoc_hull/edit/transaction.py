@@ -14,7 +14,7 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.update import Pending, Settings, update
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.make import Maker
@@ -49,6 +49,12 @@ class Transaction:
         self.pending = Pending()
         self.report: EditReport | None = None
         self._depth = 0
+        self._broken = False
+
+    @property
+    def active(self) -> bool:
+        """Whether a ``with`` block is open."""
+        return self._depth > 0
 
     @property
     def state(self) -> HullState:
@@ -91,11 +97,15 @@ class Transaction:
         trace: TracebackType | None,
     ) -> None:
         self._depth -= 1
-        if self._depth and error is None:
-            return
         if error is not None:
+            self._broken = True
             self._restore()
             return
+        if self._depth:
+            return
+        if self._broken:
+            reason = "an edit nested in it failed, so all of it was taken back"
+            raise RefusedEditError(self.name, (reason,))
         try:
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
         except BaseException:
@@ -108,7 +118,7 @@ class Transaction:
             self._restore()
 
     def _restore(self) -> None:
-        structural = self.pending.structural
+        structural, self.pending = self.pending.structural, Pending()
         self.journal.undo()
         if structural:
             self.document.refresh()

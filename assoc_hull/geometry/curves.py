@@ -14,8 +14,10 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from enum import IntEnum
+from functools import lru_cache
 from typing import Self
 
 import attrs
@@ -127,6 +129,9 @@ class SplineBatch:
         The defining points.
     leave, arrive : (n, 3)
         Derivative after and before each knot; they differ at knuckles only.
+    home : (SplineBatch, int) or None
+        The batch that a single curve is a view of, and its place there; `join` then need not
+        copy.
     """
 
     start: IntArray
@@ -134,6 +139,7 @@ class SplineBatch:
     xyz: FloatArray
     leave: FloatArray
     arrive: FloatArray
+    home: tuple[SplineBatch, int] | None = attrs.field(default=None, repr=False)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.start, self.knot, self.xyz, self.leave, self.arrive)
@@ -154,16 +160,69 @@ class SplineBatch:
             self.arrive[a:b].copy(),
         )
 
+    def part(self, first: int, stop: int) -> SplineBatch:
+        """Give the curves from `first` to before `stop`, without copying."""
+        if first == 0 and stop == self.count:
+            return self
+        a, b = int(self.start[first]), int(self.start[stop])
+        return SplineBatch(
+            self.start[first : stop + 1] - a,
+            self.knot[a:b],
+            self.xyz[a:b],
+            self.leave[a:b],
+            self.arrive[a:b],
+        )
+
+    def single(self) -> list[SplineBatch]:
+        """Give each curve as a batch of one; the arrays are views."""
+        knot, xyz, leave, arrive = self.knot, self.xyz, self.leave, self.arrive
+        bounds = self.start.tolist()
+        return [
+            SplineBatch(
+                _span(b - a), knot[a:b], xyz[a:b], leave[a:b], arrive[a:b], (self, place)
+            )
+            for place, (a, b) in enumerate(itertools.pairwise(bounds))
+        ]
+
     @classmethod
     def join(cls, parts: Sequence[SplineBatch]) -> SplineBatch:
-        """Put batches one behind the other."""
-        counts = np.concatenate([np.diff(part.start) for part in parts])
+        """Put batches one behind the other; neighbours in one batch need no copy."""
+        runs = list(_runs(parts))
+        if len(runs) == 1:
+            return runs[0]
+        counts = np.concatenate([np.diff(part.start) for part in runs])
         start = np.zeros(len(counts) + 1, np.int64)
         np.cumsum(counts, out=start[1:])
         return cls(
             start,
-            np.concatenate([part.knot for part in parts]),
-            np.concatenate([part.xyz for part in parts]),
-            np.concatenate([part.leave for part in parts]),
-            np.concatenate([part.arrive for part in parts]),
+            np.concatenate([part.knot for part in runs]),
+            np.concatenate([part.xyz for part in runs]),
+            np.concatenate([part.leave for part in runs]),
+            np.concatenate([part.arrive for part in runs]),
         )
+
+
+@lru_cache(maxsize=1024)
+def _span(count: int) -> IntArray:
+    start = np.array([0, count], np.int64)
+    freeze(start)
+    return start
+
+
+def _runs(parts: Sequence[SplineBatch]) -> Iterator[SplineBatch]:
+    """Put curves that are neighbours in the batch they come from together again."""
+    i = 0
+    while i < len(parts):
+        home = parts[i].home
+        stop = i + 1
+        if home is None:
+            yield parts[i]
+        else:
+            batch, first = home
+            while stop < len(parts):
+                other = parts[stop].home
+                if other is None or other[0] is not batch or other[1] != first + stop - i:
+                    break
+                stop += 1
+            yield batch.part(first, first + stop - i)
+        i = stop

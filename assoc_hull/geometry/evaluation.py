@@ -156,7 +156,13 @@ def evaluate(batch: SplineBatch, curve: IntArray, t: FloatArray) -> FloatArray:
     return result
 
 
-def derivative(batch: SplineBatch, curve: IntArray, t: FloatArray, order: int = 1) -> FloatArray:
+def derivative(
+    batch: SplineBatch,
+    curve: IntArray,
+    t: FloatArray,
+    order: int = 1,
+    guess: IntArray | None = None,
+) -> FloatArray:
     """Give derivatives with respect to chord length.
 
     Parameters
@@ -170,6 +176,9 @@ def derivative(batch: SplineBatch, curve: IntArray, t: FloatArray, order: int = 
         at the last knot the one before it.
     order : int
         1, 2 or 3.
+    guess : (k,) int or None
+        Where each segment is thought to be, as number of its first knot along its curve; a
+        right guess saves the search, a wrong one does no harm.
 
     Returns
     -------
@@ -192,7 +201,7 @@ def derivative(batch: SplineBatch, curve: IntArray, t: FloatArray, order: int = 
     """
     if order not in (1, 2, 3):
         raise BadInputError(f"order {order} was asked", "in derivative", "ask for 1, 2 or 3")
-    segment, fraction, length = _locate(batch, curve, t)
+    segment, fraction, length = _locate(batch, curve, t, guess)
     _, first, second, third = _powers(batch, segment)
     if order == 1:
         value = first + fraction * (2.0 * second + fraction * (3.0 * third))
@@ -208,7 +217,7 @@ def derivative(batch: SplineBatch, curve: IntArray, t: FloatArray, order: int = 
 
 
 def _locate(
-    batch: SplineBatch, curve: IntArray, t: FloatArray
+    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: IntArray | None = None
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Find segment, fraction and segment length; the search is exact in the knots' bits."""
     curve = np.asarray(curve, np.int64).ravel()
@@ -219,18 +228,38 @@ def _locate(
             f"in a batch of {batch.count} curves",
             "count from 0",
         )
-    low, high = batch.start[curve], batch.start[curve + 1] - 1
-    t = _inside(t, batch.knot[high])
-    high = high - 1
+    low, high = batch.start.take(curve), batch.start.take(curve + 1) - 1
+    t = _inside(t, batch.knot.take(high))
+    high -= 1
+    low = _search(batch, low, high, t) if guess is None else _guessed(batch, low, high, t, guess)
+    begin, end = batch.knot.take(low), batch.knot.take(low + 1)
+    length = end - begin
+    fraction = np.where(t == end, 1.0, (t - begin) / length)
+    return low, fraction, length
+
+
+def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
+    """Find the last knot not above each parameter, between given ones."""
     while (high > low).any():
         middle = (low + high + 1) // 2
         reached = batch.knot[middle] <= t
         low = np.where(reached, middle, low)
         high = np.where(reached, high, middle - 1)
-    begin, end = batch.knot[low], batch.knot[low + 1]
-    length = end - begin
-    fraction = np.where(t == end, 1.0, (t - begin) / length)
-    return low, fraction, length
+    return low
+
+
+def _guessed(
+    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: IntArray
+) -> IntArray:
+    """Take what was guessed right, or one too low, and search the rest."""
+    found = np.minimum(np.maximum(low + guess, low), high)
+    found += (batch.knot.take(found + 1) <= t) & (found < high)
+    wrong = batch.knot.take(found) > t
+    wrong |= (batch.knot.take(found + 1) <= t) & (found < high)
+    rest = np.flatnonzero(wrong)
+    if len(rest):
+        found[rest] = _search(batch, low[rest], high[rest], t[rest])
+    return found
 
 
 def _inside(t: FloatArray, end: FloatArray) -> FloatArray:

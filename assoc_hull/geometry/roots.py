@@ -70,12 +70,14 @@ def bracketed_roots(
             root -= _halley(origin, first, second, third, steep, root)
         residual = np.abs(value(origin, first, second, third, root))
         good = (residual <= limit) & (root >= lower) & (root <= upper)
-    bad = np.flatnonzero(~good)
+    at_begin, at_end = at_lower == 0.0, at_upper == 0.0
+    # Many meetings lie on knots: those are known, whatever the steps have made of them.
+    bad = np.flatnonzero(~(good | at_begin | at_end))
     if len(bad):
         rising = at_lower[bad] < 0.0
         root[bad] = _safe_roots(cubic[:, bad], lower[bad], upper[bad], rising, limit[bad])
-    np.copyto(root, lower, where=at_lower == 0.0)
-    np.copyto(root, upper, where=at_upper == 0.0)
+    np.copyto(root, lower, where=at_begin)
+    np.copyto(root, upper, where=at_end)
     return root
 
 

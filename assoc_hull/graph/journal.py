@@ -56,6 +56,10 @@ class ArrayColumn:
         self.data = self.store[:count]
         self.data.setflags(write=False)
 
+    def parts(self) -> NDArray[Any]:
+        """Give the first two axes as one, to be written to: row r, part p is at r * parts + p."""
+        return self.store.reshape(-1, *self.store.shape[2:])
+
 
 class ListColumn:
     """A growing list of immutable objects, one entry a row."""
@@ -112,6 +116,22 @@ class _ArrayEntry:
 
 
 @attrs.frozen(eq=False)
+class _PartEntry:
+    """Writes to parts of rows; the arrays may be shared with whoever wrote them."""
+
+    column: ArrayColumn
+    part: NDArray[np.int64]
+    old: NDArray[Any]
+    new: NDArray[Any]
+
+    def undo(self) -> None:
+        self.column.parts()[self.part] = self.old
+
+    def redo(self) -> None:
+        self.column.parts()[self.part] = self.new
+
+
+@attrs.frozen(eq=False)
 class _ListEntry:
     column: ListColumn
     index: Sequence[int]
@@ -140,6 +160,11 @@ class _GrowEntry:
         self.table.resize(self.new)
 
 
+def _same_bits(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
+    return bool((one.view(np.int64) == other.view(np.int64)).all())
+
+
 @attrs.define(eq=False)
 class Journal:
     """All writes of one transaction, in order."""
@@ -157,10 +182,33 @@ class Journal:
         self.entries.append(_ArrayEntry(column, rows, column.store[rows], new))
         column.store[rows] = new
 
+    def put_parts(
+        self,
+        column: ArrayColumn,
+        part: NDArray[np.int64],
+        values: NDArray[Any],
+        before: NDArray[Any] | None = None,
+    ) -> None:
+        """Write to parts of rows, as `ArrayColumn.parts` numbers them, each named once.
+
+        Frozen arrays are kept as they are. `before` may be an array that is thought to hold
+        what stands there now: if it does, to the last bit, it is kept, not a copy.
+        """
+        if not len(part):
+            return
+        parts = column.parts()
+        old = parts.take(part, axis=0)
+        if before is not None and before.shape == old.shape and _same_bits(before, old):
+            old = before
+        new = values.copy() if values.flags.writeable else values
+        self.entries.append(_PartEntry(column, part, old, new))
+        parts[part] = new
+
     def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
         """Write one object each to the rows `index` of a list column."""
         rows, new = tuple(index), tuple(values)
-        old = tuple(column.data[row] for row in rows)
+        data = column.data
+        old = tuple([data[row] for row in rows])
         entry = _ListEntry(column, rows, old, new)
         self.entries.append(entry)
         entry.redo()

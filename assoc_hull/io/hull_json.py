@@ -54,7 +54,7 @@ def dumps_hull_json(state: HullState) -> str:
     Raises
     ------
     BadInputError
-        If the hull holds a number that is not finite.
+        If the hull holds a number that is not finite, or a name that is no text.
     """
     document = {
         "format": _FORMAT,
@@ -130,7 +130,7 @@ def write_hull_json(state: HullState, path: str | os.PathLike[str]) -> None:
         raise BadInputError(
             f"the file cannot be written ({reason})",
             f"at {target}",
-            "give a place you may write to",
+            "give another place",
         ) from error
 
 
@@ -262,3 +262,6 @@ def _check_head(document: dict[str, Any], name: str) -> None:
         if key not in document or key not in _KEYS:
             state = "missing" if key in _KEYS else "unknown"
             raise BadInputError(f"the key {key!r} is {state}", f"in {name}", _AGAIN)
+    for key in ("definition", "published"):
+        if not isinstance(document[key], dict):
+            raise BadInputError(f"{key!r} is no JSON object", f"in {name}", _AGAIN)

@@ -175,7 +175,7 @@ def _section(table: OffsetTable, completion: Completion, flats: _Flats, i: int) 
     y, z = table.half_breadth[i], table.z
     wet = np.isfinite(y) & (y > 0.0)
     wet[0] = False
-    name = f"ST {table.station[i]:g}"
+    name = f"ST {round(20.0 * x / table.length, 6):g}"
     start = _foot(completion, x, float(z[wet][0]))
     points = [np.array([x, b, h]) for b, h in zip(y[wet], z[wet], strict=True)]
     side = flats.meet(0, x)

@@ -24,7 +24,7 @@ from functools import cached_property
 
 import attrs
 
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import HullState
 
@@ -152,8 +152,10 @@ class AddressBook:
     def _line(self, text: str) -> Place | None:
         lines = self.lines.get(text, [])
         if len(lines) > 1:
-            names = tuple(self.line_name(line) for line in lines)
-            raise UnknownNameError("one line", text, names)
+            names = " or ".join(self.line_name(line) for line in lines)
+            raise BadInputError(
+                f"{len(lines)} lines have this name", f"in {text!r}", f"say {names}"
+            )
         return self._line_place(lines[0]) if lines else None
 
     def _piece(self, text: str) -> Place | None:
@@ -228,7 +230,7 @@ class AddressBook:
     def _leads_to(self, text: str, row: int, side: int) -> bool:
         try:
             found = self._line(text) or self._piece(text) or self._own(text) or self._crossing(text)
-        except UnknownNameError:
+        except BadInputError:
             return False
         return found is not None and (found.row, found.side) == (row, side)
 
@@ -320,8 +322,9 @@ def resolve(state: HullState, text: str) -> Place:
     Raises
     ------
     UnknownNameError
-        Nothing has this address; near ones are named. Or two groups have a line of this
-        name, and both full names are given.
+        Nothing has this address; near ones are named.
+    BadInputError
+        Two groups have a line of this name; both full names are given.
 
     Examples
     --------

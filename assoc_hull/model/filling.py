@@ -37,7 +37,7 @@ class Keys:
     points: dict[str, int]
 
     def find(self, kind: str, key: str, where: str) -> int:
-        """Give the number of an object.
+        """Give the number of an object that is named somewhere.
 
         Raises
         ------
@@ -46,9 +46,7 @@ class Keys:
         """
         table: dict[str, int] = getattr(self, kind)
         if key not in table:
-            raise wrong(
-                f"{where} names the {kind[:-1]} {key!r}, which does not exist", "in the file"
-            )
+            raise wrong(f"there is no {kind[:-1]} {key!r}", f"named at {where!r}")
         return table[key]
 
 

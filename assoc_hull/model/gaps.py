@@ -19,25 +19,44 @@ __all__ = ["crossing_normals", "gap_at", "tangents", "watched_on"]
 
 def watched_on(state: HullState, curves: IntArray) -> IntArray:
     """Give the watched crossings of curves, (k,) int, ascending."""
-    met = [state.curves.meets.data[curve].row for curve in curves.tolist()]
-    rows = np.unique(np.concatenate([*met, np.zeros(0, np.int64)]))
-    rows = rows[rows >= 0]
+    if not len(curves):
+        return np.zeros(0, np.int64)
+    met = state.curves.meets.data
+    rows = np.concatenate([met[curve].row for curve in curves.tolist()])
     table = state.rows
-    return rows[
-        (table.role.data[rows] == Role.WATCHED)
-        & (table.sort.data[rows] == Sort.CROSSING)
-        & table.alive.data[rows]
-    ]
+    # A meeting without a crossing, -1, reads some row and is then left out.
+    watched = table.role.data.take(rows) == Role.WATCHED
+    watched &= rows >= 0
+    rows = np.sort(rows[watched])
+    first = np.ones(len(rows), np.bool_)
+    np.not_equal(rows[1:], rows[:-1], out=first[1:])
+    rows = rows[first]
+    return rows[(table.sort.data[rows] == Sort.CROSSING) & table.alive.data[rows]]
 
 
-def tangents(state: HullState, curves: IntArray, parameters: FloatArray) -> FloatArray:
-    """Give unit tangents of curves at chord parameters, (k, 3)."""
+def tangents(
+    state: HullState, curves: IntArray, parameters: FloatArray, guess: IntArray | None = None
+) -> FloatArray:
+    """Give unit tangents of curves at chord parameters, (k, 3).
+
+    `guess` may say in which segment of its curve each parameter is thought to lie.
+    """
     if not len(curves):
         return np.zeros((0, 3))
-    numbers, local = np.unique(curves, return_inverse=True)
-    batch = SplineBatch.join([state.spline(curve) for curve in numbers.tolist()])
-    slope = derivative(batch, local.astype(np.int64), parameters)
+    numbers, local = _numbered(curves)
+    batch = SplineBatch.join([state.spline(curve) for curve in numbers])
+    slope = derivative(batch, local, parameters, guess=guess)
     return slope / _length(slope)[:, None]
+
+
+def _numbered(items: IntArray) -> tuple[list[int], IntArray]:
+    """Give the items that occur, ascending, and for each item its place among these."""
+    lowest = int(items.min())
+    offset = items - lowest
+    occurs = np.zeros(int(offset.max()) + 1, np.bool_)
+    occurs[offset] = True
+    place = np.cumsum(occurs) - 1
+    return (np.flatnonzero(occurs) + lowest).tolist(), place.take(offset)
 
 
 def _length(vectors: FloatArray) -> FloatArray:
@@ -51,21 +70,30 @@ def crossing_normals(first: FloatArray, second: FloatArray) -> FloatArray:
 
     The sense is arbitrary; nil where the tangents are parallel.
     """
-    normal = np.cross(first, second)
-    length = _length(normal)
-    safe = np.where(length > 1e-12, length, 1.0)
-    return np.where(length[:, None] > 1e-12, normal / safe[:, None], 0.0)
+    normal = np.empty((3, len(first)))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(first[:, j], second[:, k], out=normal[i])
+        normal[i] -= first[:, k] * second[:, j]
+    length = _length(normal.T)
+    parallel = ~(length > 1e-12)
+    length[parallel] = 1.0
+    normal /= length
+    normal[:, parallel] = 0.0
+    return normal.T
 
 
-def gap_at(state: HullState, rows: IntArray) -> FloatArray:
-    """Measure the gap at crossings from their places on the two curves, (k,), m."""
+def gap_at(state: HullState, rows: IntArray, guess: IntArray | None = None) -> FloatArray:
+    """Measure the gap at crossings from their places on the two curves, (k,), m.
+
+    `guess`, (rows of the table, 2) int, may say in which segments of its two curves each
+    crossing is thought to lie.
+    """
     table = state.rows
-    curve, at = table.curve.data[rows], table.parameter.data[rows]
-    both = tangents(
-        state, np.concatenate([curve[:, 0], curve[:, 1]]), np.concatenate([at[:, 0], at[:, 1]])
-    )
+    curve, at = table.curve.data.take(rows, axis=0), table.parameter.data.take(rows, axis=0)
+    thought = None if guess is None else guess.take(rows, axis=0).T.ravel()
+    both = tangents(state, curve.T.ravel(), at.T.ravel(), thought)
     normal = crossing_normals(both[: len(rows)], both[len(rows) :])
-    offset = table.spot.data[rows, 0] - table.spot.data[rows, 1]
-    product = offset * normal
+    spot = table.spot.data.take(rows, axis=0)
+    product = (spot[:, 0] - spot[:, 1]) * normal
     gap: FloatArray = np.abs(product[:, 0] + product[:, 1] + product[:, 2])
     return gap

@@ -7,6 +7,7 @@ shape only reads it.
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Any
 
 import attrs
 import numpy as np
@@ -51,12 +52,19 @@ class Index:
         For a row, the adopted points that ride with it.
     level : (c,) int
         Level of each curve in the graph of driven links.
+    guess : (r, 2) int32
+        In which segment of its two curves each crossing was last found; never relied upon.
+    recall : dict
+        What the update found for the batches it evaluated last, by their curves; used only
+        where the tables still hold the very same objects.
     """
 
     partners: dict[int, tuple[PlaneSet, ...]]
     drives: dict[int, IntArray]
     riders: dict[int, IntArray]
     level: IntArray
+    guess: np.typing.NDArray[np.int32]
+    recall: dict[bytes, Any] = attrs.field(factory=dict)
 
 
 def build_index(state: HullState) -> Index:
@@ -74,7 +82,8 @@ def build_index(state: HullState) -> Index:
     level = levels(
         state.curves.count, driver[driven], reader[driven], lambda c: str(state.curves.key.data[c])
     )
-    return Index(_partners(state), _by_value(driver[driven], driven), _riders(state), level)
+    drives, guess = _by_value(driver[driven], driven), np.zeros((rows.count, 2), np.int32)
+    return Index(_partners(state), drives, _riders(state), level, guess)
 
 
 def _by_value(values: IntArray, items: IntArray) -> dict[int, IntArray]:

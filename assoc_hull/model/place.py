@@ -153,12 +153,24 @@ def generates_on(state: HullState, group: int) -> IntArray:
 
 
 def latent_curves(state: HullState, curve: int) -> IntArray:
-    """Give the curves that a curve may come to generate points on and now does not, (k,) int."""
+    """Give the curves that a curve may come to generate points on and now does not, (k,) int.
+
+    A curve in a parallel plane is none: the two can never meet.
+    """
     table = state.rows
     group = int(state.lines.group.data[state.line_of(curve)])
     live = state.live("curves")
     owner = state.lines.group.data[state.curves.line.data[live]]
-    reach = live[np.isin(owner, generates_on(state, group))]
+    reach = live[np.isin(owner, generates_on(state, group)) & ~_parallel(state, curve, live)]
     met = table.alive.data & (table.curve.data == curve).any(axis=1)
     found: IntArray = np.setdiff1d(reach, table.curve.data[met])
+    return found
+
+
+def _parallel(state: HullState, curve: int, others: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which curves lie in planes parallel to that of a curve."""
+    mine, theirs = state.line_of(curve), state.curves.line.data[others]
+    across = np.cross(state.lines.normal.data[mine], state.lines.normal.data[theirs])
+    both = state.lines.planar.data[mine] & state.lines.planar.data[theirs]
+    found: np.typing.NDArray[np.bool_] = both & (np.abs(across).max(axis=1) <= _PARALLEL)
     return found

@@ -1,0 +1,65 @@
+"""End conditions of curves."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import EndKind
+from assoc_hull.model.state import Ends
+
+__all__ = ["set_end"]
+
+
+def set_end(
+    edit: Transaction,
+    curve: int,
+    end: str,
+    *,
+    tangent: ArrayLike | None = None,
+    curvature: ArrayLike | None = None,
+) -> None:
+    """Give a curve a direction or a curvature at an end, or leave that end free.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    curve : int
+        The curve.
+    end : {"start", "finish"}
+        Which end.
+    tangent : (3,) or None
+        Direction along the sense of the curve, any length.
+    curvature : (3,) or None, 1/m
+        Second derivative with respect to chord length.
+
+    Raises
+    ------
+    BadInputError
+        An unknown end, both conditions, or a vector that is not three finite numbers.
+    """
+    where = f"at the {end} of {edit.state.curves.key.data[curve]}"
+    if end not in ("start", "finish"):
+        raise BadInputError(f"the end {end!r}", where, "use 'start' or 'finish'")
+    if tangent is not None and curvature is not None:
+        raise BadInputError("both a tangent and a curvature", where, "give one of the two")
+    kind, vector = EndKind.FREE, np.zeros(3)
+    if tangent is not None:
+        kind, vector = EndKind.TANGENT, np.array(tangent, np.float64)
+    elif curvature is not None:
+        kind, vector = EndKind.CURVATURE, np.array(curvature, np.float64)
+    bad = vector.shape != (3,) or not np.isfinite(vector).all()
+    if bad or (kind is EndKind.TANGENT and not (vector != 0.0).any()):
+        raise BadInputError(f"the vector {vector.tolist()}", where, "give three finite numbers")
+    old: Ends = edit.state.curves.ends.data[curve]
+    at = 0 if end == "start" else 1
+    kinds, vectors = list(old.kind), list(old.vector)
+    kinds[at], vectors[at] = int(kind), tuple(vector.tolist())
+    new = attrs.evolve(old, kind=tuple(kinds), vector=tuple(vectors))
+    edit.journal.set(edit.state.curves.ends, [curve], [new])
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)

@@ -1,0 +1,136 @@
+"""Lines and associations that go: what they held stays behind as adopted points.
+
+Removing a line is no change of shape. On Series 60 with 8 waterlines dropping one would
+move a section by 50 mm in the median, were its crossings simply deleted.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.edit.keep import deviation
+from assoc_hull.edit.remeet import strike_line
+from assoc_hull.edit.ride import ride_links
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import NameTakenError, TooFewPointsError
+from assoc_hull.geometry.curves import CurveData, IntArray
+from assoc_hull.geometry.spline import loft
+from assoc_hull.model.family import Sort
+from assoc_hull.model.make import PointSpec
+from assoc_hull.model.recipe import curve_data
+from assoc_hull.model.state import HullState
+
+__all__ = ["leave_behind", "remove_line", "rename_line"]
+
+
+def remove_line(edit: Transaction, line: int) -> None:
+    """Remove a line; its crossings stay on the other curves as adopted points.
+
+    Such a point is dropped again where its curve stays within 1 mm without it.
+
+    Raises
+    ------
+    TooFewPointsError
+        It is the last line of the hull.
+    """
+    state = edit.state
+    if len(state.live("lines")) < 2:
+        raise TooFewPointsError("the hull without its last line", 0)
+    edit.pending.structural = True
+    mine = np.array(state.lines.curves.data[line], np.int64)
+    crossings, own = _rows_of(state, mine)
+    leave_behind(edit, crossings, mine)
+    edit.maker.remove_rows(np.concatenate([crossings, own]))
+    strike_line(edit, line)
+    edit.journal.put(state.curves.alive, mine, False)
+    edit.journal.put(state.lines.alive, [line], False)
+    edit.pending.curves -= set(mine.tolist())
+
+
+def _rows_of(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
+    """Give the crossings of curves, and their own points."""
+    table = state.rows
+    mine = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
+    crossing = table.sort.data == Sort.CROSSING
+    return np.flatnonzero(mine & crossing), np.flatnonzero(mine & ~crossing)
+
+
+def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> None:
+    """Replace crossings by adopted points on the curves they define, but for those going."""
+    state, touched = edit.state, set[int]()
+    for row in crossings.tolist():
+        for side, curve in enumerate(state.rows.curve.data[row].tolist()):
+            _make_latent(edit, curve, row)
+            if state.rows.reader.data[row, side] != curve or curve in going:
+                continue
+            point = PointSpec(
+                curve, state.rows.xyz.data[row].copy(), Sort.ADOPTED,
+                int(state.rows.kind.data[row, side]), state.rows.direction.data[row, side].copy(),
+            )  # fmt: skip
+            new = int(edit.maker.points([point])[0])
+            rows: IntArray = state.curves.rows.data[curve]
+            edit.maker.define(curve, np.where(rows == row, new, rows))
+            touched.add(curve)
+    for curve in sorted(touched):
+        _prune(edit, curve)
+        ride_links(state, np.array([curve]), edit.journal)
+        edit.pending.curves.add(curve)
+
+
+def _make_latent(edit: Transaction, curve: int, row: int) -> None:
+    state = edit.state
+    meets = state.curves.meets.data[curve]
+    if (meets.row == row).any():
+        left = np.where(meets.row == row, -1, meets.row)
+        new = type(meets)(
+            meets.line.copy(), meets.sign.copy(), left, meets.parameter.copy(), meets.xyz.copy()
+        )
+        edit.journal.set(state.curves.meets, [curve], [new])
+
+
+def _prune(edit: Transaction, curve: int) -> None:
+    """Drop adopted points one by one, as long as the curve stays within the tolerance."""
+    state = edit.state
+    published = state.spline(curve)
+    rows: IntArray = state.curves.rows.data[curve]
+    inner = rows[1:-1]
+    smooth = state.rows.kind.data[inner, 0] == 0
+    for row in inner[(state.rows.sort.data[inner] == Sort.ADOPTED) & smooth].tolist():
+        data = curve_data(state, np.array([curve]))
+        at = int(np.flatnonzero(state.curves.rows.data[curve] == row)[0])
+        if data.start[1] < 4:
+            return
+        trial = loft(
+            CurveData(
+                data.start - np.array([0, 1]),
+                np.delete(data.xyz, at, axis=0),
+                np.delete(data.kind, at),
+                np.delete(data.direction, at, axis=0),
+                data.end_kind.copy(),
+                data.end_vector.copy(),
+            )
+        )
+        if float(deviation(published, trial)[0]) <= state.tolerances.prune:
+            kept: IntArray = state.curves.rows.data[curve]
+            edit.maker.define(curve, kept[kept != row])
+            edit.maker.remove_rows([row])
+
+
+def rename_line(edit: Transaction, line: int, name: str) -> None:
+    """Give a line another name; its id stays.
+
+    Raises
+    ------
+    NameTakenError
+        Another line of the group has that name.
+    """
+    state = edit.state
+    group = state.lines.group.data[line]
+    taken = {
+        state.lines.name.data[other]
+        for other in state.live("lines").tolist()
+        if state.lines.group.data[other] == group and other != line
+    }
+    if name in taken:
+        raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
+    edit.journal.set(state.lines.name, [line], [name])

@@ -1,0 +1,254 @@
+"""Pinned modifications: single points are moved, inserted, deleted, or change their kind.
+
+A pinned edit changes the two curves of a point and what these drive; all other points keep
+their values. It is right for millimetres: it is inherently a local bump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.edit.ride import ride_links
+from assoc_hull.edit.thread import interval_of
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import (
+    BadInputError,
+    CoincidentPointsError,
+    FreedomError,
+    PointRoleError,
+    TooFewPointsError,
+)
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.model.address import address
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.make import PointSpec
+from assoc_hull.model.place import free_axes
+from assoc_hull.model.state import HullState
+
+__all__ = ["delete", "insert", "move", "pin", "set_kind", "unpin"]
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+_WAYS_OUT = "move the driver, pull it (edit.pull), or make it shared (edit.set_role)"
+
+
+def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
+    """Move a point along its freedom.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    row : int
+        A shared crossing, a placed or an adopted point. An adopted one becomes placed.
+    to : mapping of str to float, m
+        New coordinates: exactly those in which the point is free.
+
+    Raises
+    ------
+    PointRoleError
+        The point is driven or watched; the message names its driver.
+    FreedomError
+        Other coordinates were given than those it is free in.
+    BadInputError
+        A number that is not finite, or, on an oblique line, off that line.
+    """
+    state = edit.state
+    _refuse_computed(state, row)
+    free = free_axes(state, row)
+    if set(to) != set(free):
+        raise FreedomError(address(state, row), tuple(to), free)
+    place = state.rows.xyz.data[row].copy()
+    for axis, value in to.items():
+        place[_AXES[axis]] = value
+    edit.write(np.array([row]), _on_planes(state, row, place)[None], f"move of {address(state, row)}")
+    curves = state.rows.curve.data[row]
+    edit.pending.moved_curves |= {int(curve) for curve in curves if curve >= 0}
+    if state.rows.sort.data[row] == Sort.ADOPTED:
+        pin(edit, row)
+
+
+def _refuse_computed(state: HullState, row: int) -> None:
+    if state.rows.sort.data[row] != Sort.CROSSING:
+        return
+    role = Role(int(state.rows.role.data[row]))
+    if role is Role.SHARED:
+        return
+    driver = int(state.rows.driver.data[row])
+    title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
+    kind = "watched" if role is Role.WATCHED else "driven"
+    raise PointRoleError(address(state, row), kind, title, _WAYS_OUT)
+
+
+def _on_planes(state: HullState, row: int, place: FloatArray) -> FloatArray:
+    """Check that a place lies in the planes of the point's lines; put it there exactly."""
+    out = np.array(place, np.float64)
+    for curve in state.rows.curve.data[row].tolist():
+        line = state.line_of(curve) if curve >= 0 else -1
+        if line < 0 or not state.lines.planar.data[line]:
+            continue
+        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+        away = float(out @ normal) - offset
+        if abs(away) > 1e-6:
+            raise BadInputError(
+                f"the place lies {away:.3g} m off the plane of {state.lines.name.data[line]}",
+                f"in a move of {address(state, row)}",
+                "give a place in that plane",
+            )
+        exact = normal == 1.0
+        out[exact] = offset
+    return out
+
+
+def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
+    """Insert a placed point into a curve, between the two points it lies between.
+
+    Returns
+    -------
+    int
+        The new point.
+
+    Raises
+    ------
+    BadInputError
+        A place that is not three finite numbers, or lies off the curve's plane.
+    CoincidentPointsError
+        Another point of the curve lies there.
+    """
+    state = edit.state
+    name = str(state.lines.name.data[state.line_of(curve)])
+    try:
+        xyz = np.array(place, np.float64)
+    except (TypeError, ValueError):
+        xyz = np.zeros(0)
+    if xyz.shape != (3,) or not np.isfinite(xyz).all():
+        raise BadInputError(f"the place {place!r}", f"for a point of {name}", "give three numbers, m")
+    xyz = _in_line(state, curve, xyz)
+    rows: IntArray = state.curves.rows.data[curve]
+    away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
+    if away.min() < state.tolerances.coincident:
+        x, y, z = xyz.tolist()
+        raise CoincidentPointsError(name, (x, y, z), float(away.min()), state.tolerances.coincident)
+    row = int(edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
+    index = interval_of(state.rows.xyz.data[rows], xyz)
+    edit.maker.define(curve, np.insert(rows, index, row))
+    _changed(edit, curve)
+    return row
+
+
+def _in_line(state: HullState, curve: int, xyz: FloatArray) -> FloatArray:
+    line = state.line_of(curve)
+    if not state.lines.planar.data[line]:
+        return xyz
+    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    away = float(xyz @ normal) - offset
+    if abs(away) > 1e-6:
+        raise BadInputError(
+            f"the place lies {away:.3g} m off the plane of {state.lines.name.data[line]}",
+            "in insert",
+            "give a place in that plane",
+        )
+    xyz[normal == 1.0] = offset
+    return xyz
+
+
+def _changed(edit: Transaction, curve: int) -> None:
+    """Note that other points define a curve now."""
+    ride_links(edit.state, np.array([curve]), edit.journal)
+    edit.pending.structural = True
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)
+
+
+def delete(edit: Transaction, row: int) -> None:
+    """Delete a placed or adopted point.
+
+    Raises
+    ------
+    PointRoleError
+        The point is a crossing: it goes with its line or its association only.
+    TooFewPointsError
+        The curve would be left with fewer than two points.
+    """
+    state = edit.state
+    if state.rows.sort.data[row] == Sort.CROSSING:
+        raise PointRoleError(
+            address(state, row), "a crossing", None, "remove the line, or the association"
+        )
+    curve = int(state.rows.curve.data[row, 0])
+    rows: IntArray = state.curves.rows.data[curve]
+    if len(rows) < 3:
+        raise TooFewPointsError(str(state.lines.name.data[state.line_of(curve)]), len(rows) - 1)
+    edit.maker.define(curve, rows[rows != row])
+    edit.maker.remove_rows([row])
+    edit.pending.values.pop(row, None)
+    _changed(edit, curve)
+
+
+def set_kind(
+    edit: Transaction, row: int, side: int, kind: str, direction: ArrayLike | None = None
+) -> None:
+    """Make a point smooth, tangent or a knuckle on one of its curves.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    row, side : int
+        The point, and whether the curve is its a (0) or b (1).
+    kind : {"smooth", "tangent", "knuckle"}
+        How the curve is to pass.
+    direction : (3,) or None
+        Direction at a tangent point, along the sense of the curve; as it is now if None.
+
+    Raises
+    ------
+    BadInputError
+        An unknown kind, a direction of no length, or a point that does not define the curve.
+    """
+    state = edit.state
+    curve = int(state.rows.curve.data[row, side])
+    where = f"at {address(state, row)}"
+    if kind not in {each.name.lower() for each in PointKind}:
+        raise BadInputError(f"the kind {kind!r}", where, "use smooth, tangent or knuckle")
+    rows: IntArray = state.curves.rows.data[curve]
+    if row not in rows.tolist():
+        raise BadInputError("the point does not define the curve", where, "set its role first")
+    given = np.zeros(3)
+    if kind == "tangent":
+        spline = state.spline(curve)
+        at = int(np.flatnonzero(rows == row)[0])
+        given = np.array(spline.leave[at] if direction is None else direction, np.float64)
+        if given.shape != (3,) or not np.isfinite(given).all() or not (given != 0.0).any():
+            raise BadInputError(f"the direction {direction!r}", where, "give a vector with a length")
+    kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
+    kinds[side], directions[side] = PointKind[kind.upper()], given
+    edit.journal.put(state.rows.kind, [row], kinds[None])
+    edit.journal.put(state.rows.direction, [row], directions[None])
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)
+
+
+def pin(edit: Transaction, row: int) -> None:
+    """Make an adopted point a placed one: no update moves it any more."""
+    _resort(edit, row, Sort.ADOPTED, Sort.PLACED)
+
+
+def unpin(edit: Transaction, row: int) -> None:
+    """Make a placed point an adopted one: it belongs to the shape and goes with fields."""
+    _resort(edit, row, Sort.PLACED, Sort.ADOPTED)
+
+
+def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
+    state = edit.state
+    if state.rows.sort.data[row] != old:
+        sort = Sort(int(state.rows.sort.data[row])).name.lower()
+        raise PointRoleError(
+            address(state, row), f"a {sort} point", None, f"only {old.name.lower()} points can change"
+        )
+    edit.journal.put(state.rows.sort, [row], int(new))
+    edit.journal.put(state.rows.anchor, [row], -1)
+    edit.pending.structural = True
+    ride_links(state, state.rows.curve.data[row, :1], edit.journal)

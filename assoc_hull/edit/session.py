@@ -1,0 +1,250 @@
+"""The edit a designer works with: handles and addresses in, one transaction behind.
+
+Every method checks its arguments, names what is wrong, and changes nothing until the
+``with`` block ends; then one update runs.
+"""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.edit import associate as _associate
+from assoc_hull.edit import cut as _cut
+from assoc_hull.edit import ends as _ends
+from assoc_hull.edit import lines as _lines
+from assoc_hull.edit import points as _points
+from assoc_hull.edit import pull as _pull
+from assoc_hull.edit import reshape as _reshape
+from assoc_hull.edit import set_role as _set_role
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.update import Settings
+from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
+from assoc_hull.model.address import resolve
+from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
+from assoc_hull.model.state import HullState
+
+__all__ = ["Edit"]
+
+
+class Edit:
+    """One named edit, to be used in a ``with`` statement; one undo step.
+
+    Points, curves and lines are given as handles or as addresses, for instance
+    ``"WL 0.5 x ST 7"``.
+
+    Parameters
+    ----------
+    document : Document
+        The hull.
+    name : str
+        Name of the edit.
+    settings : Settings
+        Policy and treatment of gaps.
+    publish : bool
+        False for a preview.
+    """
+
+    def __init__(
+        self, document: Document, name: str, settings: Settings | None = None, publish: bool = True
+    ) -> None:
+        self._transaction = Transaction(document, name, settings, publish)
+
+    def __enter__(self) -> Self:
+        self._transaction.__enter__()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._transaction.__exit__(kind, error, trace)
+
+    @property
+    def report(self) -> EditReport | None:
+        """What the edit did; None until it is committed."""
+        return self._transaction.report
+
+    @property
+    def active(self) -> bool:
+        """Whether the ``with`` block is open."""
+        return self._transaction.active
+
+    @property
+    def _tables(self) -> HullState:
+        return self._transaction.state
+
+    def move(
+        self,
+        point: Point | str,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        z: float | None = None,
+    ) -> None:
+        """Move a point along its freedom; give exactly the coordinates it is free in, m.
+
+        Raises
+        ------
+        PointRoleError
+            The point is driven or watched.
+        FreedomError
+            Other coordinates than those it is free in.
+        """
+        asked = {"x": x, "y": y, "z": z}
+        row, _ = self._point(point)
+        given = {axis: _number(value, axis) for axis, value in asked.items() if value is not None}
+        _points.move(self._transaction, row, given)
+
+    def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
+        """Insert a placed point at (x, y, z), m; it is never moved by an update."""
+        number = self._curve(curve)
+        row = _points.insert(self._transaction, number, place)
+        return Point.of(self._tables, row)
+
+    def delete(self, point: Point | str) -> None:
+        """Delete a placed or adopted point."""
+        _points.delete(self._transaction, self._point(point)[0])
+
+    def set_kind(
+        self, point: Point | str, kind: str, *, direction: ArrayLike | None = None
+    ) -> None:
+        """Make a point ``"smooth"``, ``"tangent"`` or ``"knuckle"`` on the curve it lies on."""
+        row, side = self._point(point)
+        _points.set_kind(self._transaction, row, side, kind, direction)
+
+    def pin(self, point: Point | str) -> None:
+        """Make an adopted point a placed one."""
+        _points.pin(self._transaction, self._point(point)[0])
+
+    def unpin(self, point: Point | str) -> None:
+        """Make a placed point an adopted one."""
+        _points.unpin(self._transaction, self._point(point)[0])
+
+    def pull(
+        self,
+        point: Point | str,
+        d: float,
+        radius: tuple[float, float] | None = None,
+        *,
+        across_flats: bool = False,
+    ) -> None:
+        """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
+        row, _ = self._point(point)
+        _pull.pull(self._transaction, row, _number(d, "d"), radius, across_flats=across_flats)
+
+    def reshape(
+        self,
+        curve: Curve | str,
+        points: ArrayLike,
+        *,
+        span: tuple[float, float],
+        fade: Literal["auto"] | tuple[float, float] | None = "auto",
+        across_flats: bool = False,
+    ) -> tuple[Point, ...]:
+        """Give a curve a new shape through points (k, 3), m, within a span; the hull follows.
+
+        Returns the placed points that were made.
+        """
+        number = self._curve(curve)
+        made = _reshape.reshape(
+            self._transaction, number, points, span, fade, across_flats=across_flats
+        )
+        return tuple(Point.of(self._tables, row) for row in made)
+
+    def set_end(
+        self,
+        curve: Curve | str,
+        end: str,
+        *,
+        tangent: ArrayLike | None = None,
+        curvature: ArrayLike | None = None,
+    ) -> None:
+        """Give a curve a tangent or a curvature at its start or finish; free without either."""
+        _ends.set_end(
+            self._transaction, self._curve(curve), end, tangent=tangent, curvature=curvature
+        )
+
+    def set_role(self, crossing: Point | Crossing | str, role: str | None) -> None:
+        """Override what a crossing defines; None gives it back to the rule."""
+        row = crossing.row if isinstance(crossing, Crossing) else self._point(crossing)[0]
+        _set_role.set_role(self._transaction, row, role)
+
+    def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
+        """Declare that a generates points on b, and b on a if two-way."""
+        names = [each.name if isinstance(each, Group) else each for each in (a, b)]
+        _associate.associate(self._transaction, names[0], names[1], two_way=two_way)
+
+    def dissociate(self, a: Group | str, b: Group | str) -> None:
+        """Take an association back."""
+        names = [each.name if isinstance(each, Group) else each for each in (a, b)]
+        _associate.dissociate(self._transaction, names[0], names[1])
+
+    def rename(self, line: Line | str, name: str) -> None:
+        """Give a line another name."""
+        _lines.rename_line(self._transaction, self._line(line), name)
+
+    def add_line(self, group: Group | str, position: float, name: str | None = None) -> Line:
+        """Cut a new line at a position (m) along its family's axis."""
+        title = group.name if isinstance(group, Group) else group
+        number = _cut.add_line(self._transaction, title, _number(position, "position"), name)
+        return Line.of(self._tables, number)
+
+    def remove_line(self, line: Line | str) -> None:
+        """Remove a line; what it held stays behind as adopted points."""
+        _lines.remove_line(self._transaction, self._line(line))
+
+    def _point(self, point: Point | str) -> tuple[int, int]:
+        if isinstance(point, Point):
+            self._check_own(point)
+            return point.row, point.side
+        if not isinstance(point, str):
+            raise BadInputError(f"the point {point!r}", "in an edit", "give a handle or an address")
+        found = resolve(self._tables, point)
+        if found.row < 0:
+            raise UnknownNameError("point", point)
+        return found.row, found.side
+
+    def _curve(self, curve: Curve | str) -> int:
+        if isinstance(curve, Curve):
+            self._check_own(curve)
+            return curve.row
+        found = resolve(self._tables, curve)
+        if found.curve >= 0:
+            return found.curve
+        pieces = self._tables.lines.curves.data[found.line] if found.line >= 0 else ()
+        if len(pieces) != 1:
+            known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
+            raise UnknownNameError("curve", curve, known)
+        return int(pieces[0])
+
+    def _line(self, line: Line | str) -> int:
+        if isinstance(line, Line):
+            self._check_own(line)
+            return line.row
+        found = resolve(self._tables, line)
+        if found.line < 0:
+            raise UnknownNameError("line", line)
+        return found.line
+
+    def _check_own(self, handle: Point | Curve | Line) -> None:
+        if handle.tables is not self._tables:
+            raise ForeignPointError(repr(handle))
+
+
+def _number(value: object, name: str) -> float:
+    """Take a finite number, or say which argument is none."""
+    try:
+        found = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        found = float("nan")
+    if not np.isfinite(found):
+        raise BadInputError(f"{name} is {value!r}", "in an edit", "give a finite number")
+    return found

@@ -1,0 +1,226 @@
+"""What is drawn of a hull: its lines as polylines, and who drives whom.
+
+The one place in this package that reads a hull's tables. Everything given out is frozen, so
+a drawing is also a snapshot: it stays as it is while the hull is edited.
+
+Examples
+--------
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.plot.drawing import drawing
+>>> line = drawing(wigley()).line("WL 2.5")
+>>> line.family, line.label, line.offset
+('waterlines', '2.5', 2.5)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import UnknownNameError
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.spline import sample
+from assoc_hull.hull import Hull
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import FAMILIES, BoundaryKind
+from assoc_hull.model.state import HullState, Particulars
+
+__all__ = ["Drawing", "DrawnLine", "Link", "Node", "Sketchable", "drawing", "links", "state_of"]
+
+_CHORDS = 8
+"""Chords that stand for one segment of a line, and four times as many for a boundary."""
+
+
+@attrs.frozen(eq=False)
+class DrawnLine:
+    """One line of a hull.
+
+    Attributes
+    ----------
+    name, label : str
+        Its name, and the short one without the prefix of its family.
+    family : str
+        Name of its family.
+    boundary : BoundaryKind or None
+        What it does to lines that meet it.
+    normal : (3,)
+        Unit normal of its plane; nan for a space curve.
+    offset : float, m
+        Offset of its plane; nan for a space curve.
+    splines : tuple of SplineBatch
+        Its curves, batches of one.
+    polylines : tuple of (n, 3), m
+        Its curves for drawing.
+    """
+
+    name: str
+    label: str
+    family: str
+    boundary: BoundaryKind | None
+    normal: FloatArray
+    offset: float
+    splines: tuple[SplineBatch, ...]
+    polylines: tuple[FloatArray, ...]
+
+    @property
+    def points(self) -> FloatArray:
+        """The points of all its polylines, (k, 3), m."""
+        return np.concatenate([np.zeros((0, 3)), *self.polylines])
+
+
+@attrs.frozen(eq=False)
+class Drawing:
+    """All lines of a hull as they were when it was made.
+
+    Attributes
+    ----------
+    particulars : Particulars
+        Principal dimensions, m.
+    lines : tuple of DrawnLine
+        By family, along each family by plane.
+    """
+
+    particulars: Particulars
+    lines: tuple[DrawnLine, ...]
+
+    def of(self, family: str) -> tuple[DrawnLine, ...]:
+        """Give the lines of a family."""
+        return tuple(line for line in self.lines if line.family == family)
+
+    def line(self, name: str) -> DrawnLine:
+        """Give the line of a name.
+
+        Raises
+        ------
+        UnknownNameError
+            There is none.
+        """
+        for line in self.lines:
+            if line.name == name:
+                return line
+        raise UnknownNameError("line", name, tuple(line.name for line in self.lines))
+
+    @property
+    def profile(self) -> DrawnLine | None:
+        """The boundary in the centre plane."""
+        for line in self.of("boundary"):
+            if line.boundary == BoundaryKind.END and abs(line.normal[1]) == 1.0:
+                return line
+        return None
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Least and greatest coordinates, (2, 3), m."""
+        points = np.concatenate([line.points for line in self.lines])
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+Sketchable = Hull | HullState | Drawing
+"""What can be drawn."""
+
+
+def state_of(hull: Hull | HullState) -> HullState:
+    """Give the tables of a hull."""
+    return hull.document.state if isinstance(hull, Hull) else hull
+
+
+def drawing(hull: Sketchable) -> Drawing:
+    """Take the lines of a hull as they are now; a drawing is given back as it is."""
+    if isinstance(hull, Drawing):
+        return hull
+    state = state_of(hull)
+    book = AddressBook(state)
+    lines = [_drawn(state, book, line) for line in state.live("lines").tolist()]
+    lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))
+    return Drawing(state.particulars, tuple(lines))
+
+
+def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:
+    table, family = state.lines, state.family(line)
+    boundary = int(table.boundary.data[line])
+    splines = tuple(state.spline(curve) for curve in _curves(state, line))
+    chords = _CHORDS if boundary < 0 else 4 * _CHORDS
+    normal = table.normal.data[line].copy()
+    flat = bool(table.planar.data[line])
+    return DrawnLine(
+        book.line_name(line),
+        _short(str(table.name.data[line]), family.prefix),
+        family.name,
+        None if boundary < 0 else BoundaryKind(boundary),
+        normal if flat else np.full(3, np.nan),
+        float(table.offset.data[line]) if flat else float("nan"),
+        splines,
+        tuple(sample(spline, chords)[1] for spline in splines),
+    )
+
+
+def _curves(state: HullState, line: int) -> list[int]:
+    """Give the curves of a line that have a shape."""
+    curves = state.curves
+    return [
+        curve
+        for curve in state.lines.curves.data[line]
+        if curves.alive.data[curve] and curves.spline.data[curve] is not None
+    ]
+
+
+def _short(name: str, prefix: str) -> str:
+    found = name.removeprefix(prefix).strip() if prefix else name
+    return found or name
+
+
+@attrs.frozen
+class Node:
+    """A curve in the network: its name, the family, and where its plane lies (m)."""
+
+    name: str
+    family: str
+    offset: float
+
+
+@attrs.frozen
+class Link:
+    """That one curve makes another through some crossings.
+
+    Attributes
+    ----------
+    tail, head : Node
+        What drives, and what is made from it.
+    driven, shared : int
+        Crossings at which the tail drives the head, and those that define both.
+    """
+
+    tail: Node
+    head: Node
+    driven: int
+    shared: int
+
+
+def links(hull: Hull | HullState) -> tuple[Link, ...]:
+    """Give who drives whom, by crossings; a pair with shared crossings comes once each way."""
+    state = state_of(hull)
+    book = AddressBook(state)
+    node: dict[int, Node] = {}
+    for curve in state.live("curves").tolist():
+        line = state.line_of(curve)
+        offset = float(state.lines.offset.data[line])
+        node[curve] = Node(book.curve_name(curve), state.family(line).name, offset)
+    counts: dict[tuple[int, int], list[int]] = {}
+    for tail, head, shared in _links(state):
+        counts.setdefault((tail, head), [0, 0])[shared] += 1
+    return tuple(Link(node[a], node[b], *count) for (a, b), count in sorted(counts.items()))
+
+
+def _links(state: HullState) -> Iterator[tuple[int, int, int]]:
+    """Give tail, head, and whether the crossing is shared, for each crossing that counts."""
+    table = state.rows
+    for row in state.live("rows").tolist():
+        driver = int(table.driver.data[row])
+        readers = [int(reader) for reader in table.reader.data[row] if reader >= 0]
+        if driver >= 0:
+            yield from ((driver, reader, 0) for reader in readers)
+        elif len(readers) == 2:
+            yield (*readers, 1)
+            yield (readers[1], readers[0], 1)

@@ -1,0 +1,267 @@
+"""A sheet of paper: lines and letters placed in millimetres, written the same way each time.
+
+Matplotlib is imported here only when a sheet is made, through its objects: no global state
+of pyplot is read or changed.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.geometry.curves import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.text import Text
+
+__all__ = ["PAPERS", "Paper", "PaperName", "Pen", "Sheet", "paper_of", "require_matplotlib", "save"]
+
+POINT = 25.4 / 72.0
+"""Millimetres in a typographic point."""
+
+_FONT = "DejaVu Sans"  # comes with matplotlib: the same letters on every machine
+_FORMATS = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}
+
+Path_ = str | os.PathLike[str]
+PaperName = Literal["A1", "A3", "A4"]
+
+
+@attrs.frozen
+class Paper:
+    """A size of paper, landscape, mm, and of the letters on it, points.
+
+    Attributes
+    ----------
+    name : str
+        A1, A3, A4.
+    width, height : float, mm
+        Of the sheet.
+    letter : float, points
+        Size of the letters of labels.
+    dots : int
+        Dots per inch of a PNG.
+    """
+
+    name: str
+    width: float
+    height: float
+    letter: float
+    dots: int
+
+    @property
+    def factor(self) -> float:
+        """How much wider spaces are than on A3."""
+        return self.letter / 5.0
+
+
+PAPERS = {
+    paper.name: paper
+    for paper in (
+        Paper("A1", 841.0, 594.0, 8.0, 120),
+        Paper("A3", 420.0, 297.0, 5.0, 200),
+        Paper("A4", 297.0, 210.0, 5.0, 200),
+    )
+}
+
+
+@attrs.frozen
+class Pen:
+    """How a line is drawn.
+
+    Attributes
+    ----------
+    width : float, mm
+        At A3; wider on larger paper.
+    colour : str
+        As matplotlib names colours.
+    dash : tuple of float, mm
+        Lengths drawn and left out, in turn; empty for a full line.
+    over : float
+        Lines of higher numbers lie over those of lower ones.
+    """
+
+    width: float
+    colour: str = "black"
+    dash: tuple[float, ...] = ()
+    over: float = 2.0
+
+
+def paper_of(name: str) -> Paper:
+    """Give a size of paper.
+
+    Raises
+    ------
+    BadInputError
+        An unknown name.
+    """
+    if name not in PAPERS:
+        known = ", ".join(PAPERS)
+        raise BadInputError(f"the paper {name!r} was asked", "in a picture", f"use one of {known}")
+    return PAPERS[name]
+
+
+def require_matplotlib() -> None:
+    """Make sure that pictures can be drawn.
+
+    Raises
+    ------
+    MissingExtraError
+        Matplotlib is not installed.
+    """
+    try:
+        import matplotlib.figure  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("matplotlib", "plot") from None
+
+
+class Sheet:
+    """One picture.
+
+    Parameters
+    ----------
+    paper : str
+        Name of the size.
+    height : float, mm, optional
+        Instead of the paper's own.
+
+    Attributes
+    ----------
+    paper : Paper
+        Its size.
+    figure : matplotlib.figure.Figure
+        The picture so far.
+    taken : list of (4,)
+        Boxes of labels that others must keep clear of, mm.
+    """
+
+    def __init__(self, paper: str, height: float | None = None) -> None:
+        require_matplotlib()
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        size = paper_of(paper)
+        self.paper = size if height is None else attrs.evolve(size, height=height)
+        inches = (self.paper.width / 25.4, self.paper.height / 25.4)
+        self.figure: Figure = Figure(figsize=inches, dpi=self.paper.dots, facecolor="white")
+        self._renderer = FigureCanvasAgg(self.figure).get_renderer()
+        self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        self.axes.set_xlim(0.0, self.paper.width)
+        self.axes.set_ylim(0.0, self.paper.height)
+        self.axes.set_axis_off()
+        self.taken: list[FloatArray] = []
+
+    def line(self, points: FloatArray, pen: Pen, name: str = "") -> None:
+        """Draw a polyline (n, 2), mm; `name` becomes its id."""
+        from matplotlib.lines import Line2D
+
+        width = pen.width * self.paper.factor / POINT
+        on = tuple(length * self.paper.factor / POINT / width for length in pen.dash)
+        self.axes.add_line(
+            Line2D(
+                points[:, 0], points[:, 1], linewidth=width, color=pen.colour, zorder=pen.over,
+                linestyle=(0, on) if on else "-", solid_capstyle="round", solid_joinstyle="round",
+                dash_capstyle="butt", antialiased=True, gid=name or None,
+            )
+        )  # fmt: skip
+
+    def rule(self, start: tuple[float, float], end: tuple[float, float], pen: Pen, name: str = "") -> None:
+        """Draw a straight line between two places, mm."""
+        self.line(np.array([start, end], np.float64), pen, name)
+
+    def dots(self, points: FloatArray, colour: str, size: float, name: str = "") -> None:
+        """Draw round dots at (n, 2), mm; `size` is their diameter, mm."""
+        from matplotlib.lines import Line2D
+
+        across = size * self.paper.factor / POINT
+        self.axes.add_line(
+            Line2D(
+                points[:, 0], points[:, 1], linestyle="", marker="o", markersize=across,
+                markerfacecolor=colour, markeredgewidth=0.0, zorder=4.0, gid=name or None,
+            )
+        )  # fmt: skip
+
+    def text(
+        self,
+        place: tuple[float, float],
+        words: str,
+        *,
+        size: float = 1.0,
+        across: Literal["left", "center", "right"] = "center",
+        up: Literal["center", "top", "bottom", "baseline"] = "center",
+        angle: float = 0.0,
+        colour: str = "black",
+        bold: bool = False,
+        paper: bool = False,
+        name: str = "label",
+    ) -> Text:
+        """Write words.
+
+        Parameters
+        ----------
+        place : (float, float), mm
+            Where.
+        words : str
+            What.
+        size : float
+            In label letters.
+        across, up
+            Which part of the words lies at the place.
+        angle : float, degrees
+            Anticlockwise.
+        colour : str
+            Of the letters.
+        bold : bool
+            Whether they are bold.
+        paper : bool
+            Whether paper white is laid under them.
+        name : str
+            Becomes the id.
+        """
+        under = {"facecolor": "white", "edgecolor": "none", "boxstyle": "square,pad=0.08"}
+        return self.axes.text(
+            *place, words, fontsize=size * self.paper.letter, ha=across, va=up, rotation=angle,
+            rotation_mode="anchor" if angle and across != "center" else "default", color=colour,
+            fontweight="bold" if bold else "normal", fontfamily=_FONT, gid=name, zorder=5.0,
+            bbox=under if paper else None, parse_math=False,
+        )  # fmt: skip
+
+    def box(self, text: Text) -> FloatArray:
+        """Give the box around words that were written: left, bottom, right, top, mm."""
+        extent = text.get_window_extent(self._renderer)
+        corners = np.array([extent.x0, extent.y0, extent.x1, extent.y1])
+        return corners * (25.4 / self.paper.dots)
+
+    def take(self, text: Text) -> None:
+        """Keep later labels clear of these words."""
+        self.taken.append(self.box(text))
+
+
+def save(figure: Figure, path: Path_) -> None:
+    """Write a picture as PDF, SVG or PNG, told by the ending; the same bytes each time.
+
+    Raises
+    ------
+    BadInputError
+        Another ending, or a place that cannot be written to.
+    """
+    import matplotlib
+
+    suffix = Path(path).suffix.lower()
+    if suffix not in _FORMATS:
+        raise BadInputError(
+            f"the ending {suffix!r} was asked", f"for {path}", f"use one of {', '.join(_FORMATS)}"
+        )
+    fixed = {"svg.hashsalt": "assoc-hull", "svg.fonttype": "path", "pdf.fonttype": 42}
+    with matplotlib.rc_context({**fixed, "savefig.bbox": None, "savefig.dpi": "figure"}):
+        try:
+            figure.savefig(os.fspath(path), format=suffix[1:], metadata=_FORMATS[suffix])
+        except OSError as trouble:
+            raise BadInputError(
+                f"the file cannot be written ({trouble.strerror})", f"at {path}", "name another place"
+            ) from None
