@@ -62,6 +62,11 @@ def find_folds(
 
 def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
     """Say which curves hold numbers that are not finite."""
+    if not len(curves):
+        return ()
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    if np.isfinite(batch.leave).all():
+        return ()
     return tuple(
         f"{state.curves.key.data[curve]} has a derivative that is not finite"
         for curve in curves.tolist()
@@ -69,15 +74,21 @@ def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
     )
 
 
-def measure_gaps(state: HullState, curves: IntArray, journal: Journal) -> Wide:
-    """Measure the watched gaps of curves, store them, and give those over their limit."""
+def measure_gaps(
+    state: HullState, curves: IntArray, journal: Journal, guess: np.typing.NDArray[np.integer] | None = None
+) -> Wide:
+    """Measure the watched gaps of curves, store them, and give those over their limit.
+
+    `guess` may say where crossings lie, as for `assoc_hull.model.gaps.gap_at`.
+    """
     rows = watched_on(state, curves)
     if not len(rows):
         return Wide(rows, np.zeros(0), np.zeros(0), 0.0)
-    gap = gap_at(state, rows)
+    known = guess if guess is not None and len(guess) == state.rows.count else None
+    gap = gap_at(state, rows, known)
     journal.put(state.rows.gap, rows, gap)
     journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
-    limit = state.rows.limit.data[rows]
+    limit = state.rows.limit.data.take(rows)
     wide = gap > limit
     return Wide(rows[wide], gap[wide], limit[wide], float(gap.max()))
 

@@ -20,7 +20,7 @@ from assoc_hull.model.make import PointSpec
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
-__all__ = ["leave_behind", "remove_line", "rename_line"]
+__all__ = ["leave_behind", "prune", "remove_line", "rename_line"]
 
 
 def remove_line(edit: Transaction, line: int) -> None:
@@ -57,7 +57,7 @@ def _rows_of(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
 
 def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> None:
     """Replace crossings by adopted points on the curves they define, but for those going."""
-    state, touched = edit.state, set[int]()
+    state, touched = edit.state, dict[int, list[int]]()
     for row in crossings.tolist():
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
             _make_latent(edit, curve, row)
@@ -70,9 +70,9 @@ def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> Non
             new = int(edit.maker.points([point])[0])
             rows: IntArray = state.curves.rows.data[curve]
             edit.maker.define(curve, np.where(rows == row, new, rows))
-            touched.add(curve)
+            touched.setdefault(curve, []).append(new)
     for curve in sorted(touched):
-        _prune(edit, curve)
+        prune(edit, curve, np.array(touched[curve]))
         ride_links(state, np.array([curve]), edit.journal)
         edit.pending.curves.add(curve)
 
@@ -88,14 +88,24 @@ def _make_latent(edit: Transaction, curve: int, row: int) -> None:
         edit.journal.set(state.curves.meets, [curve], [new])
 
 
-def _prune(edit: Transaction, curve: int) -> None:
-    """Drop adopted points one by one, as long as the curve stays within the tolerance."""
+def prune(edit: Transaction, curve: int, points: IntArray) -> None:
+    """Drop adopted points one by one, as long as the curve stays within the tolerance.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    curve : int
+        The curve.
+    points : (k,) int
+        The points that may go; ends, knuckles and tangent points stay in any case.
+    """
     state = edit.state
     published = state.spline(curve)
     rows: IntArray = state.curves.rows.data[curve]
     inner = rows[1:-1]
-    smooth = state.rows.kind.data[inner, 0] == 0
-    for row in inner[(state.rows.sort.data[inner] == Sort.ADOPTED) & smooth].tolist():
+    inner = inner[np.isin(inner, points)]
+    for row in inner[state.rows.kind.data[inner, 0] == 0].tolist():
         data = curve_data(state, np.array([curve]))
         at = int(np.flatnonzero(state.curves.rows.data[curve] == row)[0])
         if data.start[1] < 4:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.edit.lines import prune
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import role_by_rule
@@ -12,6 +13,7 @@ from assoc_hull.errors import BadInputError, PointRoleError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.make import PointSpec
 from assoc_hull.model.state import HullState
 
 __all__ = ["change_role", "set_role"]
@@ -75,7 +77,7 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
             _drop_stand_in(edit, curve, row)
             thread(edit.maker, curve, row)
         elif reader[side] != curve and inside:
-            edit.maker.define(curve, rows[rows != row])
+            _leave_stand_in(edit, curve, row)
         ride_links(state, np.array([curve]), edit.journal)
         edit.pending.curves.add(curve)
     if new is Role.WATCHED:
@@ -85,6 +87,15 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
         edit.journal.put(state.rows.limit, [row], [np.nan])
         edit.journal.put(state.rows.gap, [row], [np.nan])
     edit.pending.structural = True
+
+
+def _leave_stand_in(edit: Transaction, curve: int, row: int) -> None:
+    """Let an adopted point hold the shape where the crossing did, if the curve needs it."""
+    place = edit.state.rows.xyz.data[row].copy()
+    point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
+    rows: IntArray = edit.state.curves.rows.data[curve]
+    edit.maker.define(curve, np.where(rows == row, point, rows))
+    prune(edit, curve, np.array([point]))
 
 
 def _drop_stand_in(edit: Transaction, curve: int, row: int) -> None:

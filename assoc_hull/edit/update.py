@@ -114,6 +114,12 @@ class _Work:
         curves = nodes[(nodes & 1) == 1] >> 1
         return curves[np.sort(np.unique(curves, return_index=True)[1])]
 
+    def touched(self) -> IntArray:
+        """Curves evaluated in any pass or made in this edit, but for those removed since."""
+        fresh = np.array(self.pending.fresh, np.int64)
+        curves = np.concatenate([self.evaluated(), fresh]) if len(fresh) else self.evaluated()
+        return curves[self.state.curves.alive.data[curves]]
+
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
         held = row_node(np.array(sorted(self.pending.held), np.int64))
@@ -125,7 +131,9 @@ class _Work:
         self.passes.append(result)
         self.failed |= result.failed
         note_states(self.network, result, self.journal)
-        freed = np.setdiff1d(blocked, blocked_nodes(self.network, self.state.failed))
+        freed = blocked
+        if len(blocked):
+            freed = np.setdiff1d(blocked, blocked_nodes(self.network, self.state.failed))
         if len(freed):
             self.passes.append(
                 run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
@@ -249,8 +257,8 @@ def _settle(work: _Work) -> None:
 
 def _check(work: _Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
-    curves = work.evaluated()
-    wide = measure_gaps(work.state, curves, work.journal)
+    curves = work.touched()
+    wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
     if len(wide.rows):
         keys = work.state.rows.key.data
         order = sorted(range(len(wide.rows)), key=lambda i: (-wide.gap[i], keys[wide.rows[i]]))
@@ -260,8 +268,8 @@ def _check(work: _Work) -> tuple[str, ...]:
             work.renew()
             work.go(moved, touched)
             _settle(work)
-            curves = work.evaluated()
-            wide = measure_gaps(work.state, curves, work.journal)
+            curves = work.touched()
+            wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     findings = find_unbounded(work.state, clean)

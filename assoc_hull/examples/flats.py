@@ -27,6 +27,9 @@ from assoc_hull.io.offset_table import OffsetTable
 __all__ = ["FlatOfSide", "flat_of_bottom", "flat_of_side"]
 
 _CLEAR = 3.0
+_INSIDE = 0.1
+"""The border stays this part of the interval clear of the last offset off the flat: a curve
+cannot come onto the flat where its offset is not on it."""
 
 
 @attrs.frozen(eq=False)
@@ -98,7 +101,8 @@ def _entry(place: FloatArray, off: FloatArray, rounding: float) -> float:
         return float(place[first])
     (u, v), (p, q) = place[clear], np.sqrt(off[clear])
     zero = v + (v - u) * q / (p - q) if p > q else place[first]
-    return float(np.clip(zero, place[first - 1], place[first]))
+    off_flat, on_flat = float(place[first - 1]), float(place[first])
+    return float(np.clip(zero, off_flat + _INSIDE * (on_flat - off_flat), on_flat))
 
 
 def _border(

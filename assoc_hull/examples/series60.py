@@ -6,17 +6,12 @@ DTMB Report 1712, 1963.
 
 from __future__ import annotations
 
-import numpy as np
-
 from assoc_hull.edit.adopt import AdoptionReport
 from assoc_hull.edit.cut import add_line
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.examples.contours import centre_profile, end_contours
-from assoc_hull.examples.flats import flat_of_bottom, flat_of_side
+from assoc_hull.examples.completion import net_from_table
 from assoc_hull.examples.series60_table import todd_table
-from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offset_net import Completion, net_from_offsets
 from assoc_hull.model.state import HullState
 from assoc_hull.tolerance import Tolerances
 
@@ -58,12 +53,7 @@ def series60_adopted(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
     BadInputError
         Another block coefficient.
     """
-    table = todd_table(cb)[0]
-    stern, stem = end_contours(table)
-    profile, kinds = centre_profile(table)
-    side = _widening(np.array(flat_of_side(table).border))
-    completion = Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)
-    return net_from_offsets(table, completion, tolerances=_TOLERANCES)
+    return net_from_table(todd_table(cb)[0], _TOLERANCES)
 
 
 def series60(cb: float = 0.70) -> HullState:
@@ -100,23 +90,9 @@ def series60(cb: float = 0.70) -> HullState:
     return state
 
 
-def _widening(border: FloatArray) -> FloatArray:
-    """Let the flat of side widen upward, so that every plane passes its border cleanly."""
-    lowest = int(np.argmin(border[:, 2]))
-    for i in range(lowest - 1, -1, -1):
-        border[i, 0] = min(border[i, 0], border[i + 1, 0] - _WIDENS)
-    for i in range(lowest + 1, len(border)):
-        border[i, 0] = max(border[i, 0], border[i - 1, 0] + _WIDENS)
-    return border
-
-
 _TOLERANCES = Tolerances(spacing=0.35, turn_spacing=0.3)
 """Three lines of this dense net often pass near one place; an edit of centimetres then lets
 driven crossings slide by decimetres along a buttock, so they must not stand too close."""
 
 _KEEP = 0.6e-3
 """How far (m) one crossing of a line that is cut may move a line that was there."""
-
-_WIDENS = 0.15
-"""Least widening (m) from one waterline to the next."""
-

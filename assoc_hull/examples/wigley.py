@@ -87,7 +87,7 @@ def wigley(
     sources += [_section(f"ST {i}", float(x[i]), z, hull) for i in range(1, stations - 1)]
     sources += [
         LineSource.make("waterlines", f"WL {height:g}", _level(x, float(height), hull))
-        for height in z[1:-1]
+        for height in z[1:]
     ]
     ship = Particulars("Wigley", length, breadth, (1.0 + _FREEBOARD) * draught, draught)
     links = [Association("boundary", "sections"), Association("boundary", "waterlines")]
@@ -114,10 +114,6 @@ def _boundaries(x: FloatArray, hull: tuple[float, float, float]) -> list[LineSou
         LineSource.make(
             "boundary", "deck edge", _level(x, deck, hull), plane=((0, 0, 1), deck),
             boundary=BoundaryKind.END,
-        ),
-        LineSource.make(
-            "boundary", "top of sides", _level(x, draught, hull), plane=((0, 0, 1), draught),
-            boundary=BoundaryKind.FLAT,
         ),
     ]  # fmt: skip
 

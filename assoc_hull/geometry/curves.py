@@ -176,13 +176,18 @@ class SplineBatch:
     def single(self) -> list[SplineBatch]:
         """Give each curve as a batch of one; the arrays are views."""
         knot, xyz, leave, arrive = self.knot, self.xyz, self.leave, self.arrive
-        bounds = self.start.tolist()
-        return [
-            SplineBatch(
-                _span(b - a), knot[a:b], xyz[a:b], leave[a:b], arrive[a:b], (self, place)
-            )
-            for place, (a, b) in enumerate(itertools.pairwise(bounds))
-        ]
+        found: list[SplineBatch] = []
+        for place, (a, b) in enumerate(itertools.pairwise(self.start.tolist())):
+            # Views of frozen arrays are frozen: the checks of a constructor are not needed.
+            one = _new(SplineBatch)
+            _set_start(one, _span(b - a))
+            _set_knot(one, knot[a:b])
+            _set_xyz(one, xyz[a:b])
+            _set_leave(one, leave[a:b])
+            _set_arrive(one, arrive[a:b])
+            _set_home(one, (self, place))
+            found.append(one)
+        return found
 
     @classmethod
     def join(cls, parts: Sequence[SplineBatch]) -> SplineBatch:
@@ -200,6 +205,12 @@ class SplineBatch:
             np.concatenate([part.leave for part in runs]),
             np.concatenate([part.arrive for part in runs]),
         )
+
+
+_new = object.__new__
+_set_start, _set_knot, _set_xyz, _set_leave, _set_arrive, _set_home = (
+    getattr(SplineBatch, field.name).__set__ for field in attrs.fields(SplineBatch)
+)
 
 
 @lru_cache(maxsize=1024)

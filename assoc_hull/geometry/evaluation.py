@@ -14,6 +14,7 @@ array([[0.6, 0.8, 0. ]])
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -161,7 +162,7 @@ def derivative(
     curve: IntArray,
     t: FloatArray,
     order: int = 1,
-    guess: IntArray | None = None,
+    guess: NDArray[np.integer] | None = None,
 ) -> FloatArray:
     """Give derivatives with respect to chord length.
 
@@ -217,7 +218,7 @@ def derivative(
 
 
 def _locate(
-    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: IntArray | None = None
+    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Find segment, fraction and segment length; the search is exact in the knots' bits."""
     curve = np.asarray(curve, np.int64).ravel()
@@ -249,7 +250,7 @@ def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) ->
 
 
 def _guessed(
-    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: IntArray
+    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: NDArray[np.integer]
 ) -> IntArray:
     """Take what was guessed right, or one too low, and search the rest."""
     found = np.minimum(np.maximum(low + guess, low), high)

@@ -179,7 +179,7 @@ class Journal:
         new = np.array(values, column.store.dtype)
         if new.shape != (len(rows), *column.store.shape[1:]):
             new = np.broadcast_to(new, (len(rows), *column.store.shape[1:])).copy()
-        self.entries.append(_ArrayEntry(column, rows, column.store[rows], new))
+        self.entries.append(_ArrayEntry(column, rows, column.store.take(rows, axis=0), new))
         column.store[rows] = new
 
     def put_parts(

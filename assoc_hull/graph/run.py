@@ -212,7 +212,10 @@ def _collect(
         np.concatenate([*(pair.reader for pair in pushes), _NONE]),
         np.concatenate([*(pair.source for pair in pushes), _NONE]),
     )
-    quiet = np.setdiff1d(evaluated, np.concatenate([changed, np.array(sorted(failed), np.int64)]))
+    quiet = _NONE
+    if failed or len(changed) < len(evaluated):
+        loud = np.concatenate([changed, np.array(sorted(failed), np.int64)])
+        quiet = np.setdiff1d(evaluated, loud)
     return Pass(
         evaluated,
         np.concatenate([seeds, changed]),

@@ -35,7 +35,10 @@ def watched_on(state: HullState, curves: IntArray) -> IntArray:
 
 
 def tangents(
-    state: HullState, curves: IntArray, parameters: FloatArray, guess: IntArray | None = None
+    state: HullState,
+    curves: IntArray,
+    parameters: FloatArray,
+    guess: np.typing.NDArray[np.integer] | None = None,
 ) -> FloatArray:
     """Give unit tangents of curves at chord parameters, (k, 3).
 
@@ -82,7 +85,9 @@ def crossing_normals(first: FloatArray, second: FloatArray) -> FloatArray:
     return normal.T
 
 
-def gap_at(state: HullState, rows: IntArray, guess: IntArray | None = None) -> FloatArray:
+def gap_at(
+    state: HullState, rows: IntArray, guess: np.typing.NDArray[np.integer] | None = None
+) -> FloatArray:
     """Measure the gap at crossings from their places on the two curves, (k,), m.
 
     `guess`, (rows of the table, 2) int, may say in which segments of its two curves each

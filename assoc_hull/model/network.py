@@ -8,16 +8,18 @@ batch.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Evaluation, Readers
 from assoc_hull.model.align import Alignment, align_curve
-from assoc_hull.model.index import Index, PlaneSet
-from assoc_hull.model.recipe import loft_curves
+from assoc_hull.model.cutting import Found, Recall, cut_curves
+from assoc_hull.model.index import Index
+from assoc_hull.model.recipe import loft_curves, remember, same_objects
 from assoc_hull.model.state import HullState, Meets, curve_node, row_node
 
 __all__ = ["HullNetwork", "bits_differ"]
@@ -26,17 +28,6 @@ __all__ = ["HullNetwork", "bits_differ"]
 def bits_differ(first: FloatArray, second: FloatArray) -> np.typing.NDArray[np.bool_]:
     """Tell for each row of two (k, 3) arrays whether a bit differs."""
     return (first.view(np.int64) != second.view(np.int64)).any(axis=1)
-
-
-@attrs.frozen(eq=False)
-class _Found:
-    """Meetings of a batch of curves, sorted by curve, then as in `Meets`."""
-
-    curve: IntArray
-    line: IntArray
-    sign: np.typing.NDArray[np.int8]
-    parameter: FloatArray
-    xyz: FloatArray
 
 
 @attrs.define(eq=False)
@@ -137,105 +128,82 @@ class HullNetwork:
 
     def _curves(self, curves: IntArray, journal: Journal) -> Evaluation:
         """Loft, meet the partners' planes, keep the identity of each meeting."""
-        batch = loft_curves(self.state, curves)
-        found = self._meet(curves, batch)
-        splines = [batch.curve(i) for i in range(len(curves))]
-        old = [self.state.curves.spline.data[curve] for curve in curves.tolist()]
-        for curve, spline in zip(curves.tolist(), old, strict=True):
+        table, numbers, recall = self.state.curves, curves.tolist(), self.index.recall
+        key = curves.tobytes()
+        old = [table.spline.data[curve] for curve in numbers]
+        met = [table.meets.data[curve] for curve in numbers]
+        known: Recall | None = recall.get(key)
+        if known is not None and not (
+            same_objects(known.splines, old) and same_objects(known.meets, met)
+        ):
+            known = None
+        batch = loft_curves(self.state, curves, recall)
+        splines = batch.single()
+        found = cut_curves(self.state, self.index, curves, splines, known and known.found)
+        for curve, spline in zip(numbers, old, strict=True):
             if spline is not None:
                 self.before.setdefault(curve, spline)
-        pairs = [_moved(before, after) for before, after in zip(old, splines, strict=True)]
-        moved = np.array(pairs)
-        journal.set(self.state.curves.spline, curves.tolist(), splines)
-        self._attach(curves, found, journal)
+        moved = _moved(old, known and known.batch, splines, batch)
+        journal.set(table.spline, numbers, splines)
+        now = self._attach(numbers, met, splines, batch, found, known)
+        journal.set(table.meets, numbers, now.meets)
+        self._write_spots(now, known, journal)
+        remember(recall, key, now)
         differs = moved != 0.0
         return Evaluation(curve_node(curves[differs]), moved[differs])
 
-    def _meet(self, curves: IntArray, batch: SplineBatch) -> _Found:
-        groups = self.state.lines.group.data[self.state.curves.line.data[curves]]
-        parts: list[_Found] = []
-        for group in np.unique(groups).tolist():
-            mine = np.flatnonzero(groups == group)
-            whole = len(mine) == len(curves)
-            sub = batch if whole else SplineBatch.join([batch.curve(i) for i in mine.tolist()])
-            parts += [self._cut(curves, mine, sub, p) for p in self.index.partners.get(group, ())]
-        if len(parts) == 1:
-            return parts[0]
-        if not parts:
-            none = Meets.none()
-            return _Found(none.line, none.line, none.sign, none.parameter, none.xyz)
-        curve = np.concatenate([part.curve for part in parts])
-        order = np.argsort(curve, kind="stable")
-        return _Found(
-            curve[order],
-            np.concatenate([part.line for part in parts])[order],
-            np.concatenate([part.sign for part in parts])[order],
-            np.concatenate([part.parameter for part in parts])[order],
-            np.concatenate([part.xyz for part in parts])[order],
-        )
-
-    def _cut(self, curves: IntArray, mine: IntArray, sub: SplineBatch, planes: PlaneSet) -> _Found:
-        """Meet one set of planes; the place lies exactly in the curve's own plane too."""
-        met = meet_planes(sub, planes.normal, planes.offsets)
-        local = mine[met.curve]
-        xyz = met.xyz.copy()
-        lines = self.state.lines
-        own = lines.normal.data[self.state.curves.line.data[curves[local]]]
-        level = lines.offset.data[self.state.curves.line.data[curves[local]]]
-        exact = own == 1.0
-        xyz[exact] = np.broadcast_to(level[:, None], xyz.shape)[exact]
-        return _Found(local, planes.lines[met.plane], met.sign, met.t, xyz)
-
-    def _attach(self, curves: IntArray, found: _Found, journal: Journal) -> None:
-        """Give each meeting the crossing it is, and write where the crossing now lies."""
-        numbers = curves.tolist()
-        old = [self.state.curves.meets.data[curve] for curve in numbers]
-        first = np.searchsorted(found.curve, np.arange(len(numbers) + 1))
-        row = self._identify(numbers, old, found, first)
-        spans = list(zip(first[:-1].tolist(), first[1:].tolist(), strict=True))
-        journal.set(
-            self.state.curves.meets,
-            numbers,
-            [
-                Meets(found.line[a:b], found.sign[a:b], row[a:b], found.parameter[a:b], found.xyz[a:b])
+    def _attach(
+        self,
+        numbers: list[int],
+        old: list[Meets],
+        splines: list[SplineBatch],
+        batch: SplineBatch,
+        found: Found,
+        known: Recall | None,
+    ) -> Recall:
+        """Give each meeting the crossing it is: at once where lines and signs are as before."""
+        at, xyz, spans = found.parameter, found.xyz, list(pairwise(found.bounds))
+        if known is not None and found.line is known.found.line:
+            meets = [_placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)]
+            row, actual, part = known.row, known.actual, known.part
+        else:
+            row = self._identify(numbers, old, found)
+            freeze(row)
+            meets = [
+                Meets(found.line[a:b], found.sign[a:b], row[a:b], at[a:b], xyz[a:b])
                 for a, b in spans
-            ],
-        )
-        actual = row >= 0
-        rows, owner = row[actual], curves[found.curve[actual]]
-        self._write_spots(rows, owner, found.xyz[actual], found.parameter[actual], journal)
+            ]
+            actual = np.flatnonzero(row >= 0)
+            owner = np.array(numbers, np.int64)[found.curve[actual]]
+            part = 2 * row[actual] + (self.state.rows.curve.data[row[actual], 0] != owner)
+            actual = None if len(actual) == len(row) else actual
+        if actual is not None:
+            at, xyz = at.take(actual), xyz.take(actual, axis=0)
+            freeze(at, xyz)
+        return Recall(splines, meets, batch, found, row, actual, part, xyz, at)
 
-    def _write_spots(
-        self, rows: IntArray, owner: IntArray, xyz: FloatArray, at: FloatArray, journal: Journal
-    ) -> None:
+    def _write_spots(self, now: Recall, known: Recall | None, journal: Journal) -> None:
         """Write where crossings lie on curves; a batch may hold both curves of a crossing."""
-        table = self.state.rows
-        side = (table.curve.data[rows, 0] != owner).astype(np.int64)
-        for which in (0, 1):
-            mine = side == which
-            if not mine.any():
-                continue
-            spot = table.spot.data[rows[mine]].copy()
-            spot[:, which] = xyz[mine]
-            journal.put(table.spot, rows[mine], spot)
-            parameter = table.parameter.data[rows[mine]].copy()
-            parameter[:, which] = at[mine]
-            journal.put(table.parameter, rows[mine], parameter)
+        table, guess = self.state.rows, self.index.guess.reshape(-1)
+        before = known if known is not None and known.part is now.part else None
+        journal.put_parts(table.spot, now.part, now.spot, before and before.spot)
+        journal.put_parts(table.parameter, now.part, now.at, before and before.at)
+        if len(guess) == 2 * table.count:
+            segment = now.found.segment
+            guess[now.part] = segment if now.actual is None else segment.take(now.actual)
 
-    def _identify(
-        self, numbers: list[int], old: list[Meets], found: _Found, first: IntArray
-    ) -> IntArray:
-        """Say which crossing each meeting is: at once where lines and signs are as before."""
+    def _identify(self, numbers: list[int], old: list[Meets], found: Found) -> IntArray:
+        """Say which crossing each meeting is, curve by curve where lines or signs changed."""
         line = np.concatenate([meets.line for meets in old])
         sign = np.concatenate([meets.sign for meets in old])
-        row = np.concatenate([meets.row for meets in old])
         counts = [len(meets.line) for meets in old]
-        same = np.array_equal(np.diff(first), counts)
+        bounds = found.bounds
+        same = [b - a for a, b in pairwise(bounds)] == counts
         if same and np.array_equal(line, found.line) and np.array_equal(sign, found.sign):
-            return row
+            return np.concatenate([meets.row for meets in old])
         parts: list[IntArray] = []
         for i, curve in enumerate(numbers):
-            span = slice(int(first[i]), int(first[i + 1]))
+            span = slice(bounds[i], bounds[i + 1])
             new = Meets(
                 found.line[span].copy(),
                 found.sign[span].copy(),
@@ -250,8 +218,42 @@ class HullNetwork:
         return np.concatenate(parts)
 
 
-def _moved(before: SplineBatch | None, after: SplineBatch) -> float:
-    """Tell how far the defining points moved (m): 0 only if no bit of the spline changed."""
+_set_line, _set_sign, _set_row, _set_parameter, _set_xyz = (
+    getattr(Meets, field.name).__set__ for field in attrs.fields(Meets)
+)
+
+
+def _placed(meets: Meets, parameter: FloatArray, xyz: FloatArray) -> Meets:
+    """Give the same meetings at other places; the arrays are frozen already."""
+    found = object.__new__(Meets)
+    _set_line(found, meets.line)
+    _set_sign(found, meets.sign)
+    _set_row(found, meets.row)
+    _set_parameter(found, parameter)
+    _set_xyz(found, xyz)
+    return found
+
+
+def _moved(
+    old: list[SplineBatch | None],
+    before: SplineBatch | None,
+    splines: list[SplineBatch],
+    batch: SplineBatch,
+) -> FloatArray:
+    """Tell how far the defining points of each curve moved (m): 0 only if no bit changed."""
+    was = [each for each in old if each is not None]
+    if before is None and len(was) == len(old):
+        before = SplineBatch.join(was)
+    if before is None or not np.array_equal(before.start, batch.start):
+        return np.array([_moved_one(a, b) for a, b in zip(old, splines, strict=True)])
+    step = np.abs(batch.xyz.T - before.xyz.T)
+    moved: FloatArray = np.maximum.reduceat(step.max(axis=0), batch.start[:-1])
+    for still in np.flatnonzero(moved == 0.0).tolist():
+        moved[still] = _moved_one(old[still], splines[still])
+    return moved
+
+
+def _moved_one(before: SplineBatch | None, after: SplineBatch) -> float:
     if before is None or len(before.knot) != len(after.knot):
         return float("nan")
     step = float(np.abs(after.xyz - before.xyz).max())

@@ -2,16 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from operator import is_
+from typing import Any
+
+import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import CurveData, IntArray, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.spline import loft
-from assoc_hull.model.state import HullState
+from assoc_hull.model.state import Ends, HullState
 
-__all__ = ["curve_data", "loft_curves"]
+__all__ = ["curve_data", "loft_curves", "remember", "same_objects"]
+
+_KEPT = 16
+"""So many batches are recalled."""
 
 
-def curve_data(state: HullState, curves: IntArray) -> CurveData:
+@attrs.frozen(eq=False)
+class _Plan:
+    """Where the data of a batch of curves lie; true while the tables hold the same objects."""
+
+    rows: list[IntArray]
+    side: list[IntArray]
+    ends: list[Ends]
+    start: IntArray
+    row: IntArray
+    part: IntArray
+    end_kind: np.typing.NDArray[np.int8]
+    end_vector: FloatArray
+
+
+def same_objects(one: Sequence[object], other: Sequence[object]) -> bool:
+    """Tell whether two sequences hold the very same objects."""
+    return len(one) == len(other) and all(map(is_, one, other))
+
+
+def remember(recall: dict[Any, Any], key: object, value: object) -> None:
+    """Keep something, and let go of what was not kept again for the longest time."""
+    recall.pop(key, None)
+    recall[key] = value
+    if len(recall) > _KEPT:
+        del recall[next(iter(recall))]
+
+
+def curve_data(
+    state: HullState, curves: IntArray, recall: dict[Any, Any] | None = None
+) -> CurveData:
     """Gather the defining points, kinds and end conditions of curves.
 
     Parameters
@@ -20,36 +57,72 @@ def curve_data(state: HullState, curves: IntArray) -> CurveData:
         The tables.
     curves : (m,) int
         Numbers of the curves.
+    recall : dict or None
+        Keeps where the data of a batch lie until the next time.
 
     Returns
     -------
     CurveData
         The curves in the order given.
     """
-    numbers = curves.tolist()
-    parts = [state.curves.rows.data[curve] for curve in numbers]
-    rows = np.concatenate(parts)
-    side = np.concatenate([state.curves.side.data[curve] for curve in numbers])
-    start = np.zeros(len(parts) + 1, np.int64)
-    np.cumsum([len(part) for part in parts], out=start[1:])
-    ends = [state.curves.ends.data[curve] for curve in numbers]
+    table, numbers = state.curves, curves.tolist()
+    rows = [table.rows.data[curve] for curve in numbers]
+    side = [table.side.data[curve] for curve in numbers]
+    ends = [table.ends.data[curve] for curve in numbers]
+    key = ("recipe", curves.tobytes())
+    plan: _Plan | None = None if recall is None else recall.get(key)
+    if plan is None or not (
+        same_objects(plan.rows, rows)
+        and same_objects(plan.side, side)
+        and same_objects(plan.ends, ends)
+    ):
+        plan = _plan(rows, side, ends)
+        if recall is not None:
+            remember(recall, key, plan)
+    points = state.rows
     return CurveData(
-        start,
-        state.rows.xyz.data[rows],
-        state.rows.kind.data[rows, side],
-        state.rows.direction.data[rows, side],
-        np.array([end.kind for end in ends], np.int8),
-        np.array([end.vector for end in ends], np.float64),
+        plan.start,
+        points.xyz.data.take(plan.row, axis=0),
+        points.kind.data.reshape(-1).take(plan.part),
+        points.direction.data.reshape(-1, 3).take(plan.part, axis=0),
+        plan.end_kind,
+        plan.end_vector,
     )
 
 
-def loft_curves(state: HullState, curves: IntArray) -> SplineBatch:
-    """Loft curves from their defining points, in one batch.
+def _plan(rows: list[IntArray], side: list[IntArray], ends: list[Ends]) -> _Plan:
+    row = np.concatenate(rows)
+    start = np.zeros(len(rows) + 1, np.int64)
+    np.cumsum([len(part) for part in rows], out=start[1:])
+    kind = np.array([end.kind for end in ends], np.int8)
+    vector = np.array([end.vector for end in ends], np.float64)
+    part = 2 * row + np.concatenate(side)
+    freeze(start, row, part, kind, vector)
+    return _Plan(rows, side, ends, start, row, part, kind, vector)
+
+
+@attrs.frozen(eq=False)
+class _Names(Sequence[str]):
+    """What error messages call the curves; made when one is asked for."""
+
+    state: HullState
+    curves: IntArray
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+    def __getitem__(self, place: Any) -> Any:
+        return str(self.state.curves.key.data[int(self.curves[place])])
+
+
+def loft_curves(
+    state: HullState, curves: IntArray, recall: dict[Any, Any] | None = None
+) -> SplineBatch:
+    """Loft curves from their defining points, in one batch; `recall` as for `curve_data`.
 
     Raises
     ------
     TooFewPointsError, CoincidentPointsError, BadInputError
         Naming the curve.
     """
-    names = [str(state.curves.key.data[curve]) for curve in curves.tolist()]
-    return loft(curve_data(state, curves), names)
+    return loft(curve_data(state, curves, recall), _Names(state, curves))

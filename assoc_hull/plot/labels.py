@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.plot.sheet import Pen, Sheet
 from assoc_hull.plot.spread import spread
 
-__all__ = ["Lettered", "Side", "label_lines", "overlaps", "rail", "resample"]
+if TYPE_CHECKING:
+    from matplotlib.text import Text
+
+__all__ = ["Lettered", "Side", "label_above", "label_lines", "overlaps", "rail", "resample"]
 
 Side = Literal["left", "right", "below", "above"]
 
 _LEADER = Pen(0.07, "0.45", over=1.5)
-_GAP = 0.35  # mm at A3 between two labels
+_GAP, _GAP_ALONG = 0.35, 0.9  # mm at A3 between two labels above, and beside one another
 _STEP = 1.2  # mm between two places where a label may lie on a line
-_CLEAR = 0.38  # least distance (label heights) of another line from the middle of a label
+_CLEAR = 0.5  # least distance (label heights) of another line from the middle of a label
 _FREE = 1.0  # beyond this distance (label heights) more room is no gain
+_NEIGHBOURS = 8  # more places than these that are nearer lie on the same line: it is alone
+_FAR = 5.0  # mm at A3, the distance of a line that is alone
 _SMALL = 0.8  # size of letters that lie on lines
 
 
@@ -40,6 +45,7 @@ def rail(
     at: float,
     *,
     upright: bool = False,
+    heading: str = "",
     name: str = "label",
 ) -> None:
     """Write labels in a row beside a view, each with a leader to what it names.
@@ -58,6 +64,8 @@ def rail(
         Where the row begins: its edge toward the view.
     upright : bool
         Whether the words run upward.
+    heading : str
+        Written before the row.
     name : str
         Begins the ids of the labels.
     """
@@ -67,7 +75,8 @@ def rail(
     texts = [_write(sheet, side, at, upright, each, f"{name}/{each}") for each in words]
     boxes = np.array([sheet.box(text) for text in texts])
     size = boxes[:, along + 2] - boxes[:, along]
-    place = spread(anchors[:, along], size, _GAP * sheet.paper.factor)
+    gap = _GAP if upright or along else _GAP_ALONG
+    place = spread(anchors[:, along], size, gap * sheet.paper.factor)
     shift = place - 0.5 * (boxes[:, along + 2] + boxes[:, along])
     for text, anchor, middle, move in zip(texts, anchors, place, shift, strict=True):
         x, y = text.get_position()
@@ -75,9 +84,15 @@ def rail(
         sheet.take(text)
         end = (middle, at) if along == 0 else (at, middle)
         sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
+    if heading:
+        x = float((place - 0.5 * size).min()) - 1.2 * sheet.paper.factor
+        title = _write(sheet, side, at, False, heading, f"{name}/heading")
+        title.set_position((x, title.get_position()[1]))
+        title.set_horizontalalignment("right")
+        sheet.take(title)
 
 
-def _write(sheet: Sheet, side: Side, at: float, upright: bool, words: str, name: str):  # type: ignore[no-untyped-def]
+def _write(sheet: Sheet, side: Side, at: float, upright: bool, words: str, name: str) -> Text:
     off = 0.3 * sheet.paper.factor
     angle = 90.0 if upright else 0.0
     if side == "left":
@@ -98,7 +113,7 @@ def _leader(anchor: FloatArray, end: tuple[float, float], along: int) -> FloatAr
 
 def label_lines(
     sheet: Sheet, lines: Sequence[Lettered], low: float, high: float, *, axis: int = 0, name: str
-) -> list[str]:
+) -> set[str]:
     """Write labels on lines themselves, where there is room, within a zone of the sheet.
 
     Parameters
@@ -116,19 +131,52 @@ def label_lines(
 
     Returns
     -------
-    list of str
-        Labels for which there was no room.
+    set of str
+        The labels that were written; for the others there was no room.
     """
-    courses = [resample(line.points, _STEP * sheet.paper.factor) for line in lines]
-    room = [_room(courses, i) for i in range(len(courses))]
-    missed = []
+    courses, room = _courses(sheet, lines)
     inside = [(course[:, axis] > low) & (course[:, axis] < high) for course in courses]
     order = sorted(range(len(lines)), key=lambda i: float(np.max(room[i][inside[i]], initial=0.0)))
+    written = set()
     for i in order:
         places = np.flatnonzero(inside[i][1:-1]) + 1
-        if not _place(sheet, lines[i].label, courses[i], room[i], places, name):
-            missed.append(lines[i].label)
-    return missed
+        if _place(sheet, lines[i].label, courses[i], room[i], places, name):
+            written.add(lines[i].label)
+    return written
+
+
+def label_above(sheet: Sheet, lines: Sequence[Lettered], wanted: set[str], at: float, name: str) -> None:
+    """Write labels for which lines have no room in a row above a view, each with a leader.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Where to draw.
+    lines : sequence of Lettered
+        All lines of the view.
+    wanted : set of str
+        The labels to write.
+    at : float, mm
+        Where the row begins.
+    name : str
+        Begins the ids of the labels.
+    """
+    courses, room = _courses(sheet, lines)
+    apart = 3.0 * sheet.paper.factor
+    anchors: list[FloatArray] = []
+    words = []
+    for line, course, free in zip(lines, courses, room, strict=True):
+        if line.label not in wanted or line.label in words:
+            continue
+        used = np.array([anchor[0] for anchor in anchors])
+        near = np.abs(course[:, :1] - used).min(axis=1, initial=np.inf) < apart
+        off = np.abs(np.linspace(-0.25, 0.75, len(course)))  # a quarter of the way, if all is one
+        anchors.append(course[int(np.argmax(free - 0.1 * off - 1e3 * near))])
+        words.append(line.label)
+    if words:
+        ends = np.array(anchors)
+        sheet.dots(ends, "black", 0.45, "leader/dots")
+        rail(sheet, ends, words, "above", at, upright=True, heading="WL", name=name)
 
 
 def resample(points: FloatArray, step: float) -> FloatArray:
@@ -142,24 +190,31 @@ def resample(points: FloatArray, step: float) -> FloatArray:
     return np.column_stack([np.interp(at, way, points[:, i]) for i in range(2)])
 
 
-def _room(courses: Sequence[FloatArray], mine: int) -> FloatArray:
-    """Give the distance from each point of a line to the nearest of all others, mm."""
-    found = np.full(len(courses[mine]), np.inf)
-    for i, other in enumerate(courses):
-        if i == mine or not len(other):
-            continue
-        step = courses[mine][:, None] - other[None]
-        found = np.minimum(found, np.sqrt((step * step).sum(axis=2).min(axis=1)))
-    return found
+def _courses(
+    sheet: Sheet, lines: Sequence[Lettered]
+) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Give places along each line and their distance (mm) from the nearest other line."""
+    from scipy.spatial import cKDTree
+
+    courses = [resample(line.points, _STEP * sheet.paper.factor) for line in lines]
+    if not courses:
+        return [], []
+    every = np.concatenate(courses)
+    owner = np.repeat(np.arange(len(courses)), [len(course) for course in courses])
+    near = min(_NEIGHBOURS, len(every))
+    distance, index = cKDTree(every).query(every, k=[*range(1, near + 1)])
+    distance[owner[index] == owner[:, None]] = np.inf
+    room = np.minimum(distance.min(axis=1), _FAR * sheet.paper.factor)
+    return courses, np.split(room, np.cumsum([len(course) for course in courses])[:-1])
 
 
 def _place(
-    sheet: Sheet, label: str, course: FloatArray, room: FloatArray, places: FloatArray, name: str
+    sheet: Sheet, label: str, course: FloatArray, room: FloatArray, places: IntArray, name: str
 ) -> bool:
     """Write one label at the best free place of its line; false if there is none."""
     if not len(places):
         return False
-    text = sheet.text((0.0, 0.0), label, size=_SMALL, paper=True, name=f"{name}/{label}")
+    text = sheet.text((0.0, 0.0), label, size=_SMALL, halo=True, name=f"{name}/{label}")
     box = sheet.box(text)
     width, height = box[2] - box[0], box[3] - box[1]
     middle = 0.5 * (len(places) - 1)
@@ -169,9 +224,9 @@ def _place(
         if room[at] < _CLEAR * height:
             break
         angle = _angle(course, at)
-        text.set_position((float(course[at, 0]), float(course[at, 1])))
-        text.set_rotation(angle)
         if not overlaps(_around(course[at], width, height, angle), sheet.taken):
+            text.set_position((float(course[at, 0]), float(course[at, 1])))
+            text.set_rotation(angle)
             sheet.take(text)
             return True
     text.remove()

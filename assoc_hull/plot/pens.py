@@ -16,13 +16,13 @@ __all__ = [
 TINT = "#c8102e"
 """Colour of lines that are to be noticed."""
 
-LINE = Pen(0.16)
-HEAVY = Pen(0.28, over=2.5)
+LINE = Pen(0.13)
+HEAVY = Pen(0.25, over=2.5)
 FRAME = Pen(0.35)
 GRID = Pen(0.08, "0.62", over=1.0)
 AXIS = Pen(0.14, "0.15", (4.0, 0.8, 0.8, 0.8), 1.2)
 WATER = Pen(0.16, "0.15", (3.0, 1.0), 1.2)
-BEFORE = Pen(0.16, "0.6", over=1.8)
+BEFORE = Pen(0.13, "0.6", over=1.8)
 
 _BOUNDARY = {
     BoundaryKind.END: HEAVY,

@@ -197,7 +197,7 @@ class Sheet:
         angle: float = 0.0,
         colour: str = "black",
         bold: bool = False,
-        paper: bool = False,
+        halo: bool = False,
         name: str = "label",
     ) -> Text:
         """Write words.
@@ -218,17 +218,19 @@ class Sheet:
             Of the letters.
         bold : bool
             Whether they are bold.
-        paper : bool
-            Whether paper white is laid under them.
+        halo : bool
+            Whether a rim of paper white parts them from what lies under them.
         name : str
             Becomes the id.
         """
-        under = {"facecolor": "white", "edgecolor": "none", "boxstyle": "square,pad=0.08"}
+        from matplotlib.patheffects import withStroke
+
+        rim = withStroke(linewidth=0.45 * self.paper.letter, foreground="white")
         return self.axes.text(
             *place, words, fontsize=size * self.paper.letter, ha=across, va=up, rotation=angle,
             rotation_mode="anchor" if angle and across != "center" else "default", color=colour,
             fontweight="bold" if bold else "normal", fontfamily=_FONT, gid=name, zorder=5.0,
-            bbox=under if paper else None, parse_math=False,
+            path_effects=[rim] if halo else None, parse_math=False,
         )  # fmt: skip
 
     def box(self, text: Text) -> FloatArray:
@@ -259,8 +261,9 @@ def save(figure: Figure, path: Path_) -> None:
         )
     fixed = {"svg.hashsalt": "assoc-hull", "svg.fonttype": "path", "pdf.fonttype": 42}
     with matplotlib.rc_context({**fixed, "savefig.bbox": None, "savefig.dpi": "figure"}):
+        more = {"pil_kwargs": {"compress_level": 3}} if suffix == ".png" else {}
         try:
-            figure.savefig(os.fspath(path), format=suffix[1:], metadata=_FORMATS[suffix])
+            figure.savefig(os.fspath(path), format=suffix[1:], metadata=_FORMATS[suffix], **more)
         except OSError as trouble:
             raise BadInputError(
                 f"the file cannot be written ({trouble.strerror})", f"at {path}", "name another place"

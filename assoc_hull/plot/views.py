@@ -9,7 +9,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.drawing import Drawing, DrawnLine
-from assoc_hull.plot.labels import Lettered, Side, label_lines, rail
+from assoc_hull.plot.labels import Lettered, Side, label_above, label_lines, rail
 from assoc_hull.plot.pens import AXIS, GRID, HEAVY, WATER, pen_of
 from assoc_hull.plot.sheet import Pen, Sheet
 from assoc_hull.plot.view import View
@@ -83,7 +83,10 @@ class Views:
                 words += [line.label] * len(tops)
         top = view.up(self.high[2]) + 3.2 * self.sheet.paper.factor
         above = np.array(ends).reshape(-1, 2)
-        rail(self.sheet, above, words, "above", top, upright=True, name="label/profile/buttocks")
+        rail(
+            self.sheet, above, words, "above", top,
+            upright=True, heading="BTK", name="label/profile/buttocks",
+        )  # fmt: skip
 
     @property
     def middle_height(self) -> float:
@@ -105,8 +108,11 @@ class Views:
                 lettered += [Lettered(label, points) for points in found]
         self._diagonals(view)
         start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
+        wanted = {line.label for line in lettered}
         for low, high, part in ((start, middle, "aft"), (middle, end, "fore")):
-            label_lines(self.sheet, lettered, low, high, name=f"label/half-breadth/{part}")
+            wanted -= label_lines(self.sheet, lettered, low, high, name=f"label/half-breadth/{part}")
+        top = view.up(self.high[1]) + 3.2 * self.sheet.paper.factor
+        label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
 
     def _along_grid(self, line: DrawnLine) -> bool:
         """Whether a line is straight along the ship when seen from above."""
@@ -144,16 +150,16 @@ class Views:
                 tops.append(points[np.argmax(points[:, 1])])
                 words.append(line.label)
         edge = view.up(self.high[2])
+        part = "aft" if view.sign < 0.0 else "fore"
         order = sorted(range(len(tops)), key=lambda i: self._outward(view, tops[i], sections, words[i]))
         factor = self.sheet.paper.factor
         rail(
             self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2), [words[i] for i in order],
-            "above", edge + 5.5 * factor, upright=True, name=f"label/body/{'aft' if view.sign < 0 else 'fore'}",
+            "above", edge + 5.5 * factor, upright=True, heading="ST" if part == "aft" else "",
+            name=f"label/body/{part}",
         )  # fmt: skip
-        label_lines(
-            self.sheet, lettered, view.up(self.low[2]), edge, axis=1,
-            name=f"label/body/on {'aft' if view.sign < 0 else 'fore'}",
-        )  # fmt: skip
+        low = view.up(self.low[2])
+        label_lines(self.sheet, lettered, low, edge, axis=1, name=f"label/body/on {part}")
 
     def _outward(
         self, view: View, top: FloatArray, sections: Sequence[DrawnLine], label: str
@@ -185,7 +191,10 @@ class Views:
                 self.sheet.rule((x, low), (x, high), GRID, f"body/grid/{line.name}")
                 ends.append([x, low])
                 words.append(line.label)
-        rail(self.sheet, np.array(ends).reshape(-1, 2), words, "below", below, name="label/body/buttocks")
+        rail(
+            self.sheet, np.array(ends).reshape(-1, 2), words, "below", below,
+            heading="BTK", name="label/body/buttocks",
+        )  # fmt: skip
         self.sheet.rule((view.across(0.0), low), (view.across(0.0), high), AXIS, "body/grid/CL")
         for edge in (-breadth, breadth):
             self.sheet.rule((view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side")
@@ -199,7 +208,10 @@ class Views:
         words = [line.label for line in self.sections]
         below = bottom - 2.0 * self.sheet.paper.factor
         ends_ = np.array(ends).reshape(-1, 2)
-        rail(self.sheet, ends_, words, "below", below, name=f"label/{view.name}/sections")
+        rail(
+            self.sheet, ends_, words, "below", below,
+            heading="ST", name=f"label/{view.name}/sections",
+        )  # fmt: skip
 
     def _levels(self, view: View, low: float, high: float) -> None:
         """Draw the waterlines as level straight lines, labelled at both ends."""

@@ -1,0 +1,131 @@
+"""Seeded places on Series 60, and the edits that are tried at them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+import assoc_hull as ah
+from assoc_hull.edit.normals import free_normals, hull_normals
+from assoc_hull.edit.session import Edit
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.handles import Curve, Point
+
+PAIRS = (("sections", "waterlines"), ("sections", "buttocks"), ("waterlines", "buttocks"))
+Act = Callable[[Edit, int], None]
+
+
+@attrs.frozen
+class Row:
+    """One line of the table of edits."""
+
+    kind: str
+    places: int
+    accepted: int
+    refused: tuple[str, ...]
+    relofts: float
+    largest_gap: float
+    mended: int
+    inflections: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.kind:24s} {self.accepted:3d}/{self.places:<3d} {self.relofts:8.1f} "
+            f"{1e3 * self.largest_gap:8.2f} {self.mended:7d} {self.inflections:11.2f}"
+        )
+
+
+HEAD = f"{'edit':24s} {'accepted':>7s} {'re-lofts':>8s} {'gap mm':>8s} {'mended':>7s} {'inflections':>11s}"
+
+
+def family(hull: ah.Hull, curve: int) -> str:
+    """Name the family of a curve."""
+    return hull.state.family(hull.state.line_of(curve)).name
+
+
+def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> np.ndarray:
+    """Give the shared crossings of a pair of families that lie on no flat, by key."""
+    rows, half = hull.state.rows, hull.particulars.breadth / 2.0
+    live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
+    found = [
+        row
+        for row in np.flatnonzero(live & ~rows.contact.data).tolist()
+        if tuple(family(hull, int(c)) for c in rows.curve.data[row]) == pair
+        and abs(rows.xyz.data[row, 1] - half) > 1e-9
+        and rows.xyz.data[row, 2] > 1e-9
+    ]
+    return np.array(sorted(found, key=lambda row: rows.key.data[row]), np.int64)
+
+
+def places(hull: ah.Hull, pairs: tuple[tuple[str, str], ...], count: int, seed: int) -> list[int]:
+    """Draw places evenly from the pairs; ends of the ship and the bilge come with the draw."""
+    rng = np.random.default_rng(seed)
+    each = count // len(pairs)
+    return [
+        int(row) for pair in pairs for row in rng.permutation(shared_rows(hull, pair))[:each]
+    ]
+
+
+def normal_step(hull: ah.Hull, row: int) -> np.ndarray:
+    """Give the unit direction of a crossing's freedom, outward."""
+    rows = np.array([row])
+    free = free_normals(hull.state, rows, hull_normals(hull.state)[rows])[0]
+    return free / np.linalg.norm(free)
+
+
+def drag(hull: ah.Hull, amount: float) -> Act:
+    """Move a crossing along its freedom."""
+
+    def act(edit: Edit, row: int) -> None:
+        point = Point.of(hull.state, row)
+        target = point.position + amount * normal_step(hull, row)
+        edit.move(point, **{axis: float(target["xyz".index(axis)]) for axis in point.free})
+
+    return act
+
+
+def pull(hull: ah.Hull, amount: float, radius: tuple[float, float] = (20.0, 8.0)) -> Act:
+    """Pull the hull at a crossing."""
+    return lambda edit, row: edit.pull(Point.of(hull.state, row), amount, radius)
+
+
+def reshape(
+    hull: ah.Hull, name: str, amount: float, fade: tuple[float, float] | None = (12.0, 8.0)
+) -> Act:
+    """Re-shape the curve of a family through a crossing that is moved along its freedom."""
+
+    def act(edit: Edit, row: int) -> None:
+        curve = next(int(c) for c in hull.state.rows.curve.data[row] if family(hull, int(c)) == name)
+        place = hull.state.rows.xyz.data[row]
+        target = place + amount * normal_step(hull, row)
+        axis, reach = (2, 8.0) if name == "sections" else (0, 20.0)
+        span = (float(place[axis] - reach), float(place[axis] + reach))
+        edit.reshape(Curve.of(hull.state, curve), [target], span=span, fade=fade)
+
+    return act
+
+
+def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
+    """Try an edit at every place, each from the same hull; undo what was accepted."""
+    refused: list[str] = []
+    counts = np.zeros(4)
+    for row in at:
+        try:
+            with hull.edit(kind) as edit:
+                act(edit, row)
+        except ah.RefusedEditError as error:
+            refused.append(f"{hull.state.rows.key.data[row]}: {error}")
+            continue
+        report = edit.report
+        assert report is not None
+        more = sum(count for _, count in report.inflections)
+        counts += [len(report.relofted), 0.0, len(report.mended), more]
+        counts[1] = max(counts[1], report.largest_gap)
+        hull.undo()
+    done = max(1, len(at) - len(refused))
+    return Row(
+        kind, len(at), len(at) - len(refused), tuple(refused), counts[0] / done, counts[1],
+        int(counts[2]), counts[3] / done,
+    )  # fmt: skip
