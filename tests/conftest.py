@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from assoc_hull.hull import Hull, examples
+
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
     "default",
@@ -33,3 +35,15 @@ def data_folder() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no published hulls in {folder}: set ASSOC_HULL_DATA to their folder")
     return folder
+
+
+@pytest.fixture(scope="session")
+def series60_60() -> Hull:
+    """Series 60 CB .60; a test that edits it undoes its edits."""
+    return examples.series60(0.60)
+
+
+@pytest.fixture(scope="session")
+def series60_70() -> Hull:
+    """Series 60 CB .70; a test that edits it undoes its edits."""
+    return examples.series60(0.70)

@@ -63,9 +63,7 @@ def places(hull: ah.Hull, pairs: tuple[tuple[str, str], ...], count: int, seed: 
     """Draw places evenly from the pairs; ends of the ship and the bilge come with the draw."""
     rng = np.random.default_rng(seed)
     each = count // len(pairs)
-    return [
-        int(row) for pair in pairs for row in rng.permutation(shared_rows(hull, pair))[:each]
-    ]
+    return [int(row) for pair in pairs for row in rng.permutation(shared_rows(hull, pair))[:each]]
 
 
 def normal_step(hull: ah.Hull, row: int) -> np.ndarray:
@@ -97,7 +95,9 @@ def reshape(
     """Re-shape the curve of a family through a crossing that is moved along its freedom."""
 
     def act(edit: Edit, row: int) -> None:
-        curve = next(int(c) for c in hull.state.rows.curve.data[row] if family(hull, int(c)) == name)
+        curve = next(
+            int(c) for c in hull.state.rows.curve.data[row] if family(hull, int(c)) == name
+        )
         place = hull.state.rows.xyz.data[row]
         target = place + amount * normal_step(hull, row)
         axis, reach = (2, 8.0) if name == "sections" else (0, 20.0)

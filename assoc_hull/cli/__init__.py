@@ -1,0 +1,80 @@
+"""The command line: `main` finds the command, runs it, and turns every failure into one line.
+
+Exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage, with one
+line ``error: what, where, how much, what to do`` on standard error; 130 stopped by the
+keyboard; 141 when the reader of the output has gone.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+
+from assoc_hull.cli.parser import make_parser
+from assoc_hull.cli.problems import explain
+
+__all__ = ["main"]
+
+_BAD, _STOPPED, _NO_READER = 2, 130, 141
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    argv : sequence of str or None
+        The arguments after the name of the program; those of this process if None.
+
+    Returns
+    -------
+    int
+        The exit code.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli import main
+    >>> main(["example", "wigley", "-o", "no such folder/w.hull.json"])
+    2
+    """
+    try:
+        code = _run(argv)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        _give_up_output()
+        return _NO_READER
+    except KeyboardInterrupt:
+        return _fail("stopped by the keyboard; files are whole, run the command again", _STOPPED)
+    except Exception as error:  # a traceback is of no use to a designer
+        return _fail(explain(error), _BAD)
+    return code
+
+
+def _run(argv: Sequence[str] | None) -> int:
+    try:
+        arguments = make_parser().parse_args(argv)
+    except SystemExit as done:  # --help and --version
+        return int(done.code or 0)
+    code: int = arguments.run(arguments)
+    return code
+
+
+def _fail(text: str, code: int) -> int:
+    """Say in one line what is wrong."""
+    with contextlib.suppress(OSError):
+        print("error:", " ".join(text.split()), file=sys.stderr)
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError:
+        _give_up_output()
+    return code
+
+
+def _give_up_output() -> None:
+    """Let nothing more be written, so that Python does not complain when it ends."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,189 @@
+"""The main job on a shipped hull: adopt, fair, see what followed and why, check, undo, draw."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.cli.arguments import Commands, add_command, add_json
+from assoc_hull.cli.demo_edits import EDITS, Outcome, carry_out
+from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.words import adoption_words, edit_words, hull_words, largest_gap
+from assoc_hull.edit.explain import Why
+from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.hull import Hull, examples
+
+__all__ = ["Demo", "add"]
+
+_CB = 0.70
+_BUTTOCK, _FOLLOWER = 2, "WL 0.42"
+
+
+def add(commands: Commands) -> None:
+    """Add ``demo``."""
+    parser = add_command(
+        commands, "demo", "do the main job on a shipped hull, with pictures", _demo,
+        "assoc-hull demo --out demo",
+    )  # fmt: skip
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, default=Path("demo"),
+        help="folder for hulls and pictures (default: demo)",
+    )  # fmt: skip
+    add_json(parser)
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    folder: Path = arguments.out
+    if folder.exists() and not folder.is_dir():
+        raise BadInputError("this is a file", f"at {folder}", "give the name of a folder")
+    folder.mkdir(parents=True, exist_ok=True)
+    demo = Demo(folder, print if not arguments.json else lambda _: None)
+    with progress("Series 60"):
+        sound = demo.run()
+    if arguments.json:
+        emit(arguments, demo.facts, "")
+    return 0 if sound else 1
+
+
+class Demo:
+    """The demo: it tells as it goes, and collects the same facts.
+
+    Attributes
+    ----------
+    folder : Path
+        Where hulls and pictures go.
+    say : callable
+        Takes what is told.
+    facts : dict
+        What was found; lengths in m, times in s.
+    """
+
+    def __init__(self, folder: Path, say: Callable[[str], object]) -> None:
+        self.folder, self.say = folder, say
+        self.facts: dict[str, Any] = {"seconds": {}, "files": []}
+
+    def run(self) -> bool:
+        """Run all phases; tells whether the hull was sound and came back as it was."""
+        start = time.perf_counter()
+        with self._phase("adopt"):
+            hull = self._adopt()
+        first = hull.fingerprint
+        with self._phase("draw before"):
+            before = self._lines_plan(hull, "before")
+        with self._phase("edit"):
+            self._edit(hull)
+        with self._phase("check and verify"):
+            sound = self._check(hull)
+        with self._phase("draw after"):
+            self._compare(before, self._lines_plan(hull, "after"))
+        with self._phase("save"):
+            self._save(hull)
+        with self._phase("undo"):
+            same = self._undo(hull, first)
+        self.facts["seconds"]["total"] = time.perf_counter() - start
+        self._times()
+        return sound and same
+
+    @contextlib.contextmanager
+    def _phase(self, name: str) -> Iterator[None]:
+        start = time.perf_counter()
+        yield
+        self.facts["seconds"][name] = time.perf_counter() - start
+
+    def _adopt(self) -> Hull:
+        from assoc_hull.examples.series60 import series60_adopted
+        from assoc_hull.examples.series60_table import todd_table
+
+        hull = examples.series60(_CB)
+        adoption = hull.adoption or series60_adopted(_CB)[1]
+        table, offsets = todd_table(_CB)
+        self.say("1. The table of offsets, adopted as a net")
+        self.say(adoption_words(table, offsets, adoption))
+        self.say("further lines cut from the net:\n" + hull_words(hull))
+        rounding = dict(zip(map(str, table.z.tolist()), table.rounding.tolist(), strict=True))
+        self.facts |= {"particulars": hull.particulars, "rounding": rounding, "adoption": adoption}
+        return hull
+
+    def _edit(self, hull: Hull) -> None:
+        outcomes: list[Outcome] = []
+        for number, wish in enumerate(EDITS):
+            outcome = carry_out(hull, wish)
+            outcomes.append(outcome)
+            self.say(f"\n{number + 2}. {outcome.name}")
+            self.say(f"  asked        {1e3 * outcome.asked:.3f} mm")
+            self.say(f"  reached      {1e3 * outcome.reached:.3f} mm")
+            self.say(edit_words(hull, outcome.report))
+            if number == _BUTTOCK:
+                self._why(hull.why(_FOLLOWER))
+        self.facts |= {"edits": outcomes, "largest_gap": largest_gap(hull)}
+
+    def _why(self, cause: Why) -> None:
+        self.say(f"  why {_FOLLOWER} followed, back to what was set:")
+        self.say("\n".join(f"    {line}" for line in str(cause).splitlines()))
+        self.facts["why"] = cause
+
+    def _check(self, hull: Hull) -> bool:
+        findings, differences = hull.check(), hull.verify()
+        self.facts |= {"findings": findings, "differences": differences}
+        self.say("\n6. The whole hull after all edits")
+        self.say(
+            f"  largest gap  {1e3 * self.facts['largest_gap']:.2f} mm at all watched crossings"
+        )
+        self.say(f"  check        {len(findings)} findings")
+        self.say(f"  verify       {len(differences)} differences from what the definition gives")
+        for each in (*findings, *differences):
+            self.say(f"    {each}")
+        return not findings and not differences
+
+    def _lines_plan(self, hull: Hull, name: str) -> Any:
+        """Draw the lines plan as PNG and PDF, and keep the lines for the comparison."""
+        try:
+            from assoc_hull.plot import lines_plan
+            from assoc_hull.plot.drawing import drawing
+            from assoc_hull.plot.sheet import save
+
+            lines = drawing(hull)
+            figure = lines_plan(lines)
+            for ending in ("png", "pdf"):
+                save(figure, self._file(f"lines-{name}.{ending}"))
+        except MissingExtraError as error:
+            self.facts["files"].clear()
+            self.say(f"no pictures: {error}") if name == "before" else None
+            return None
+        return lines
+
+    def _compare(self, before: Any, after: Any) -> None:
+        if before is None:
+            return
+        from assoc_hull.plot.compare import before_after
+
+        before_after(before, after, self._file("body-plan-before-after.png"))
+
+    def _save(self, hull: Hull) -> None:
+        hull.save(self._file("after.hull.json"))
+
+    def _file(self, name: str) -> Path:
+        path = self.folder / name
+        self.facts["files"].append(path)
+        return path
+
+    def _undo(self, hull: Hull, first: str) -> bool:
+        last = hull.fingerprint
+        hull.undo(len(hull.history))
+        back = hull.fingerprint
+        hull.save(self._file("before.hull.json"))
+        self.facts["fingerprint"] = {"start": first, "edited": last, "undone": back}
+        self.say("\n7. All edits undone")
+        for title, value in self.facts["fingerprint"].items():
+            self.say(f"  {title:12} {value}")
+        self.say("  the hull is as it was, to the last bit" if back == first else "  NOT THE SAME")
+        return back == first
+
+    def _times(self) -> None:
+        self.say("\nwritten: " + ", ".join(str(path) for path in self.facts["files"]))
+        times = (f"{name} {value:.2f} s" for name, value in self.facts["seconds"].items())
+        self.say("time: " + ", ".join(times))

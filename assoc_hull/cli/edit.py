@@ -1,0 +1,154 @@
+"""The command that carries out edits given as JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.problems import InFileError, check_target
+from assoc_hull.cli.words import edit_words
+from assoc_hull.edit.explain import Why
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.script import carry_out
+from assoc_hull.edit.session import Edit
+from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
+from assoc_hull.hull import Hull
+from assoc_hull.hull import open as open_hull
+
+__all__ = ["add"]
+
+Changes = Sequence[Mapping[str, Any]]
+
+
+def add(commands: Commands) -> None:
+    """Add ``edit``."""
+    parser = add_command(
+        commands, "edit", "carry out edits and let the hull follow; exit 1 if they are refused",
+        _edit,
+        """assoc-hull edit ship.hull.json edits.json
+        assoc-hull edit ship.hull.json edits.json -o fairer.hull.json --why "BTK 0.44"
+        assoc-hull edit ship.hull.json edits.json --dry-run --json
+
+        edits.json: [{"op": "move", "point": "WL 0.5 x ST 16", "y": 7.35},
+        {"op": "pull", "point": "WL 0.5 x ST 17", "d": 0.02, "radius": [20, 8]}]
+        (lengths in m; all modifications are one edit)""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument("edits", metavar="EDITS.json", type=Path, help="a list of modifications")
+    parser.add_argument(
+        "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
+    )
+    parser.add_argument("--name", help="name of the edit (default: that of the file)")
+    parser.add_argument(
+        "--why", metavar="OBJECT", action="append", default=[],
+        help="tell why this object changed; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument("--dry-run", action="store_true", help="report, and write nothing")
+    add_json(parser)
+
+
+def _edit(arguments: argparse.Namespace) -> int:
+    target: Path = arguments.out or arguments.hull
+    if not arguments.dry_run:
+        check_target(target, HULL_ENDINGS)
+    changes = _read(arguments.edits)
+    hull = open_hull(arguments.hull)
+    name = arguments.name or arguments.edits.stem
+    try:
+        with progress("updating"):
+            report = _carry_out(hull, name, changes, arguments.edits)
+    except RefusedEditError as error:
+        return _refused(arguments, error)
+    causes = {each: hull.why(each) for each in arguments.why}
+    if not arguments.dry_run:
+        hull.save(target)
+    _tell(arguments, hull, report, causes, None if arguments.dry_run else target)
+    return 0
+
+
+def _carry_out(hull: Hull, name: str, changes: Changes, file: Path) -> EditReport:
+    with hull.edit(name) as edit:
+        for number, change in enumerate(changes, start=1):
+            _modify(edit, change, f"{file}, modification {number}")
+    assert edit.report is not None, "an edit without an error has a report"
+    return edit.report
+
+
+def _modify(edit: Edit, change: Mapping[str, Any], place: str) -> None:
+    """Carry out one modification; whatever is wrong with it, say which one it is."""
+    try:
+        carry_out(edit, [change])
+    except AssocHullError as error:
+        raise InFileError(error, place) from error
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        what = f"{change.get('op')} cannot use these values ({error})"
+        raise BadInputError(what, f"in {place}", "mend them") from error
+
+
+def _refused(arguments: argparse.Namespace, error: RefusedEditError) -> int:
+    facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
+    emit(arguments, facts, "\n".join(error.findings))
+    count = len(error.findings)
+    print(
+        f"refused: edit {error.edit!r}, {count} finding{'s' if count > 1 else ''}; "
+        "the hull is unchanged",
+        file=sys.stderr,
+    )
+    return 1
+
+
+def _tell(
+    arguments: argparse.Namespace,
+    hull: Hull,
+    report: EditReport,
+    causes: dict[str, Why],
+    saved: Path | None,
+) -> None:
+    facts = {
+        "refused": False, "edit": report.name,
+        "report": report, "inflections": report.inflections, "why": causes,
+        "fingerprint": hull.fingerprint, "saved": saved,
+    }  # fmt: skip
+    written = "nothing written" if saved is None else f"written: {saved}"
+    told = [f"why {name}\n{cause}" for name, cause in causes.items()]
+    emit(arguments, facts, "\n".join([report.name, edit_words(hull, report), *told, written]))
+
+
+def _read(path: Path) -> Changes:
+    """Read a list of modifications.
+
+    Raises
+    ------
+    BadInputError
+        With file, place and remedy.
+    """
+    try:
+        found = json.loads(path.read_bytes().decode("utf-8-sig"), parse_constant=_not_finite)
+    except OSError as error:
+        what = f"the file cannot be read ({error.strerror})"
+        raise BadInputError(what, f"at {path}", "check name and permissions") from error
+    except json.JSONDecodeError as error:
+        where = f"in {path}, line {error.lineno}, column {error.colno}"
+        raise BadInputError(f"this is no JSON ({error.msg})", where, "mend it") from error
+    except (ValueError, RecursionError) as error:
+        raise BadInputError(
+            f"this is no list of edits ({error})", f"in {path}", "mend it"
+        ) from error
+    if not isinstance(found, list) or not found:
+        what = "this is no list of modifications, or an empty one"
+        raise BadInputError(what, f"in {path}", 'give [{"op": "move", "point": ...}, ...]')
+    for number, change in enumerate(found, start=1):
+        if not isinstance(change, dict) or not isinstance(change.get("op"), str):
+            where = f"in {path}, modification {number}"
+            raise BadInputError("it has no 'op'", where, 'give {"op": "move", "point": ...}')
+    return found
+
+
+def _not_finite(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no finite number")

@@ -1,0 +1,115 @@
+"""Commands that make a hull: one that ships, or one from a table of offsets."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_json
+from assoc_hull.cli.output import emit, plain, progress
+from assoc_hull.cli.problems import check_target
+from assoc_hull.cli.words import adoption_words, hull_words
+from assoc_hull.hull import Hull, examples
+
+__all__ = ["add"]
+
+_EXAMPLES = {
+    "wigley": lambda: examples.wigley(),
+    "series60-060": lambda: examples.series60(0.60),
+    "series60-070": lambda: examples.series60(0.70),
+}
+
+
+def add(commands: Commands) -> None:
+    """Add ``example`` and ``import``."""
+    _add_example(commands)
+    _add_import(commands)
+
+
+def _add_example(commands: Commands) -> None:
+    parser = add_command(
+        commands, "example", "write a hull that ships with the program", _example,
+        "assoc-hull example series60-070 -o ship.hull.json",
+    )  # fmt: skip
+    parser.add_argument("name", metavar="NAME", choices=_EXAMPLES, help=", ".join(_EXAMPLES))
+    _add_target(parser)
+    add_json(parser)
+
+
+def _add_import(commands: Commands) -> None:
+    parser = add_command(
+        commands, "import", "make a hull from a table of offsets", _import,
+        """assoc-hull import offsets.csv -o ship.hull.json
+        assoc-hull import offsets.csv -o ship.hull.json --unit mm --draught 8.5
+        assoc-hull import offsets.csv -o ship.hull.json --station-zero fp --report report.json""",
+    )  # fmt: skip
+    parser.add_argument("file", metavar="FILE", type=Path, help="a table of offsets (CSV, TSV)")
+    _add_target(parser)
+    for name, what in (
+        ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),
+    ):  # fmt: skip
+        parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{name}, {what}, m")
+    units = ("auto", "m", "mm", "normalised")
+    parser.add_argument("--unit", choices=units, default="auto", help="of the numbers in the file")
+    parser.add_argument(
+        "--station-zero", choices=("auto", "ap", "fp"), default="auto",
+        help="perpendicular of station 0",
+    )  # fmt: skip
+    parser.add_argument(
+        "--report", metavar="FILE", type=Path, help="write all assumptions and deviations as JSON"
+    )
+    add_json(parser)
+
+
+def _add_target(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-o", "--out", metavar="HULL", type=Path, required=True, help="the .hull.json file to write"
+    )
+
+
+def _example(arguments: argparse.Namespace) -> int:
+    check_target(arguments.out, HULL_ENDINGS)
+    with progress(f"making {arguments.name}"):
+        hull = _EXAMPLES[arguments.name]()
+    hull.save(arguments.out)
+    _tell(arguments, hull, {}, "")
+    return 0
+
+
+def _import(arguments: argparse.Namespace) -> int:
+    check_target(arguments.out, HULL_ENDINGS)
+    if arguments.report is not None:
+        check_target(arguments.report, (".json",))
+    with progress(f"adopting {arguments.file}"):
+        hull, report, text = _adopt(arguments)
+    hull.save(arguments.out)
+    if arguments.report is not None:
+        arguments.report.write_text(json.dumps(plain(report), indent=1) + "\n", "utf-8")
+    _tell(arguments, hull, {"report": report}, text + "\n")
+    return 0
+
+
+def _adopt(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.examples.completion import net_from_table
+    from assoc_hull.io.offsets import read_offsets
+
+    names = ("length", "breadth", "draught", "unit", "station_zero")
+    table, offsets = read_offsets(
+        arguments.file, **{name: getattr(arguments, name) for name in names}
+    )
+    state, adoption = net_from_table(table)
+    hull = Hull(state)
+    hull.adoption = adoption
+    rounding = [
+        {"z": z, "rounding": amount}
+        for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True)
+    ]
+    report = {"offsets": offsets, "rounding": rounding, "adoption": adoption}
+    return hull, report, adoption_words(table, offsets, adoption)
+
+
+def _tell(arguments: argparse.Namespace, hull: Hull, more: dict[str, Any], text: str) -> None:
+    facts = {"hull": arguments.out, "fingerprint": hull.fingerprint, **more}
+    emit(arguments, facts, f"{text}{hull_words(hull)}\nwritten: {arguments.out}")

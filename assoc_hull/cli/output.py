@@ -1,0 +1,98 @@
+"""What commands print: facts on standard output, as text or as one JSON document."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import math
+import threading
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.explain import Why
+
+__all__ = ["emit", "plain", "progress", "why_document"]
+
+_PATIENCE = 1.0
+"""Seconds after which a person is told what takes so long."""
+
+
+def emit(arguments: argparse.Namespace, document: Mapping[str, Any], text: str) -> None:
+    """Print the document if JSON was asked for, else the text."""
+    print(json.dumps(plain(document), indent=1, allow_nan=False) if arguments.json else text)
+
+
+def plain(value: Any) -> Any:
+    """Give what JSON can say; numbers that are not finite become null.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.output import plain
+    >>> from assoc_hull.edit.report import Movement
+    >>> plain([Movement("P", float("inf"), (0.0, 1.0, 2.0)), Path("a")])
+    [{'point': 'P', 'distance': None, 'place': [0.0, 1.0, 2.0]}, 'a']
+    """
+    if isinstance(value, Why):
+        return why_document(value)
+    if attrs.has(type(value)):
+        return {
+            field.name: plain(getattr(value, field.name))
+            for field in attrs.fields(type(value))
+            if field.repr
+        }
+    if isinstance(value, Mapping):
+        return {str(key): plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, Path):
+        return str(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def why_document(cause: Why, told: set[str] | None = None) -> dict[str, Any]:
+    """Give a tree of causes; an object that was told already comes again without its causes."""
+    known = set() if told is None else told
+    again = cause.object in known
+    known.add(cause.object)
+    return {
+        "object": cause.object,
+        "name": cause.name,
+        "edit": cause.edit,
+        "step": cause.step,
+        "moved": plain(cause.moved),
+        "what": cause.what,
+        "again": again,
+        "causes": [] if again else [why_document(each, known) for each in cause.causes],
+        "stopped": list(cause.stopped),
+    }
+
+
+@contextlib.contextmanager
+def progress(what: str) -> Iterator[None]:
+    """Say on standard error what is being done, if it takes longer than a person waits."""
+    with contextlib.ExitStack() as shown:
+        lock, done = threading.Lock(), threading.Event()
+
+        def show() -> None:
+            from rich.console import Console
+
+            with lock:
+                if not done.is_set():
+                    shown.enter_context(Console(stderr=True).status(f"{what} ..."))
+
+        timer = threading.Timer(_PATIENCE, show)
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+            with lock:
+                done.set()

@@ -1,0 +1,59 @@
+"""The arguments of all commands."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import NoReturn
+
+from assoc_hull.cli import demo, edit, graph, look, make, plot
+from assoc_hull.cli.problems import UsageError
+
+__all__ = ["make_parser"]
+
+_ABOUT = "Associative ship hull forms: lines that follow one another when one is changed."
+_EXAMPLES = """
+examples:
+  assoc-hull demo --out demo
+  assoc-hull example series60-070 -o ship.hull.json
+  assoc-hull edit ship.hull.json edits.json -o fairer.hull.json --why "BTK 0.44"
+  assoc-hull check fairer.hull.json --json
+  assoc-hull plot fairer.hull.json -o lines.pdf
+
+exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Raises where argparse would print several lines and leave."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message}, in {self.prog}; see: {self.prog} --help")
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Make the parser of the command line; each command sets ``run``.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.parser import make_parser
+    >>> make_parser().parse_args(["info", "ship.hull.json"]).hull.name
+    'ship.hull.json'
+    """
+    parser = _Parser(
+        prog="assoc-hull",
+        description=_ABOUT,
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
+    for module in (demo, make, look, edit, graph, plot):
+        module.add(commands)
+    return parser
+
+
+def _version() -> str:
+    """Give the version of the package this module belongs to."""
+    package = sys.modules[__name__.partition(".")[0]]
+    return str(vars(package)["__version__"])

@@ -1,0 +1,45 @@
+"""The command that draws a hull."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from assoc_hull.cli.arguments import Commands, add_command, add_hull
+from assoc_hull.cli.output import progress
+from assoc_hull.cli.problems import check_target
+from assoc_hull.hull import open as open_hull
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Add ``plot``."""
+    parser = add_command(
+        commands, "plot", "draw the lines plan, or lines with their curvature combs", _plot,
+        """assoc-hull plot ship.hull.json -o lines.pdf --paper A1
+        assoc-hull plot ship.hull.json -o combs.svg --combs "WL 0.5" "BTK 0.44\"""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument(
+        "-o", "--out", type=Path, required=True, metavar="FILE", help="a .pdf, .svg or .png file"
+    )
+    parser.add_argument("--paper", choices=("A3", "A1"), default="A3", help="default: A3")
+    parser.add_argument(
+        "--combs", nargs="+", metavar="LINE", help="draw these lines with their curvature"
+    )
+
+
+def _plot(arguments: argparse.Namespace) -> int:
+    from assoc_hull.plot import lines_plan
+
+    check_target(arguments.out, (".pdf", ".svg", ".png"))
+    hull = open_hull(arguments.hull)
+    with progress(f"drawing {arguments.out}"):
+        if arguments.combs:
+            from assoc_hull.plot import combs
+
+            combs(hull, arguments.combs, arguments.out)
+        else:
+            lines_plan(hull, arguments.out, paper=arguments.paper)
+    return 0

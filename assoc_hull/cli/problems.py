@@ -1,0 +1,85 @@
+"""What the command line says when something fails, and checks it makes before it works."""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Collection
+from pathlib import Path
+
+from assoc_hull.errors import AssocHullError, BadInputError
+
+__all__ = ["InFileError", "UsageError", "check_target", "explain"]
+
+_DEBUG = "ASSOC_HULL_DEBUG"
+
+
+class UsageError(AssocHullError):
+    """The arguments do not fit the command."""
+
+
+class InFileError(AssocHullError):
+    """Something is wrong, and this is the place in the file that says it."""
+
+    def __init__(self, error: Exception, place: str) -> None:
+        super().__init__(f"{explain(error)} ({place})")
+
+
+def explain(error: Exception) -> str:
+    """Say what is wrong, where, and what to do.
+
+    Examples
+    --------
+    >>> from assoc_hull.cli.problems import explain
+    >>> explain(PermissionError(13, "Permission denied", "hull.json"))
+    'Permission denied, at hull.json; check name, place and permissions'
+    """
+    if os.environ.get(_DEBUG):
+        traceback.print_exception(error)
+    if isinstance(error, AssocHullError):
+        return str(error)
+    if isinstance(error, OSError):
+        place = "in the output" if error.filename is None else f"at {error.filename}"
+        return f"{error.strerror or error}, {place}; check name, place and permissions"
+    return (
+        f"{type(error).__name__} inside the program ({error}), {_place(error)}; this is a fault "
+        f"of the program: report it with what {_DEBUG}=1 shows"
+    )
+
+
+def _place(error: Exception) -> str:
+    """Give the line in which an error arose."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return f"at {Path(frames[-1].filename).name}:{frames[-1].lineno}" if frames else "anywhere"
+
+
+def check_target(path: Path, endings: Collection[str]) -> None:
+    """Refuse, before anything is computed, a file that could not be written.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    endings : collection of str
+        How its name may end.
+
+    Raises
+    ------
+    BadInputError
+        Another ending, a folder of this name, or no folder to write to.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from assoc_hull.cli.problems import check_target
+    >>> check_target(Path("ship.hull.json"), [".hull.json"])
+    """
+    if not path.name.endswith(tuple(endings)):
+        known = " or ".join(endings)
+        raise BadInputError("the form is unknown", f"at {path}", f"end the name in {known}")
+    if path.is_dir():
+        raise BadInputError("this is a folder", f"at {path}", "give the name of a file")
+    if not path.parent.is_dir():
+        raise BadInputError(
+            f"there is no folder {path.parent}", f"for {path.name}", "make the folder first"
+        )

@@ -1,0 +1,152 @@
+"""Hulls, adoptions and edits in words."""
+
+from __future__ import annotations
+
+import textwrap
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from assoc_hull.edit.adopt import AdoptionReport
+from assoc_hull.edit.report import EditReport
+from assoc_hull.hull import Hull
+from assoc_hull.io.offset_report import OffsetReport
+from assoc_hull.io.offset_table import OffsetTable
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.handles import Curve
+
+__all__ = [
+    "adoption_words",
+    "edit_words",
+    "followers",
+    "hull_facts",
+    "hull_words",
+    "largest_gap",
+    "wrapped",
+]
+
+
+def wrapped(title: str, names: Iterable[str], indent: str = "  ") -> str:
+    """Write a title and names after it, on as many lines as they need."""
+    pad = indent + " " * 13
+    text = ", ".join(name.replace(" ", "\xa0") for name in names)
+    lines = textwrap.wrap(text, 96, initial_indent=f"{indent}{title:12} ", subsequent_indent=pad)
+    return "\n".join(lines).replace("\xa0", " ") if text else f"{indent}{title:12} -"
+
+
+def largest_gap(hull: Hull) -> float:
+    """Give the largest gap (m) at any watched crossing of a hull, 0 if there is none."""
+    gaps = [each.gap for each in hull.crossings.values()]
+    return max((gap for gap in gaps if gap is not None), default=0.0)
+
+
+def hull_facts(hull: Hull) -> dict[str, Any]:
+    """Give what a hull holds; lengths in m."""
+    groups = {
+        name: {"family": group.family, "lines": list(group.lines)}
+        for name, group in hull.groups.items()
+    }
+    return {
+        "particulars": hull.particulars,
+        "groups": groups,
+        "associations": hull.associations,
+        "points": dict(Counter(each.sort for each in hull.points.values())),
+        "crossings": dict(Counter(each.role for each in hull.crossings.values())),
+        "largest_gap": largest_gap(hull),
+        "fingerprint": hull.fingerprint,
+    }
+
+
+def hull_words(hull: Hull, *, names: bool = False) -> str:
+    """Say what a hull holds, with the names of all lines if asked."""
+    facts, ship = hull_facts(hull), hull.particulars
+    points, roles = facts["points"], facts["crossings"]
+    driven = roles.get("drives a", 0) + roles.get("drives b", 0)
+    lines = [
+        f"{ship.name}: length {ship.length:.3f} m, breadth {ship.breadth:.3f} m, "
+        f"depth {ship.depth:.3f} m, draught {ship.draught:.3f} m",
+        wrapped("lines", (f"{len(g['lines'])} {name}" for name, g in facts["groups"].items())),
+        f"  crossings    {sum(roles.values())}: {roles.get('shared', 0)} shared, {driven} driven, "
+        f"{roles.get('watched', 0)} watched",
+        f"  points       {points.get('placed', 0)} placed, {points.get('adopted', 0)} adopted",
+        f"  largest gap  {1e3 * facts['largest_gap']:.2f} mm",
+        f"  fingerprint  {facts['fingerprint']}",
+    ]
+    if names:
+        lines += [wrapped(name, group["lines"]) for name, group in facts["groups"].items()]
+    return "\n".join(lines)
+
+
+def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: AdoptionReport) -> str:
+    """Say how a table was read, how exact it is, and how well the net holds it."""
+    worst = max(adoption.lines, key=lambda each: each.deviation)
+    own = sum(each.adopted for each in adoption.lines)
+    lines = [
+        f"{table.name}: {len(table.x)} stations, {len(table.z)} waterlines",
+        *(f"  {line}" for line in str(offsets).splitlines()),
+        *_rounding(table),
+        f"adopted {len(adoption.lines)} curves, {own} points of theirs that no crossing holds; "
+        f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.curve})",
+        *(f"  {note}" for note in adoption.notes),
+    ]
+    return "\n".join(lines)
+
+
+def _rounding(table: OffsetTable) -> Iterator[str]:
+    """Say how exact the printed offsets are, waterlines of one rounding together."""
+    unit = table.draught or 1.0
+    of = "T" if table.draught else "m"
+    found: dict[float, list[str]] = {}
+    for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True):
+        found.setdefault(round(1e3 * amount, 6), []).append(f"{z / unit:g}")
+    for amount, heights in found.items():
+        yield f"  rounding: +-{amount:.2g} mm at waterlines {', '.join(heights)} {of}"
+
+
+def followers(hull: Hull, report: EditReport) -> dict[str, list[str]]:
+    """Give the names of the curves an edit re-lofted, by group, along each group."""
+    book, found = AddressBook(hull.state), dict[str, list[tuple[float, str]]]()
+    for key in report.relofted:
+        curve = book.keys[key].curve if key in book.keys else -1
+        if curve >= 0:
+            line = Curve.of(hull.state, curve).line
+            place = (line.position or 0.0, book.curve_name(curve))
+            found.setdefault(line.group.name, []).append(place)
+    order = [name for name in hull.groups if name in found]
+    return {name: [title for _, title in sorted(found[name])] for name in order}
+
+
+def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
+    """Say what an edit did: what followed, what moved most, what remains."""
+    groups = followers(hull, report)
+    counts = ", ".join(f"{len(names)} {name}" for name, names in groups.items()) or "none"
+    lines = [
+        f"{indent}followed     {len(report.relofted)} curves re-lofted of {report.planned} planned "
+        f"({counts}); {report.cut_off} points came out as they were",
+        *(wrapped(name, names, indent) for name, names in groups.items()),
+        *_moved(hull, report, indent),
+        f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "
+        f"{sum(count for _, count in report.inflections)} new inflections",
+        *_lists(report, indent),
+    ]
+    return "\n".join(lines)
+
+
+def _moved(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
+    if report.largest is None:
+        return
+    book, (x, y, z) = AddressBook(hull.state), report.largest.place
+    key = report.largest.point
+    name = book.address(book.keys[key].row) if key in book.keys else key
+    yield (
+        f"{indent}moved most   {name}, by {1e3 * report.largest.distance:.1f} mm, "
+        f"to ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    )
+
+
+def _lists(report: EditReport, indent: str) -> Iterator[str]:
+    """Name what appeared, vanished, was mended or could not be made."""
+    for title in ("born", "gone", "mended", "failed", "blocked", "notes"):
+        names: Sequence[str] = getattr(report, title)
+        if names:
+            yield wrapped(title, names, indent)
