@@ -114,7 +114,7 @@ def _reshape(
     def along(hull: Hull) -> FloatArray:
         return np.array([[0.0, 1.0, 0.0]])
 
-    name = f"re-shape {line} from x {span[0]:g} to {span[1]:g} m by {1e3 * largest:g} mm"
+    name = f"re-shape {line} from x {span[0]:g} to {span[1]:g} m by up to {1e3 * largest:g} mm"
     return DemoEdit(name, largest, change, lambda hull: _stretch(hull, line, span), along)
 
 
@@ -144,7 +144,8 @@ def _generator(point: Point) -> str | None:
 def _bulged(hull: Hull, line: str, span: tuple[float, float], largest: float) -> FloatArray:
     points = _stretch(hull, line, span)
     part = (points[:, 0] - span[0]) / (span[1] - span[0])
-    points[:, 1] += largest * 0.5 * (1.0 - np.cos(2.0 * np.pi * part))
+    bell = 1.0 - np.cos(2.0 * np.pi * part)
+    points[:, 1] += largest * bell / bell.max()
     return points
 
 
@@ -157,7 +158,7 @@ def _normal(point: Point) -> FloatArray:
         each.container_curve.tangent(each.container_curve.closest(each.position)[0])
         for each in (point, friend)
     ]
-    normal = np.cross(*tangent)
+    normal = np.cross(tangent[0], tangent[1])
     normal = normal / np.linalg.norm(normal)
     return np.asarray(normal if normal[1] > 0.0 else -normal)
 

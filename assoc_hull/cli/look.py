@@ -29,7 +29,7 @@ def add(commands: Commands) -> None:
     check.add_argument("--notes", action="store_true", help="tell also what is only worth knowing")
     verify = add_command(
         commands, "verify", "rebuild a hull from its definition and compare; exit 1 if it differs",
-        _verify, "assoc-hull verify ship.hull.json\nassoc-hull verify ship.hull.json --relative 1e-12",
+        _verify, "assoc-hull verify ship.hull.json\nassoc-hull verify ship.hull.json --json",
     )  # fmt: skip
     verify.add_argument(
         "--relative", type=float, default=0.0, metavar="PART",

@@ -49,7 +49,7 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
     return {
         "particulars": hull.particulars,
         "groups": groups,
-        "associations": hull.associations,
+        "associations": hull.state.associations,
         "points": dict(Counter(each.sort for each in hull.points.values())),
         "crossings": dict(Counter(each.role for each in hull.crossings.values())),
         "largest_gap": largest_gap(hull),
@@ -119,10 +119,10 @@ def followers(hull: Hull, report: EditReport) -> dict[str, list[str]]:
 def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
     """Say what an edit did: what followed, what moved most, what remains."""
     groups = followers(hull, report)
-    counts = ", ".join(f"{len(names)} {name}" for name, names in groups.items()) or "none"
+    counts = ", ".join(f"{name} {len(names)}" for name, names in groups.items())
     lines = [
-        f"{indent}followed     {len(report.relofted)} curves re-lofted of {report.planned} planned "
-        f"({counts}); {report.cut_off} points came out as they were",
+        f"{indent}followed     {len(report.relofted)} curves re-lofted ({counts or 'none'})",
+        f"{indent}stopped      at {report.cut_off} points that came out with the same bits",
         *(wrapped(name, names, indent) for name, names in groups.items()),
         *_moved(hull, report, indent),
         f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "

@@ -7,19 +7,20 @@ too only if that stays within 0.1 mm; else the old curve drives the new one.
 
 from __future__ import annotations
 
-import attrs
+from collections.abc import Mapping
+
 import numpy as np
 
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.keep import deviation_with
+from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, NoMeetingError, UnknownNameError
-from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
 from assoc_hull.model.gaps import tangents
@@ -27,37 +28,7 @@ from assoc_hull.model.make import CrossingSpec, PointSpec
 from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import Ends, HullState
 
-__all__ = ["add_line", "new_plane"]
-
-
-@attrs.frozen(eq=False)
-class _Marks:
-    """Where the new plane meets what is there.
-
-    Attributes
-    ----------
-    curve : (k,) int
-        The curve met.
-    at : (k,), m
-        Parameter on it.
-    xyz : (k, 3), m
-        The place, exactly in both planes.
-    sign : (k,) int
-        Sense in which it passes the new plane.
-    boundary : (k,) int
-        A `BoundaryKind`, or -1 on other lines.
-    """
-
-    curve: IntArray
-    at: FloatArray
-    xyz: FloatArray
-    sign: IntArray
-    boundary: IntArray
-
-    def take(self, chosen: IntArray) -> _Marks:
-        return _Marks(
-            self.curve[chosen], self.at[chosen], self.xyz[chosen], self.sign[chosen], self.boundary[chosen]
-        )
+__all__ = ["add_line", "make_piece", "new_plane", "pieces_of"]
 
 
 def new_plane(state: HullState, group: str, position: float) -> tuple[int, FloatArray]:
@@ -121,18 +92,22 @@ def add_line(
     """
     state = edit.state
     number, normal = new_plane(state, group, position)
-    marks = _find(state, number, normal, position)
-    if len(marks.curve) < 2:
-        raise _misses(state, number, normal, position)
+    marks = find_marks(state, number, normal, position)
     edit.pending.structural = True
     family = FAMILIES[state.groups.family.data[number]]
     title = name or _free_name(state, number, f"{family.prefix} {position:g}")
     line = edit.maker.line(number, title, (normal, position))
-    axis = 2 if family.axis == 0 else 0
-    for piece in chain(marks.xyz, marks.boundary == BoundaryKind.END, axis):
-        _make_piece(edit, line, _spread(marks.take(piece)), keep or state.tolerances.keep)
+    for piece in pieces_of(state, line, marks):
+        make_piece(edit, line, piece, keep or state.tolerances.keep)
     enter_line(edit, line)
     return line
+
+
+def pieces_of(state: HullState, line: int, marks: Marks) -> list[Marks]:
+    """Put marks in order, piece by piece; sections upward, other lines from aft forward."""
+    axis = 2 if state.family(line).axis == 0 else 0
+    ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
+    return [spread(marks.take(piece)) for piece in ordered]
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:
@@ -142,79 +117,49 @@ def _free_name(state: HullState, group: int, wish: str) -> str:
     return wish if wish not in taken else f"{wish} m"
 
 
-def _sources(state: HullState, group: int) -> list[int]:
-    """Give the groups a new line is cut from: lower ranks, or all if there is but one."""
-    names = state.groups.name.data
-    mine = names[group]
-    linked = {pair.b for pair in state.associations if pair.a == mine}
-    linked |= {pair.a for pair in state.associations if pair.b == mine}
-    rank = {i: FAMILIES[state.groups.family.data[i]].rank for i in range(len(names))}
-    others = sorted((i for i in range(len(names)) if names[i] in linked), key=lambda i: (rank[i], names[i]))
-    lower = [i for i in others if rank[i] < rank[group]]
-    plain = [i for i in lower if rank[i] > 0]
-    if plain:
-        return lower
-    return lower + [i for i in others if rank[i] > rank[group]][:1]
+def make_piece(
+    edit: Transaction,
+    line: int,
+    marks: Marks,
+    keep: float,
+    curve: int | None = None,
+    known: Mapping[tuple[int, int], int] | None = None,
+) -> int:
+    """Make one curve of a line from marks in order along it.
 
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    line : int
+        The line.
+    marks : Marks
+        Where it passes.
+    keep : float, m
+        Crossings define the old curves only where these move by no more than this.
+    curve : int or None
+        The curve to define; a new one if None.
+    known : mapping of (int, int) to int, or None
+        Crossings that are there already, by the other curve and the mark's `root`.
 
-def _find(state: HullState, group: int, normal: FloatArray, position: float) -> _Marks:
-    """Meet every source curve with the new plane."""
-    curves = state.live("curves")
-    wanted = np.isin(state.lines.group.data[state.curves.line.data[curves]], _sources(state, group))
-    curves = curves[wanted]
-    none = np.zeros(0, np.int64)
-    if not len(curves):
-        return _Marks(none, np.zeros(0), np.zeros((0, 3)), none, none)
-    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    met = meet_planes(batch, normal, np.array([position]))
-    owner = curves[met.curve]
-    lines = state.curves.line.data[owner]
-    xyz = met.xyz.copy()
-    own = (state.lines.normal.data[lines] == 1.0) & state.lines.planar.data[lines][:, None]
-    xyz[own] = np.broadcast_to(state.lines.offset.data[lines][:, None], xyz.shape)[own]
-    return _Marks(
-        owner, met.t.copy(), xyz, met.sign.astype(np.int64), state.lines.boundary.data[lines].astype(np.int64)
-    )
-
-
-def _misses(
-    state: HullState, group: int, normal: FloatArray, position: float
-) -> NoMeetingError:
-    curves = state.live("curves")
-    reach = np.concatenate([state.spline(curve).xyz @ normal for curve in curves.tolist()])
-    nearest = max(0.0, float(reach.min() - position), float(position - reach.max()))
-    return NoMeetingError(
-        f"the plane at {position:g} m of {state.groups.name.data[group]}",
-        nearest,
-        f"choose a position between {reach.min():.3f} and {reach.max():.3f} m",
-    )
-
-
-def _spread(marks: _Marks) -> _Marks:
-    """Drop marks that coincide with one that is kept: contacts first, then lower rank."""
-    order = np.lexsort((np.arange(len(marks.curve)), -marks.boundary))
-    kept: list[int] = []
-    for item in order.tolist():
-        away = np.abs(marks.xyz[kept] - marks.xyz[item]).max(axis=1) if kept else np.array([np.inf])
-        if away.min() > 1e-3:
-            kept.append(item)
-    return marks.take(np.array(sorted(kept), np.int64))
-
-
-def _make_piece(edit: Transaction, line: int, marks: _Marks, keep: float) -> None:
-    """Make one curve of the new line from marks in order along it."""
+    Returns
+    -------
+    int
+        The curve.
+    """
     state = edit.state
     kind, direction = _kinds(state, line, marks)
     spline = loft(CurveData.single(marks.xyz, kind, direction))
     picked = _pick(state, line, marks, spline)
-    curve = edit.maker.curve(line, Ends())
+    if curve is None:
+        curve = edit.maker.curve(line, Ends())
     chosen = marks.take(np.flatnonzero(picked))
     roles = _roles(state, line, chosen, keep)
     specs = [
         _spec(state, curve, chosen, i, role, int(kind[picked][i]), direction[picked][i])
         for i, role in enumerate(roles)
     ]
-    rows = edit.maker.crossings(specs)
+    rows = _rows(edit, chosen, specs, known or {})
     stand_in = [
         PointSpec(curve, chosen.xyz[i], Sort.ADOPTED)
         for i, role in enumerate(roles)
@@ -228,10 +173,27 @@ def _make_piece(edit: Transaction, line: int, marks: _Marks, keep: float) -> Non
         if role is Role.SHARED:
             thread(edit.maker, int(chosen.curve[i]), int(rows[i]))
             edit.pending.curves.add(int(chosen.curve[i]))
+    return curve
+
+
+def _rows(
+    edit: Transaction,
+    marks: Marks,
+    specs: list[CrossingSpec],
+    known: Mapping[tuple[int, int], int],
+) -> list[int]:
+    """Make crossings, or let those that are there already have a new place and role."""
+    marked = zip(marks.curve.tolist(), marks.root.tolist(), strict=True)
+    rows = [known.get(mark, -1) for mark in marked]
+    new = iter(edit.maker.crossings([spec for spec, row in zip(specs, rows, strict=True) if row < 0]))
+    for spec, row in zip(specs, rows, strict=True):
+        if row >= 0:
+            edit.maker.replace(row, spec)
+    return [row if row >= 0 else int(next(new)) for row in rows]
 
 
 def _kinds(
-    state: HullState, line: int, marks: _Marks
+    state: HullState, line: int, marks: Marks
 ) -> tuple[np.typing.NDArray[np.int8], FloatArray]:
     """Give each mark its kind; at the border of a flat the direction lies in the flat."""
     kind = np.zeros(len(marks.curve), np.int8)
@@ -247,7 +209,7 @@ def _kinds(
 
 
 def _pick(
-    state: HullState, line: int, marks: _Marks, spline: SplineBatch
+    state: HullState, line: int, marks: Marks, spline: SplineBatch
 ) -> np.typing.NDArray[np.bool_]:
     """Apply the role rule on the new line."""
     slope = derivative(spline, np.zeros(len(marks.curve), np.int64), spline.knot)
@@ -261,7 +223,7 @@ def _pick(
     )
 
 
-def _roles(state: HullState, line: int, marks: _Marks, keep: float) -> list[Role]:
+def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:
     """Say of each chosen mark what it does, beside defining the new line."""
     may = _old_may(state, line, marks, keep)
     rank = state.family(line).rank
@@ -280,7 +242,7 @@ def _roles(state: HullState, line: int, marks: _Marks, keep: float) -> list[Role
 
 
 def _old_may(
-    state: HullState, line: int, marks: _Marks, keep: float
+    state: HullState, line: int, marks: Marks, keep: float
 ) -> np.typing.NDArray[np.bool_]:
     """Tell which old curves may be defined by their mark: transversal, spaced, unmoved."""
     slope = tangents(state, marks.curve, marks.at)
@@ -293,7 +255,7 @@ def _old_may(
 
 
 def _spec(
-    state: HullState, curve: int, marks: _Marks, i: int, role: Role, kind: int, direction: FloatArray
+    state: HullState, curve: int, marks: Marks, i: int, role: Role, kind: int, direction: FloatArray
 ) -> CrossingSpec:
     other = int(marks.curve[i])
     contact = bool(marks.boundary[i] >= 0)

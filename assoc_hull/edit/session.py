@@ -20,6 +20,7 @@ from assoc_hull.edit import points as _points
 from assoc_hull.edit import pull as _pull
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
+from assoc_hull.edit import shift as _shift
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
@@ -196,6 +197,10 @@ class Edit:
         title = group.name if isinstance(group, Group) else group
         number = _cut.add_line(self._transaction, title, _number(position, "position"), name)
         return Line.of(self._tables, number)
+
+    def shift_line(self, line: Line | str, position: float) -> None:
+        """Shift a line to another position (m); the hull keeps its shape."""
+        _shift.shift_line(self._transaction, self._line(line), _number(position, "position"))
 
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""

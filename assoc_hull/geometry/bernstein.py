@@ -103,9 +103,9 @@ def heights(batch: SplineBatch, normal: FloatArray) -> Heights:
 
 def _along(vectors: FloatArray, normal: FloatArray) -> FloatArray:
     """Give the component of vectors along the normal, in one fixed order of operations."""
-    axis = np.flatnonzero(normal)
-    if len(axis) == 1 and normal[axis[0]] == 1.0:
-        return np.ascontiguousarray(vectors[:, axis[0]])
+    parts = normal.tolist()
+    if parts.count(0.0) == 2 and 1.0 in parts:
+        return np.ascontiguousarray(vectors[:, parts.index(1.0)])
     result: FloatArray = vectors[:, 0] * normal[0]
     result += vectors[:, 1] * normal[1]
     result += vectors[:, 2] * normal[2]

@@ -139,8 +139,8 @@ def _find(
 
 
 def _coordinate_axis(normal: FloatArray) -> int | None:
-    places = np.flatnonzero(normal)
-    return int(places[0]) if len(places) == 1 and abs(normal[places[0]]) == 1.0 else None
+    sizes = [abs(part) for part in normal.tolist()]
+    return sizes.index(1.0) if sizes.count(0.0) == 2 and 1.0 in sizes else None
 
 
 def _parameters(batch: SplineBatch, segment: IntArray, fraction: FloatArray) -> FloatArray:

@@ -37,6 +37,9 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 def _plain(array: np.typing.NDArray[Scalar]) -> np.typing.NDArray[Scalar]:
     """Give a contiguous read-only view, so that only one version is ever compiled."""
+    flags = array.flags
+    if flags.c_contiguous and not flags.writeable:
+        return array
     result = np.ascontiguousarray(array).view()
     result.setflags(write=False)
     return result
@@ -115,8 +118,8 @@ def meet(
     >>> meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))[3]
     array([2.5])
     """
-    axes = np.flatnonzero(normal)
-    axis = int(axes[0]) if len(axes) == 1 and normal[axes[0]] == 1.0 else -1
+    parts = normal.tolist()
+    axis = parts.index(1.0) if parts.count(0.0) == 2 and 1.0 in parts else -1
     knot, offsets = _plain(batch.knot), _plain(offsets)
     vectors = _plain(batch.xyz.T), _plain(batch.leave.T), _plain(batch.arrive.T)
     with Workspace() as workspace:

@@ -50,7 +50,8 @@ def unit_normal(normal: FloatArray) -> FloatArray:
     array([0. , 0.6, 0.8])
     """
     vector = np.array(normal, np.float64)
-    if vector.shape != (3,) or not abs(float((vector * vector).sum()) - 1.0) <= 2 * _UNIT_SLACK:
+    square = sum(part * part for part in vector.tolist()) if vector.shape == (3,) else np.nan
+    if not abs(square - 1.0) <= 2 * _UNIT_SLACK:
         raise BadInputError(
             f"normal {vector.tolist()} is not a unit vector of three numbers",
             "in a plane",

@@ -146,7 +146,8 @@ def meet_columns(state: HullState, order: Places) -> dict[str, Column]:
 def point_columns(state: HullState, order: Places) -> dict[str, Column]:
     """Give what defines the points; what is derived at a point is masked with nil."""
     table, rows = state.rows, order.rows
-    riding = (table.anchor.data[rows] >= 0).any(axis=1)
+    anchor = order.row[table.anchor.data[rows]]
+    riding = (anchor >= 0).any(axis=1)
     crossing = table.sort.data[rows] == Sort.CROSSING
     shared = crossing & (table.role.data[rows] == Role.SHARED)
     stored = shared | (~crossing & ~riding) | (table.state.data[rows] != State.CLEAN)
@@ -169,7 +170,7 @@ def point_columns(state: HullState, order: Places) -> dict[str, Column]:
         "watched": watched,
         "limit": np.where(watched, table.limit.data[rows], 0.0),
         "riding": riding,
-        "anchor": order.row[table.anchor.data[rows]],
+        "anchor": anchor,
         "base": np.where(riding[:, None], table.base.data[rows], 0.0),
         "anchor_from": np.where(riding[:, None, None], table.anchor_from.data[rows], 0.0),
         "anchor_weight": np.where(riding, table.anchor_weight.data[rows], 0.0),

@@ -172,6 +172,16 @@ class Maker:
         self.roles(rows, np.array([int(spec.role) for spec in specs]))
         return rows
 
+    def replace(self, row: int, spec: CrossingSpec) -> None:
+        """Give a crossing that is there already a new place, role and kind; its key stays."""
+        table, put = self.state.rows, self.journal.put
+        put(table.xyz, [row], [spec.xyz])
+        put(table.spot, [row], [spec.spots or (spec.xyz, spec.xyz)])
+        put(table.contact, [row], [spec.contact])
+        put(table.kind, [row], [(int(PointKind.SMOOTH), spec.kind_b)])
+        put(table.direction, [row], [((0.0, 0.0, 0.0), spec.direction_b)])
+        self.roles(np.array([row]), np.array([int(spec.role)]))
+
     def _pair(self, spec: CrossingSpec) -> tuple[str, str]:
         keys = self.state.lines.key.data
         return keys[self.state.line_of(spec.a)], keys[self.state.line_of(spec.b)]

@@ -1,5 +1,8 @@
-"""Pictures of hulls and of reports."""
+"""Pictures of hulls and of reports; they need the extra `plot`."""
 
+from assoc_hull.plot.combs import curvature_combs
+from assoc_hull.plot.compare import before_after, snapshot
 from assoc_hull.plot.lines_plan import lines_plan
+from assoc_hull.plot.neighbourhood import neighbourhood
 
-__all__ = ["lines_plan"]
+__all__ = ["before_after", "curvature_combs", "lines_plan", "neighbourhood", "snapshot"]

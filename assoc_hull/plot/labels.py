@@ -31,10 +31,11 @@ _SMALL = 0.8  # size of letters that lie on lines
 
 @attrs.frozen(eq=False)
 class Lettered:
-    """A line that is to be labelled: its label and its polyline, (n, 2), mm."""
+    """A line that is to be labelled: its label, its polyline, (n, 2), mm, and its full name."""
 
     label: str
     points: FloatArray
+    name: str = ""
 
 
 def rail(
@@ -85,11 +86,19 @@ def rail(
         end = (middle, at) if along == 0 else (at, middle)
         sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
     if heading:
-        x = float((place - 0.5 * size).min()) - 1.2 * sheet.paper.factor
-        title = _write(sheet, side, at, False, heading, f"{name}/heading")
+        _head(sheet, _write(sheet, side, at, False, heading, f"{name}/heading"), place, size)
+
+
+def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> None:
+    """Put the heading of a row before it; after it where the space before is taken."""
+    off = 1.2 * sheet.paper.factor
+    ends = float((place - 0.5 * size).min()) - off, float((place + 0.5 * size).max()) + off
+    for x, across in zip(ends, ("right", "left"), strict=True):
         title.set_position((x, title.get_position()[1]))
-        title.set_horizontalalignment("right")
-        sheet.take(title)
+        title.set_horizontalalignment(across)
+        if not overlaps(sheet.box(title), sheet.taken):
+            break
+    sheet.take(title)
 
 
 def _write(sheet: Sheet, side: Side, at: float, upright: bool, words: str, name: str) -> Text:
@@ -164,7 +173,8 @@ def label_above(sheet: Sheet, lines: Sequence[Lettered], wanted: set[str], at: f
     courses, room = _courses(sheet, lines)
     apart = 3.0 * sheet.paper.factor
     anchors: list[FloatArray] = []
-    words = []
+    words: list[str] = []
+    names: list[str] = []
     for line, course, free in zip(lines, courses, room, strict=True):
         if line.label not in wanted or line.label in words:
             continue
@@ -173,10 +183,11 @@ def label_above(sheet: Sheet, lines: Sequence[Lettered], wanted: set[str], at: f
         off = np.abs(np.linspace(-0.25, 0.75, len(course)))  # a quarter of the way, if all is one
         anchors.append(course[int(np.argmax(free - 0.1 * off - 1e3 * near))])
         words.append(line.label)
+        names.append(line.name or line.label)
     if words:
         ends = np.array(anchors)
         sheet.dots(ends, "black", 0.45, "leader/dots")
-        rail(sheet, ends, words, "above", at, upright=True, heading="WL", name=name)
+        rail(sheet, ends, names, "above", at, upright=True, name=name)
 
 
 def resample(points: FloatArray, step: float) -> FloatArray:

@@ -186,6 +186,25 @@ class Sheet:
             )
         )  # fmt: skip
 
+    def arrow(
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        pen: Pen,
+        name: str = "",
+        *,
+        both: bool = False,
+    ) -> None:
+        """Draw an arrow between two places, mm; `both`: with a head at either end."""
+        from matplotlib.patches import FancyArrowPatch
+
+        patch = FancyArrowPatch(
+            start, end, arrowstyle="<|-|>" if both else "-|>", color=pen.colour, shrinkA=0.0, shrinkB=0.0,
+            linewidth=pen.width * self.paper.factor / POINT, mutation_scale=self.paper.letter,
+            zorder=pen.over, gid=name or None,
+        )  # fmt: skip
+        self.axes.add_patch(patch)
+
     def text(
         self,
         place: tuple[float, float],

@@ -105,7 +105,7 @@ class Views:
             label = line.label if line.family == "waterlines" else line.name
             found = self.draw(view, line)
             if not self._along_grid(line):
-                lettered += [Lettered(label, points) for points in found]
+                lettered += [Lettered(label, points, line.name) for points in found]
         self._diagonals(view)
         start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
         wanted = {line.label for line in lettered}

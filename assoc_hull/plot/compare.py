@@ -1,0 +1,183 @@
+"""The body plan before and after an edit, with the lines that moved tinted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assoc_hull.plot.block import caption, frame, title_block
+from assoc_hull.plot.drawing import Drawing, Sketchable, drawing
+from assoc_hull.plot.layout import BLOCK, MARGIN, place_body
+from assoc_hull.plot.movement import LineMovement, movements
+from assoc_hull.plot.pens import BEFORE, TINT
+from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
+from assoc_hull.plot.view import View, scale_of
+from assoc_hull.plot.views import Views, body_halves
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["before_after", "snapshot"]
+
+_SIDE = 38.0  # mm at A3, for the words at the arrow
+_ABOVE, _BELOW = 16.0, 20.0
+_TOLD = 12
+"""At most so many movements are listed."""
+
+_ARROW = Pen(0.2, TINT, over=4.0)
+
+
+def snapshot(hull: Sketchable) -> Drawing:
+    """Keep the lines of a hull as they are now, for `before_after`."""
+    return drawing(hull)
+
+
+def before_after(
+    before: Sketchable,
+    after: Sketchable,
+    path: Path_ | None = None,
+    *,
+    paper: PaperName = "A3",
+    title: str | None = None,
+    half_breadth: bool = False,
+) -> Figure:
+    """Draw the body plan before and after an edit.
+
+    Lines that moved are tinted, and lie over what they were, in grey. The largest movement
+    is named where it is: the distance at right angles to the line, so that a point which
+    slides along its line does not count.
+
+    Parameters
+    ----------
+    before, after : Hull, HullState or Drawing
+        A hull before (see `snapshot`) and after.
+    path : path, optional
+        Where to write it; the ending says whether PDF, SVG or PNG.
+    paper : "A3", "A1" or "A4"
+        Size of the sheet, landscape.
+    title : str, optional
+        Instead of the name of the ship.
+    half_breadth : bool
+        Whether to draw the half-breadth plan below.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The picture.
+
+    Raises
+    ------
+    MissingExtraError
+        Matplotlib is not installed.
+    BadInputError
+        An unknown paper or ending.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.plot import before_after, snapshot
+    >>> hull = wigley()
+    >>> figure = before_after(snapshot(hull), hull)
+    """
+    old, new = drawing(before), drawing(after)
+    moved = movements(old, new)
+    sheet = Sheet(paper)
+    frame(sheet, MARGIN * sheet.paper.factor)
+    _block(sheet, title or new.particulars.name, old, new, moved)
+    low, high = (np.stack([old.bounds, new.bounds])).transpose(1, 0, 2)
+    views = Views(
+        sheet, new, np.minimum(low.min(axis=0), 0.0), high.max(axis=0), {each.line for each in moved}
+    )
+    base = _half(views, old) if half_breadth else MARGIN * sheet.paper.factor
+    _body(views, old, base, moved)
+    if path is not None:
+        save(sheet.figure, path)
+    return sheet.figure
+
+
+def _block(
+    sheet: Sheet, title: str, old: Drawing, new: Drawing, moved: Sequence[LineMovement]
+) -> None:
+    """Write what moved, the farthest first."""
+    factor = sheet.paper.factor
+    corner = (sheet.paper.width - MARGIN * factor, sheet.paper.height - MARGIN * factor)
+    rows = [(each.line, _amount(each)) for each in moved[:_TOLD]]
+    if len(moved) > _TOLD:
+        rows.append((f"and {len(moved) - _TOLD} more", ""))
+    gone = sorted({line.name for line in old.lines} - {line.name for line in new.lines})
+    notes = [f"{len(moved)} of {len(new.lines)} lines moved. Grey: before. Red: after."]
+    notes += [f"Removed: {', '.join(gone[:4])}{' ...' if len(gone) > 4 else ''}"] if gone else []
+    title_block(sheet, corner, BLOCK * factor, title, rows, notes)
+
+
+def _amount(moved: LineMovement) -> str:
+    return "new" if np.isnan(moved.distance) else f"{1e3 * moved.distance:.1f} mm"
+
+
+def _half(views: Views, old: Drawing) -> float:
+    """Draw the half-breadth plan at the foot of the sheet; give the height it ends at, mm."""
+    paper, (low, high) = views.sheet.paper, (views.low, views.high)
+    factor = paper.factor
+    length = float(high[0] - low[0])
+    scale = scale_of(length, paper.width - 2.0 * (MARGIN + 17.0) * factor)
+    x = 0.5 * (paper.width - 1e3 / scale * length) - 1e3 / scale * float(low[0])
+    view = View("half-breadth", (0, 1), scale, (x, (MARGIN + 20.0) * factor))
+    for line in old.of("waterlines"):
+        _ghost(views, view, old, line.name)
+    views.half_breadth(view)
+    words = f"HALF-BREADTH PLAN  1:{scale:g}"
+    caption(views.sheet, (view.across(views.middle), view.up(0.0) - 11.0 * factor), words)
+    return view.up(float(high[1])) + 12.0 * factor
+
+
+def _ghost(views: Views, view: View, old: Drawing, name: str) -> None:
+    """Draw a line as it was, if it moved or went."""
+    known = {line.name for line in views.drawing.lines}
+    if name in views.tinted or name not in known:
+        for points in old.line(name).polylines:
+            views.sheet.line(view.on_paper(points), BEFORE, f"{view.name}/before/{name}")
+
+
+def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]) -> None:
+    paper, (low, high) = views.sheet.paper, (views.low, views.high)
+    factor = paper.factor
+    width = paper.width - (2.0 * MARGIN + BLOCK + 2.0 * _SIDE) * factor
+    room = paper.height - MARGIN * factor - base - (_ABOVE + _BELOW) * factor
+    height = float(high[2] - low[2])
+    scale = place_body(float(high[1]), height, (width, room))
+    spare = room - height * 1e3 / scale
+    up = base + _BELOW * factor + 0.5 * spare - float(low[2]) * 1e3 / scale
+    view = View("body", (1, 2), scale, (0.5 * (paper.width - BLOCK * factor), up))
+    sections = Views(views.sheet, old, low, high).sections
+    for half, lines in zip(
+        (view.mirrored(), view), body_halves(sections, views.middle), strict=True
+    ):
+        for line in lines:
+            _ghost(views, half, old, line.name)
+    views.body(view)
+    foot = view.up(float(low[2])) - 9.0 * factor
+    caption(views.sheet, (view.across(0.0), foot), f"BODY PLAN  1:{scale:g}")
+    largest = next((each for each in moved if not np.isnan(each.distance)), None)
+    if largest is not None:
+        _arrow(views, view, largest)
+
+
+def _arrow(views: Views, view: View, largest: LineMovement) -> None:
+    """Name the largest movement beside the body plan, with an arrow to its place."""
+    sheet, factor = views.sheet, views.sheet.paper.factor
+    aft = largest.place[0] < views.middle
+    half = view.mirrored() if aft else view
+    tip = half.on_paper(np.array([largest.place]))[0]
+    edge = half.across(float(views.high[1])) + half.sign * 19.0 * factor
+    x, y, z = largest.place
+    words = f"{1e3 * largest.distance:.1f} mm\nat ({x:.3f}, {y:.3f}, {z:.3f}) m\n{largest.line}"
+    middle = 0.5 * float(views.low[2] + views.high[2])
+    level = float(tip[1]) + (7.0 if z < middle else -7.0) * factor
+    text = sheet.text(
+        (edge, level), words, across="right" if aft else "left", colour=TINT, name="label/largest"
+    )
+    sheet.take(text)
+    start = (edge - half.sign * 1.0 * factor, level)
+    sheet.arrow(start, (float(tip[0]), float(tip[1])), _ARROW, "arrow/largest")

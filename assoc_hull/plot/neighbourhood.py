@@ -1,0 +1,218 @@
+"""Who drives whom around one curve, as a graph: families in columns, drivers to driven."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.hull import Hull
+from assoc_hull.model.family import FAMILIES
+from assoc_hull.model.state import HullState
+from assoc_hull.plot.drawing import Link, Node, links
+from assoc_hull.plot.pens import FAMILY_COLOURS
+from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["neighbourhood"]
+
+_MARGIN, _HEAD, _ROW = 10.0, 18.0, 4.0  # mm at A3
+_WIDE, _TALL = 30.0, 3.0  # of a node, mm at A3
+
+
+@attrs.frozen
+class _Edge:
+    """One pair of curves: crossings at which the tail drives the head, or that both share."""
+
+    tail: Node
+    head: Node
+    count: int
+    both: bool
+
+
+def neighbourhood(
+    hull: Hull | HullState,
+    name: str,
+    path: Path_ | None = None,
+    *,
+    hops: int = 1,
+    paper: PaperName = "A3",
+) -> Figure:
+    """Draw what a curve is made from and what is made from it.
+
+    Parameters
+    ----------
+    hull : Hull or HullState
+        The hull.
+    name : str
+        Name of the curve; of a line, its first curve.
+    path : path, optional
+        Where to write it; the ending says whether PDF, SVG or PNG.
+    hops : int
+        How many links to follow, whichever way they run.
+    paper : "A3", "A1" or "A4"
+        Size of the sheet, landscape.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Families stand in columns by rank. An arrow runs from what drives to what is made
+        from it, with the number of crossings; where crossings are shared it has two heads.
+
+    Raises
+    ------
+    UnknownNameError
+        No curve has this name.
+    BadInputError
+        Fewer than one hop.
+    MissingExtraError
+        Matplotlib is not installed.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.plot import neighbourhood
+    >>> figure = neighbourhood(wigley(), "WL 2.5")
+    """
+    if hops < 1:
+        raise BadInputError(f"{hops} hops were asked", "in neighbourhood", "ask for 1 or more")
+    every = links(hull)
+    centre = _centre(every, name)
+    edges = _near(_pairs(every), centre, hops)
+    nodes = {centre} | {node for edge in edges for node in (edge.tail, edge.head)}
+    sheet = Sheet(paper)
+    place = _places(sheet, nodes)
+    for edge in edges:
+        _draw_edge(sheet, edge, centre, place)
+    for node in sorted(nodes, key=lambda each: each.name):
+        _draw_node(sheet, node, place[node], node == centre)
+    _legend(sheet, centre, nodes, edges, place)
+    if path is not None:
+        save(sheet.figure, path)
+    return sheet.figure
+
+
+def _centre(every: Sequence[Link], name: str) -> Node:
+    known = {node.name: node for link in every for node in (link.tail, link.head)}
+    found = known.get(name) or known.get(f"{name} [1]")
+    if found is None:
+        raise UnknownNameError("curve", name, tuple(known))
+    return found
+
+
+def _pairs(every: Sequence[Link]) -> list[_Edge]:
+    """Make one edge of each pair: two-headed where anything runs both ways."""
+    by_pair = {(link.tail, link.head): link for link in every}
+    found = []
+    for (tail, head), link in by_pair.items():
+        back = by_pair.get((head, tail))
+        if back is None:
+            found.append(_Edge(tail, head, link.driven + link.shared, False))
+        elif (tail.family, tail.name) < (head.family, head.name):
+            found.append(_Edge(tail, head, link.driven + link.shared + back.driven, True))
+    return found
+
+
+def _near(edges: Iterable[_Edge], centre: Node, hops: int) -> list[_Edge]:
+    """Keep the edges on ways of at most so many hops from the centre."""
+    left, reached, found = list(edges), {centre}, []
+    for _ in range(hops):
+        touching = [edge for edge in left if edge.tail in reached or edge.head in reached]
+        left = [edge for edge in left if edge.tail not in reached and edge.head not in reached]
+        reached |= {node for edge in touching for node in (edge.tail, edge.head)}
+        found += touching
+    return found
+
+
+def _places(sheet: Sheet, nodes: Iterable[Node]) -> dict[Node, FloatArray]:
+    """Stand families side by side by rank, each in as many columns as it needs."""
+    factor = sheet.paper.factor
+    tall = sheet.paper.height - (2.0 * _MARGIN + _HEAD) * factor
+    most = max(1, int(tall / (_ROW * factor)))
+    columns: list[list[Node]] = []
+    for family in sorted({node.family for node in nodes}, key=lambda name: FAMILIES[name].rank):
+        mine = sorted(
+            (node for node in nodes if node.family == family),
+            key=lambda node: (np.nan_to_num(node.offset), node.name),
+        )
+        count = -(-len(mine) // most)
+        size = -(-len(mine) // count)
+        columns += [mine[i : i + size] for i in range(0, len(mine), size)]
+    width = (sheet.paper.width - (2.0 * _MARGIN + _WIDE) * factor) / max(len(columns) - 1, 1)
+    found = {}
+    for i, column in enumerate(columns):
+        step = min(tall / max(len(column), 1), 9.0 * factor)
+        middle = _MARGIN * factor + 0.5 * tall
+        x = (_MARGIN + 0.5 * _WIDE) * factor + i * width if len(columns) > 1 else 0.5 * sheet.paper.width
+        for k, node in enumerate(column):
+            found[node] = np.array([x, middle + (k - 0.5 * (len(column) - 1)) * step])
+    return found
+
+
+def _draw_node(sheet: Sheet, node: Node, place: FloatArray, centre: bool) -> None:
+    half = 0.5 * np.array([_WIDE, _TALL]) * sheet.paper.factor
+    corners = place + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
+    colour = FAMILY_COLOURS[node.family]
+    fill = colour if centre else "white"
+    sheet.axes.fill(corners[:, 0], corners[:, 1], color=fill, linewidth=0.0, zorder=3.0)
+    sheet.line(corners, Pen(0.25, colour, over=3.5), f"node/{node.name}")
+    text = sheet.text(
+        (float(place[0]), float(place[1])), node.name, up="center",
+        colour="white" if centre else "black", bold=centre, name=f"label/node/{node.name}",
+    )  # fmt: skip
+    sheet.take(text)
+
+
+def _draw_edge(sheet: Sheet, edge: _Edge, centre: Node, place: dict[Node, FloatArray]) -> None:
+    """Draw an arrow between the sides of two nodes, with the number of crossings at its far end."""
+    start, end = _ports(place[edge.tail], place[edge.head], sheet.paper.factor)
+    colour = FAMILY_COLOURS[edge.tail.family]
+    pen = Pen(0.12, colour, over=2.0)
+    name = f"edge/{edge.tail.name} - {edge.head.name}"
+    sheet.arrow((start[0], start[1]), (end[0], end[1]), pen, name, both=edge.both)
+    if edge.head == centre:
+        start, end = end, start
+    near = end + (start - end) * 0.14
+    sheet.text(
+        (float(near[0]), float(near[1])), str(edge.count), size=0.9, halo=True, colour=colour,
+        name=f"count/{edge.tail.name} - {edge.head.name}",
+    )  # fmt: skip
+
+
+def _ports(tail: FloatArray, head: FloatArray, factor: float) -> tuple[FloatArray, FloatArray]:
+    """Give where an arrow leaves one node and meets the other: at their facing sides."""
+    half = np.array([0.5 * _WIDE * factor, 0.0])
+    side = np.sign(head[0] - tail[0])
+    if side == 0.0:
+        return tail + half, head + half
+    return tail + side * half, head - side * half
+
+
+def _legend(
+    sheet: Sheet, centre: Node, nodes: Iterable[Node], edges: Sequence[_Edge], place: dict[Node, FloatArray]
+) -> None:
+    factor = sheet.paper.factor
+    top, left = sheet.paper.height - _MARGIN * factor, _MARGIN * factor
+    shared = sum(edge.both for edge in edges)
+    into = sum(edge.head == centre and not edge.both for edge in edges)
+    out = sum(edge.tail == centre and not edge.both for edge in edges)
+    sheet.text(
+        (left, top), f"Around {centre.name}", size=2.0, bold=True, across="left", up="top", name="label/title"
+    )
+    words = (
+        f"{into} drive it, {out} are driven by it, {shared} links run both ways; "
+        "arrows run from driver to driven, the number is that of crossings"
+    )
+    sheet.text((left, top - 6.0 * factor), words, size=1.1, across="left", up="top", name="label/legend")
+    for family in {node.family for node in nodes}:
+        x = np.mean([place[node][0] for node in place if node.family == family])
+        sheet.text(
+            (float(x), top - 12.5 * factor), family, size=1.3, bold=True, up="top",
+            colour=FAMILY_COLOURS[family], name=f"label/family/{family}",
+        )  # fmt: skip

@@ -1,0 +1,291 @@
+"""Small nets kept ready, and random edits of every kind, for the properties of the update.
+
+A net takes half a second to adopt and milliseconds to read, so each is adopted once per
+process and read anew for every example.
+"""
+
+from __future__ import annotations
+
+import random
+from functools import lru_cache
+from typing import TypeVar
+
+import attrs
+import numpy as np
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+import assoc_hull as ah
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.script import GapsName, PolicyName
+from assoc_hull.edit.session import Edit
+from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
+from assoc_hull.model.family import BoundaryKind
+from assoc_hull.model.handles import Curve, Line, Point
+from assoc_hull.model.source import LineSource
+from assoc_hull.model.state import Association
+from tests.strategies import Form, Net, net_of, wigley_sources
+
+__all__ = [
+    "POOL",
+    "SHAPES",
+    "STRUCTURE",
+    "Act",
+    "Task",
+    "carry_out",
+    "fresh",
+    "hulls",
+    "knuckled",
+    "live_points",
+    "perform",
+    "tasks",
+]
+
+POOL = 14
+"""Number of nets kept ready."""
+
+SHAPES = ("move", "move", "move", "pull", "reshape", "insert", "delete", "set_end", "set_kind")
+STRUCTURE = ("add_line", "remove_line", "set_role", "set_role", "pin", "unpin")
+Item = TypeVar("Item")
+_ROLES = ("shared", "drives a", "drives b", "watched")
+
+
+@attrs.frozen
+class Act:
+    """One modification: what kind, of which object (modulo their number), and how much."""
+
+    op: str
+    which: int
+    other: int
+    amount: float
+
+
+@attrs.frozen
+class Task:
+    """One edit of one to three modifications."""
+
+    acts: tuple[Act, ...]
+    gaps: GapsName = "refuse"
+    policy: PolicyName = "all_or_nothing"
+
+
+def tasks(
+    operations: tuple[str, ...] = SHAPES, largest: float = 0.02, most: int = 4, acts: int = 3
+) -> SearchStrategy[list[Task]]:
+    """Give sequences of edits of at most `largest` metres each."""
+    number = st.integers(0, 2**16)
+    act = st.builds(
+        Act, st.sampled_from(operations), number, number, st.floats(-largest, largest)
+    )
+    each = st.lists(act, min_size=1, max_size=acts).map(tuple)
+    gaps: SearchStrategy[GapsName] = st.sampled_from(("refuse", "report"))
+    return st.lists(st.builds(Task, each, gaps), min_size=1, max_size=most)
+
+
+def knuckled(stations: int, waterlines: int) -> Net:
+    """Give a net whose sections turn at a knuckle line, a boundary curve in space."""
+    net = net_of(Form(breadth=16.0, up=2.5, twist=0.2), stations, waterlines)
+    form = Form(breadth=16.0, up=2.5, twist=0.2)
+    along = np.linspace(0.0, form.length, stations + 2)
+    height = 0.62 * form.draught + 0.004 * along
+    chine = np.column_stack([along, 1.06 * form.half_breadth(along, height), height])
+    chine[[0, -1], 1] = 0.0
+    sources = [_with_knuckle(source, chine) for source in net.sources]
+    line = LineSource.make("boundary", "chine", chine, boundary=BoundaryKind.KNUCKLE)
+    return attrs.evolve(net, sources=(*sources, line))
+
+
+def _with_knuckle(source: LineSource, chine: FloatArray) -> LineSource:
+    """Let a section pass the knuckle line in a knuckle."""
+    if source.group != "sections":
+        return source
+    at = chine[np.isclose(chine[:, 0], source.offset)][0]
+    index = int(np.searchsorted(source.points[:, 2], at[2]))
+    points = np.insert(source.points, index, at, axis=0)
+    kind = np.zeros(len(points), np.int64)
+    kind[index] = PointKind.KNUCKLE
+    return LineSource.make("sections", source.name, points, kind=kind.tolist())
+
+
+def _net(number: int) -> Net:
+    """Give the net of a number: the first few plain, the others seeded."""
+    if number == 0:
+        return wigley_sources(5, 3, 2)
+    if number == 1:
+        return knuckled(5, 4)
+    rng = random.Random(number)
+    form = Form(
+        rng.uniform(60.0, 200.0), rng.uniform(8.0, 30.0), rng.uniform(4.0, 15.0),
+        rng.uniform(2.0, 3.5), rng.uniform(1.6, 2.8), rng.uniform(-0.3, 0.3),
+        rng.uniform(-0.08, 0.08),
+    )  # fmt: skip
+    points = None if rng.random() < 0.5 else (rng.randint(7, 13), rng.randint(9, 17))
+    two_way = (number % 4 != 3, rng.random() < 0.7, rng.random() < 0.7)
+    buttocks = rng.randint(2, 3) if number % 3 else 0
+    return net_of(form, rng.randint(5, 7), rng.randint(3, 5), buttocks, points, two_way)
+
+
+@lru_cache
+def _text(number: int) -> str:
+    return dumps_hull_json(_net(number).adopt())
+
+
+def fresh(number: int) -> ah.Hull:
+    """Give a hull of its own with the net of a number."""
+    return ah.Hull(read_hull_json(_text(number)))
+
+
+def hulls() -> SearchStrategy[ah.Hull]:
+    """Give small hulls: two or three families, one-way and two-way, with boundary curves."""
+    return st.integers(0, POOL - 1).map(fresh)
+
+
+def carry_out(hull: ah.Hull, task: Task) -> EditReport | None:
+    """Carry an edit out; None if it was refused or made no sense: then nothing has changed."""
+    before, done = hull.fingerprint, len(hull.history)
+    try:
+        with hull.edit("task", task.policy, task.gaps) as edit:
+            for act in task.acts:
+                perform(hull, edit, act)
+    except AssocHullError:
+        assert hull.fingerprint == before
+        assert len(hull.history) == done
+        return None
+    return edit.report
+
+
+def perform(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    """Ask an edit for one modification."""
+    _OPERATIONS[act.op](hull, edit, act)
+
+
+def live_points(hull: ah.Hull, *sorts: str) -> list[Point]:
+    """Give the points of some sorts by key; of crossings those on the line of higher rank."""
+    rows = hull.state.rows
+    order = sorted(hull.state.live("rows").tolist(), key=rows.key.data.__getitem__)
+    points = [Point(hull.state, row, rows.key.data[row], int(rows.curve.data[row, 1] >= 0)) for row in order]
+    return [point for point in points if point.sort in sorts]
+
+
+def _curves(hull: ah.Hull, boundaries: bool = False) -> list[Curve]:
+    state = hull.state
+    curves = [Curve.of(state, curve) for curve in state.live("curves").tolist()]
+    plain = [each for each in curves if each.line.family != "boundary" or boundaries]
+    return sorted(plain, key=lambda each: each.id)
+
+
+def _lines(hull: ah.Hull) -> list[Line]:
+    lines = [Line.of(hull.state, line) for line in hull.state.live("lines").tolist()]
+    return sorted((line for line in lines if line.family != "boundary"), key=lambda each: each.id)
+
+
+def _pick(items: list[Item], which: int) -> Item | None:
+    return items[which % len(items)] if items else None
+
+
+def _move(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    points = live_points(hull, "crossing", "placed", "adopted")
+    point = _pick([each for each in points if each.free and each.driver is None], act.which)
+    if point is not None:
+        shift = {axis: float(getattr(point, axis)) + act.amount for axis in point.free}
+        edit.move(point, **shift)
+
+
+def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "crossing"), act.which)
+    assert point is not None
+    size = hull.particulars
+    edit.pull(point, act.amount, (0.2 * size.length, 0.4 * size.breadth))
+
+
+def _free_way(curve: Curve) -> FloatArray:
+    """Give the direction of the plane of a curve in which it may bulge."""
+    return np.eye(3)[2 if curve.line.family == "buttocks" else 1]
+
+
+def _reshape(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    curve = _pick(_curves(hull), act.which)
+    assert curve is not None
+    place = curve.at((0.3 + 0.4 * (act.other % 100) / 100.0) * curve.span)
+    axis = 2 if curve.line.family == "sections" else 0
+    reach = 0.3 * abs(float(curve.ends[1, axis] - curve.ends[0, axis]))
+    span = (float(place[axis]) - reach, float(place[axis]) + reach)
+    edit.reshape(curve, [place + act.amount * _free_way(curve)], span=span)
+
+
+def _insert(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    curve = _pick(_curves(hull), act.which)
+    assert curve is not None
+    place = curve.at((0.1 + 0.8 * (act.other % 100) / 100.0) * curve.span)
+    edit.insert(curve, place + act.amount * _free_way(curve))
+
+
+def _delete(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "placed", "adopted"), act.which)
+    if point is not None:
+        edit.delete(point)
+
+
+def _set_end(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    curve = _pick(_curves(hull), act.which)
+    assert curve is not None
+    at = 0.0 if act.other % 2 else curve.span
+    tilt = curve.tangent(at) + 2.0 * act.amount * _free_way(curve)
+    edit.set_end(curve, "start" if act.other % 2 else "finish", tangent=tilt if act.other % 3 else None)
+
+
+def _set_kind(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    points = live_points(hull, "crossing", "placed", "adopted")
+    point = _pick([each for each in points if each.role == "defining"], act.which)
+    if point is not None:
+        edit.set_kind(point, ("smooth", "tangent", "knuckle")[act.other % 3])
+
+
+def _add_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    names = [name for name in hull.groups if name != "boundary"]
+    group, size = names[act.which % len(names)], hull.particulars
+    part = 0.05 + 0.9 * (act.other % 997) / 997.0
+    reach = {"sections": size.length, "waterlines": size.draught, "buttocks": 0.5 * size.breadth}
+    edit.add_line(group, part * reach[group])
+
+
+def _remove_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    line = _pick(_lines(hull), act.which)
+    if line is not None:
+        edit.remove_line(line)
+
+
+def _set_role(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "crossing"), act.which)
+    assert point is not None
+    edit.set_role(point, (*_ROLES, None)[act.other % 5])
+
+
+def _pin(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "adopted"), act.which)
+    if point is not None:
+        edit.pin(point)
+
+
+def _unpin(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    point = _pick(live_points(hull, "placed"), act.which)
+    if point is not None:
+        edit.unpin(point)
+
+
+_OPERATIONS = {
+    "move": _move,
+    "pull": _pull,
+    "reshape": _reshape,
+    "insert": _insert,
+    "delete": _delete,
+    "set_end": _set_end,
+    "set_kind": _set_kind,
+    "add_line": _add_line,
+    "remove_line": _remove_line,
+    "set_role": _set_role,
+    "pin": _pin,
+    "unpin": _unpin,
+}
