@@ -23,6 +23,7 @@ from assoc_hull.edit.adopt import AdoptionReport, adopt
 from assoc_hull.edit.check_hull import Finding, check
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain import Thing, Why, node_of, why
+from assoc_hull.edit.preview import Preview, preview
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
@@ -137,22 +138,24 @@ class Hull:
 
     def preview(
         self, edits: Changes, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
-    ) -> EditReport:
-        """Run edits, publish nothing, and give the report they would have.
+    ) -> Preview:
+        """Run edits, publish nothing, and tell what they would do.
 
-        `edits` is called with the edit; or it is a list of ``{"op": "move", "point": ...,
-        "y": ...}`` and so on, see `assoc_hull.edit.script`.
+        Parameters
+        ----------
+        edits : callable, or sequence of mappings
+            Called with the edit; or ``{"op": "move", "point": ..., "y": ...}`` and so on.
+        policy, gaps
+            As for `edit`.
 
-        Raises
-        ------
-        RefusedEditError
-            With all reasons, if the edit would be refused.
+        Returns
+        -------
+        Preview
+            The report, or why it would be refused; the change of volume and LCB.
         """
-        trial = Edit(self.document, "preview", settings_of(policy, gaps), publish=False)
-        with trial:
-            carry_out(trial, edits)
-        assert trial.report is not None, "an edit without an error has a report"
-        return trial.report
+        return preview(
+            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
+        )
 
     def apply(self, name: str, edits: Changes) -> EditReport | None:
         """Carry out edits given as for `preview`; None if they joined one that is still open."""

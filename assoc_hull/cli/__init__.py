@@ -47,7 +47,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         _give_up_output()
         return _NO_READER
     except KeyboardInterrupt:
-        return _fail("stopped by the keyboard; files are whole, run the command again", _STOPPED)
+        return _fail(
+            "stopped by the keyboard; hull files are whole, run the command again", _STOPPED
+        )
     except Exception as error:  # a traceback is of no use to a designer
         return _fail(explain(error), _BAD)
     return code

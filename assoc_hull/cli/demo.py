@@ -6,8 +6,9 @@ import argparse
 import contextlib
 import time
 from collections.abc import Callable, Iterator
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import Commands, add_command, add_json
 from assoc_hull.cli.demo_edits import EDITS, Outcome, carry_out
@@ -16,6 +17,9 @@ from assoc_hull.cli.words import adoption_words, edit_words, hull_words, largest
 from assoc_hull.edit.explain import Why
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.hull import Hull, examples
+
+if TYPE_CHECKING:
+    from assoc_hull.plot.drawing import Drawing
 
 __all__ = ["Demo", "add"]
 
@@ -42,8 +46,7 @@ def _demo(arguments: argparse.Namespace) -> int:
         raise BadInputError("this is a file", f"at {folder}", "give the name of a folder")
     folder.mkdir(parents=True, exist_ok=True)
     demo = Demo(folder, print if not arguments.json else lambda _: None)
-    with progress("Series 60"):
-        sound = demo.run()
+    sound = demo.run()
     if arguments.json:
         emit(arguments, demo.facts, "")
     return 0 if sound else 1
@@ -60,11 +63,14 @@ class Demo:
         Takes what is told.
     facts : dict
         What was found; lengths in m, times in s.
+    pictures : bool
+        Whether there is a library to draw with.
     """
 
     def __init__(self, folder: Path, say: Callable[[str], object]) -> None:
         self.folder, self.say = folder, say
         self.facts: dict[str, Any] = {"seconds": {}, "files": []}
+        self.pictures = find_spec("matplotlib") is not None
 
     def run(self) -> bool:
         """Run all phases; tells whether the hull was sound and came back as it was."""
@@ -98,9 +104,10 @@ class Demo:
         from assoc_hull.examples.series60 import series60_adopted
         from assoc_hull.examples.series60_table import todd_table
 
-        hull = examples.series60(_CB)
-        adoption = hull.adoption or series60_adopted(_CB)[1]
-        table, offsets = todd_table(_CB)
+        with progress("adopting the offsets, cutting further lines"):
+            hull = examples.series60(_CB)
+            adoption = hull.adoption or series60_adopted(_CB)[1]
+            table, offsets = todd_table(_CB)
         self.say("1. The table of offsets, adopted as a net")
         self.say(adoption_words(table, offsets, adoption))
         self.say("further lines cut from the net:\n" + hull_words(hull))
@@ -139,29 +146,27 @@ class Demo:
             self.say(f"    {each}")
         return not findings and not differences
 
-    def _lines_plan(self, hull: Hull, name: str) -> Any:
-        """Draw the lines plan as PNG and PDF, and keep the lines for the comparison."""
-        try:
-            from assoc_hull.plot import lines_plan
-            from assoc_hull.plot.drawing import drawing
-            from assoc_hull.plot.sheet import save
+    def _lines_plan(self, hull: Hull, name: str) -> Drawing | None:
+        """Draw the lines plan as PNG and PDF; give the lines as drawn, None without pictures."""
+        if not self.pictures:
+            return None
+        from assoc_hull.plot import lines_plan, snapshot
+        from assoc_hull.plot.sheet import save
 
-            lines = drawing(hull)
+        lines = snapshot(hull)
+        with progress(f"drawing the lines {name}"):
             figure = lines_plan(lines)
             for ending in ("png", "pdf"):
                 save(figure, self._file(f"lines-{name}.{ending}"))
-        except MissingExtraError as error:
-            self.facts["files"].clear()
-            self.say(f"no pictures: {error}") if name == "before" else None
-            return None
         return lines
 
-    def _compare(self, before: Any, after: Any) -> None:
-        if before is None:
+    def _compare(self, before: Drawing | None, after: Drawing | None) -> None:
+        if before is None or after is None:
             return
-        from assoc_hull.plot.compare import before_after
+        from assoc_hull.plot import before_after
 
-        before_after(before, after, self._file("body-plan-before-after.png"))
+        with progress("drawing the body plan"):
+            before_after(before, after, self._file("body-plan-before-after.png"))
 
     def _save(self, hull: Hull) -> None:
         hull.save(self._file("after.hull.json"))
@@ -184,6 +189,8 @@ class Demo:
         return back == first
 
     def _times(self) -> None:
+        if not self.pictures:
+            self.say(f"\nno pictures: {MissingExtraError('matplotlib', 'plot')}")
         self.say("\nwritten: " + ", ".join(str(path) for path in self.facts["files"]))
         times = (f"{name} {value:.2f} s" for name, value in self.facts["seconds"].items())
         self.say("time: " + ", ".join(times))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -73,9 +74,10 @@ def _edit(arguments: argparse.Namespace) -> int:
 
 
 def _carry_out(hull: Hull, name: str, changes: Changes, file: Path) -> EditReport:
-    with hull.edit(name) as edit:
+    with _values_of(str(file)), hull.edit(name) as edit:
         for number, change in enumerate(changes, start=1):
-            _modify(edit, change, f"{file}, modification {number}")
+            with _values_of(f"{file}, modification {number}"):
+                _modify(edit, change, f"{file}, modification {number}")
     assert edit.report is not None, "an edit without an error has a report"
     return edit.report
 
@@ -86,8 +88,17 @@ def _modify(edit: Edit, change: Mapping[str, Any], place: str) -> None:
         carry_out(edit, [change])
     except AssocHullError as error:
         raise InFileError(error, place) from error
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        what = f"{change.get('op')} cannot use these values ({error})"
+
+
+@contextlib.contextmanager
+def _values_of(place: str) -> Iterator[None]:
+    """Name the place of values that no check foresaw."""
+    try:
+        yield
+    except AssocHullError:
+        raise
+    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+        what = f"these values cannot be used ({type(error).__name__}: {error})"
         raise BadInputError(what, f"in {place}", "mend them") from error
 
 

@@ -76,16 +76,30 @@ def why_document(cause: Why, told: set[str] | None = None) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def progress(what: str) -> Iterator[None]:
-    """Say on standard error what is being done, if it takes longer than a person waits."""
+    """Say on standard error what is being done, if it takes longer than a person waits.
+
+    Nothing may be printed meanwhile.
+    """
     with contextlib.ExitStack() as shown:
         lock, done = threading.Lock(), threading.Event()
 
         def show() -> None:
             from rich.console import Console
+            from rich.live import Live
+            from rich.spinner import Spinner
 
+            spinner, console = Spinner("dots", f"{what} ..."), Console(stderr=True)
             with lock:
                 if not done.is_set():
-                    shown.enter_context(Console(stderr=True).status(f"{what} ..."))
+                    shown.enter_context(
+                        Live(
+                            spinner,
+                            console=console,
+                            transient=True,
+                            redirect_stdout=False,
+                            redirect_stderr=False,
+                        )
+                    )
 
         timer = threading.Timer(_PATIENCE, show)
         timer.daemon = True

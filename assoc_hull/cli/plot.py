@@ -37,9 +37,9 @@ def _plot(arguments: argparse.Namespace) -> int:
     hull = open_hull(arguments.hull)
     with progress(f"drawing {arguments.out}"):
         if arguments.combs:
-            from assoc_hull.plot import combs
+            from assoc_hull.plot import curvature_combs
 
-            combs(hull, arguments.combs, arguments.out)
+            curvature_combs(hull, arguments.combs, arguments.out, paper=arguments.paper)
         else:
             lines_plan(hull, arguments.out, paper=arguments.paper)
     return 0

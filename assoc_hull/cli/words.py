@@ -13,6 +13,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.io.offset_report import OffsetReport
 from assoc_hull.io.offset_table import OffsetTable
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import Sort
 from assoc_hull.model.handles import Curve
 
 __all__ = [
@@ -50,11 +51,17 @@ def hull_facts(hull: Hull) -> dict[str, Any]:
         "particulars": hull.particulars,
         "groups": groups,
         "associations": hull.state.associations,
-        "points": dict(Counter(each.sort for each in hull.points.values())),
+        "points": _sorts(hull),
         "crossings": dict(Counter(each.role for each in hull.crossings.values())),
         "largest_gap": largest_gap(hull),
         "fingerprint": hull.fingerprint,
     }
+
+
+def _sorts(hull: Hull) -> dict[str, int]:
+    """Count the points by sort; from the tables, because handles on all would take long."""
+    table = hull.state.rows.sort.data[hull.state.live("rows")]
+    return dict(Counter(Sort(number).name.lower() for number in table.tolist()))
 
 
 def hull_words(hull: Hull, *, names: bool = False) -> str:

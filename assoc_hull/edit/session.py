@@ -6,6 +6,7 @@ Every method checks its arguments, names what is wrong, and changes nothing unti
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import TracebackType
 from typing import Literal, Self
 
@@ -47,14 +48,18 @@ class Edit:
         Name of the edit.
     settings : Settings
         Policy and treatment of gaps.
-    publish : bool
-        False for a preview.
+    look : callable or None
+        For a preview: called when the update has run, before everything is taken back.
     """
 
     def __init__(
-        self, document: Document, name: str, settings: Settings | None = None, publish: bool = True
+        self,
+        document: Document,
+        name: str,
+        settings: Settings | None = None,
+        look: Callable[[], None] | None = None,
     ) -> None:
-        self._transaction = Transaction(document, name, settings, publish)
+        self._transaction = Transaction(document, name, settings, look)
 
     def __enter__(self) -> Self:
         self._transaction.__enter__()

@@ -67,7 +67,8 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
     if new is old:
         return
     if old is Role.WATCHED:
-        edit.journal.put(state.rows.xyz, [row], state.rows.spot.data[row, :1])
+        side = int(new is Role.DRIVES_A)
+        edit.journal.put(state.rows.xyz, [row], state.rows.spot.data[row, side][None])
     edit.maker.roles(np.array([row]), np.array([int(new)]))
     reader = state.rows.reader.data[row]
     for side, curve in enumerate(state.rows.curve.data[row].tolist()):
@@ -80,6 +81,8 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
             _leave_stand_in(edit, curve, row)
         ride_links(state, np.array([curve]), edit.journal)
         edit.pending.curves.add(curve)
+    if new in (Role.DRIVES_A, Role.DRIVES_B):
+        edit.pending.computed.add(row)
     if new is Role.WATCHED:
         limit = 2.0 * state.tolerances.adoption
         edit.journal.put(state.rows.limit, [row], [limit])

@@ -6,6 +6,7 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
@@ -34,17 +35,21 @@ class Transaction:
         Name of the edit, for the history.
     settings : Settings
         Policy and treatment of gaps.
-    publish : bool
-        False for a preview: everything runs, and is taken back.
+    look : callable or None
+        For a preview: called when the update has run; then everything is taken back.
     """
 
     def __init__(
-        self, document: Document, name: str, settings: Settings | None = None, publish: bool = True
+        self,
+        document: Document,
+        name: str,
+        settings: Settings | None = None,
+        look: Callable[[], None] | None = None,
     ) -> None:
         self.document = document
         self.name = name
         self.settings = settings or Settings()
-        self.publish = publish
+        self.look = look
         self.journal = Journal()
         self.pending = Pending()
         self.report: EditReport | None = None
@@ -112,9 +117,12 @@ class Transaction:
             self._restore()
             raise
         self.report = step.report
-        if self.publish:
+        if self.look is None:
             self.document.commit(step)
-        else:
+            return
+        try:
+            self.look()
+        finally:
             self._restore()
 
     def _restore(self) -> None:

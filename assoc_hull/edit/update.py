@@ -62,6 +62,8 @@ class Pending:
         New places of points.
     curves : set of int
         Curves whose recipe changed.
+    computed : set of int
+        Crossings that have come to be computed from another curve than before, or from one.
     held : set of int
         Adopted points that a field moves: they do not ride in this update.
     structural : bool
@@ -78,6 +80,7 @@ class Pending:
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
     curves: set[int] = attrs.field(factory=set)
+    computed: set[int] = attrs.field(factory=set)
     held: set[int] = attrs.field(factory=set)
     structural: bool = False
     moved_curves: set[int] = attrs.field(factory=set)
@@ -126,7 +129,7 @@ class _Work:
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run(
             self.network, row_node(rows), self.journal, self.settings.policy,
-            also=curve_node(curves), held=np.concatenate([held, blocked]),
+            also=self._also(curves), held=np.concatenate([held, blocked]),
         )  # fmt: skip
         self.passes.append(result)
         self.failed |= result.failed
@@ -138,6 +141,13 @@ class _Work:
             self.passes.append(
                 run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
             )
+
+    def _also(self, curves: IntArray) -> IntArray:
+        """Give the nodes to evaluate although nothing they read has changed; each only once."""
+        rows, table = np.array(sorted(self.pending.computed), np.int64), self.state.rows
+        self.pending.computed.clear()
+        rows = rows[table.alive.data[rows] & (table.driver.data[rows] >= 0)]
+        return np.concatenate([curve_node(curves), row_node(rows)])
 
     def renew(self) -> None:
         """Derive the look-ups anew after crossings or points came or went."""

@@ -26,7 +26,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-__all__ = ["ArrayColumn", "Journal", "ListColumn", "Table"]
+__all__ = ["ArrayColumn", "Journal", "ListColumn", "Picked", "Table"]
 
 
 class _Entry(Protocol):
@@ -115,20 +115,46 @@ class _ArrayEntry:
         self.column.store[self.index] = self.new
 
 
+@attrs.define(eq=False)
+class Picked:
+    """Some rows of a frozen array that others hold as well; of all rows if `pick` is None.
+
+    What was picked is at hand as long as it is `taken`, and is picked again when it is not.
+    """
+
+    whole: NDArray[Any]
+    pick: NDArray[np.int64] | None = None
+    taken: NDArray[Any] | None = None
+
+    def values(self) -> NDArray[Any]:
+        """Give what was picked."""
+        if self.taken is not None:
+            return self.taken
+        return self.whole if self.pick is None else self.whole.take(self.pick, axis=0)
+
+    def take(self) -> None:
+        """Keep what is picked at hand."""
+        self.taken = self.values()
+
+    def release(self) -> None:
+        """Let go of what was picked."""
+        self.taken = None
+
+
 @attrs.frozen(eq=False)
 class _PartEntry:
     """Writes to parts of rows; the arrays may be shared with whoever wrote them."""
 
     column: ArrayColumn
     part: NDArray[np.int64]
-    old: NDArray[Any]
-    new: NDArray[Any]
+    old: Picked
+    new: Picked
 
     def undo(self) -> None:
-        self.column.parts()[self.part] = self.old
+        self.column.parts()[self.part] = self.old.values()
 
     def redo(self) -> None:
-        self.column.parts()[self.part] = self.new
+        self.column.parts()[self.part] = self.new.values()
 
 
 @attrs.frozen(eq=False)
@@ -162,7 +188,7 @@ class _GrowEntry:
 
 def _same_bits(one: NDArray[Any], other: NDArray[Any]) -> bool:
     """Tell whether two contiguous arrays of floats or whole numbers agree to the last bit."""
-    return bool((one.view(np.int64) == other.view(np.int64)).all())
+    return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
 
 
 @attrs.define(eq=False)
@@ -183,26 +209,21 @@ class Journal:
         column.store[rows] = new
 
     def put_parts(
-        self,
-        column: ArrayColumn,
-        part: NDArray[np.int64],
-        values: NDArray[Any],
-        before: NDArray[Any] | None = None,
+        self, column: ArrayColumn, part: NDArray[np.int64], new: Picked, before: Picked | None
     ) -> None:
         """Write to parts of rows, as `ArrayColumn.parts` numbers them, each named once.
 
-        Frozen arrays are kept as they are. `before` may be an array that is thought to hold
-        what stands there now: if it does, to the last bit, it is kept, not a copy.
+        `before` may be what is thought to stand there now: if it does, to the last bit, it is
+        kept for going back, not a copy.
         """
         if not len(part):
             return
         parts = column.parts()
-        old = parts.take(part, axis=0)
-        if before is not None and before.shape == old.shape and _same_bits(before, old):
-            old = before
-        new = values.copy() if values.flags.writeable else values
-        self.entries.append(_PartEntry(column, part, old, new))
-        parts[part] = new
+        there = parts.take(part, axis=0)
+        if before is None or not _same_bits(before.values(), there):
+            before = Picked(there)
+        self.entries.append(_PartEntry(column, part, before, new))
+        parts[part] = new.values()
 
     def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
         """Write one object each to the rows `index` of a list column."""

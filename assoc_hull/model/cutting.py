@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.graph.journal import Picked
 from assoc_hull.model.index import Index, PlaneSet
 from assoc_hull.model.state import HullState, Meets
 
@@ -91,8 +92,8 @@ class Recall:
         Meetings that have one; None if all have.
     part : (a,) int
         Where the table of points holds the place of each: twice the row, plus the side.
-    spot, at : (a, 3), (a,), m
-        What was written there.
+    spot, at : Picked
+        What was written there: places and parameters.
     """
 
     splines: list[SplineBatch]
@@ -102,8 +103,8 @@ class Recall:
     row: IntArray
     actual: IntArray | None
     part: IntArray
-    spot: FloatArray
-    at: FloatArray
+    spot: Picked
+    at: Picked
 
 
 def cut_curves(

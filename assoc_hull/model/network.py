@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, Picked
 from assoc_hull.graph.node import Evaluation, Readers
 from assoc_hull.model.align import Alignment, align_curve
 from assoc_hull.model.cutting import Found, Recall, cut_curves
@@ -23,6 +23,8 @@ from assoc_hull.model.recipe import loft_curves, remember, same_objects
 from assoc_hull.model.state import HullState, Meets, curve_node, row_node
 
 __all__ = ["HullNetwork", "bits_differ"]
+
+_NO_NODES: IntArray = np.zeros(0, np.int64)
 
 
 def bits_differ(first: FloatArray, second: FloatArray) -> np.typing.NDArray[np.bool_]:
@@ -66,25 +68,26 @@ class HullNetwork:
 
     def readers(self, nodes: IntArray) -> Readers:
         """Give the curves that points define, and the points computed from curves."""
-        rows = (nodes[(nodes & 1) == 0]) >> 1
-        reader = self.state.rows.reader.data[rows]
-        both = reader >= 0
-        pairs = [(curve_node(reader[both]), np.repeat(row_node(rows), 2)[both.ravel()])]
-        pairs += self._listed(rows, self.index.riders, row_node) if self.index.riders else []
-        curves = (nodes[(nodes & 1) == 1]) >> 1
-        pairs += self._listed(curves, self.index.drives, curve_node)
+        odd = (nodes & 1).astype(np.bool_)
+        points, curves = nodes[~odd], nodes[odd]
+        pairs: list[tuple[IntArray, IntArray]] = []
+        if len(points):
+            reader = self.state.rows.reader.data.take(points >> 1, axis=0)
+            both = reader >= 0
+            pairs.append((curve_node(reader[both]), np.repeat(points, 2)[both.ravel()]))
+            pairs += self._listed(points, self.index.riders)
+        pairs += self._listed(curves, self.index.drives)
+        if len(pairs) == 1:
+            return Readers(*pairs[0])
         return Readers(
-            np.concatenate([first for first, _ in pairs]),
-            np.concatenate([second for _, second in pairs]),
+            np.concatenate([first for first, _ in pairs]) if pairs else _NO_NODES,
+            np.concatenate([second for _, second in pairs]) if pairs else _NO_NODES,
         )
 
     @staticmethod
-    def _listed(
-        items: IntArray, table: dict[int, IntArray], node: object
-    ) -> list[tuple[IntArray, IntArray]]:
-        hits = [(item, table[item]) for item in items.tolist() if item in table]
-        source = row_node if node is row_node else curve_node
-        return [(row_node(out), np.full(len(out), int(source(np.int64(item))))) for item, out in hits]
+    def _listed(nodes: IntArray, table: dict[int, IntArray]) -> list[tuple[IntArray, IntArray]]:
+        hits = [(node, table[node >> 1]) for node in nodes.tolist() if node >> 1 in table]
+        return [(row_node(out), np.full(len(out), node)) for node, out in hits]
 
     def name(self, node: int) -> str:
         """Name a node by the key of its object."""
@@ -177,17 +180,21 @@ class HullNetwork:
             owner = np.array(numbers, np.int64)[found.curve[actual]]
             part = 2 * row[actual] + (self.state.rows.curve.data[row[actual], 0] != owner)
             actual = None if len(actual) == len(row) else actual
-        if actual is not None:
-            at, xyz = at.take(actual), xyz.take(actual, axis=0)
-            freeze(at, xyz)
-        return Recall(splines, meets, batch, found, row, actual, part, xyz, at)
+        spot, place = Picked(found.xyz, actual), Picked(found.parameter, actual)
+        return Recall(splines, meets, batch, found, row, actual, part, spot, place)
 
     def _write_spots(self, now: Recall, known: Recall | None, journal: Journal) -> None:
         """Write where crossings lie on curves; a batch may hold both curves of a crossing."""
         table, guess = self.state.rows, self.index.guess.reshape(-1)
         before = known if known is not None and known.part is now.part else None
-        journal.put_parts(table.spot, now.part, now.spot, before and before.spot)
-        journal.put_parts(table.parameter, now.part, now.at, before and before.at)
+        for column, new, old in (
+            (table.spot, now.spot, before and before.spot),
+            (table.parameter, now.at, before and before.at),
+        ):
+            new.take()
+            journal.put_parts(column, now.part, new, old)
+            if old is not None:
+                old.release()
         if len(guess) == 2 * table.count:
             segment = now.found.segment
             guess[now.part] = segment if now.actual is None else segment.take(now.actual)

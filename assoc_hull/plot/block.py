@@ -26,13 +26,17 @@ def frame(sheet: Sheet, margin: float) -> None:
 
 def caption(sheet: Sheet, place: tuple[float, float], words: str) -> None:
     """Write the name of a view."""
-    sheet.take(sheet.text(place, words, size=1.3, bold=True, up="top", name=f"label/caption/{words}"))
+    sheet.take(
+        sheet.text(place, words, size=1.3, bold=True, up="top", name=f"label/caption/{words}")
+    )
 
 
 def particulars_of(drawing: Drawing) -> list[tuple[str, str]]:
     """Give the principal particulars as they are printed."""
     ship = drawing.particulars
-    counts = [(len(drawing.of(family)), family) for family in ("sections", "waterlines", "buttocks")]
+    counts = [
+        (len(drawing.of(family)), family) for family in ("sections", "waterlines", "buttocks")
+    ]
     (aft, *_), (fore, *_) = drawing.bounds.tolist()
     return [
         ("Length between perpendiculars", f"{ship.length:.3f} m"),
@@ -65,7 +69,9 @@ def title_block(
     left, inset, row = right - width, right - width + 3.0 * factor, 4.4 * factor
     y = top - 8.5 * factor
     sheet.take(
-        sheet.text((inset, y), title, size=2.2, bold=True, across="left", up="baseline", name="label/title")
+        sheet.text(
+            (inset, y), title, size=2.2, bold=True, across="left", up="baseline", name="label/title"
+        )
     )
     y -= 4.0 * factor
     sheet.rule((left, y), (right, y), LINE, "block")
@@ -73,7 +79,12 @@ def title_block(
         y -= row
         for x, across, words in ((inset, "left", name), (right - 3.0 * factor, "right", value)):
             text = sheet.text(
-                (x, y), words, size=1.15, across=across, up="baseline", name=f"label/block/{words}"  # type: ignore[arg-type]
+                (x, y),
+                words,
+                size=1.15,
+                across=across,
+                up="baseline",
+                name=f"label/block/{words}",  # type: ignore[arg-type]
             )
             sheet.take(text)
     y -= 0.6 * row
@@ -89,7 +100,9 @@ def title_block(
     return y
 
 
-def scale_bar(sheet: Sheet, view: View, place: tuple[float, float], width: float, words: str) -> None:
+def scale_bar(
+    sheet: Sheet, view: View, place: tuple[float, float], width: float, words: str
+) -> None:
     """Draw a scale bar of at most `width` (mm), with the words to its left upper side."""
     factor = sheet.paper.factor
     step = max(bar for bar in _BARS if 5.0 * bar * view.unit <= width or bar == _BARS[0])
@@ -103,7 +116,9 @@ def scale_bar(sheet: Sheet, view: View, place: tuple[float, float], width: float
             sheet.axes.fill(box[:, 0], box[:, 1], color="black", linewidth=0.0, zorder=2.0)
     for i in range(6):
         name = f"{step * i:g}" + (" m" if i == 5 else "")
-        text = sheet.text((x + view.unit * step * i, y - 0.4 * factor), name, up="top", name="label/bar")
+        text = sheet.text(
+            (x + view.unit * step * i, y - 0.4 * factor), name, up="top", name="label/bar"
+        )
         sheet.take(text)
     above = (x, y + tall + 0.6 * factor)
     sheet.take(sheet.text(above, words, across="left", up="bottom", name=f"label/bar/{words}"))

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 __all__ = ["curvature_combs"]
 
 _TEETH = 8
-_HIGH = 0.3  # part of a panel's height that a usual tooth takes
+_HIGH = 0.2  # part of a panel's height that a usual tooth takes
+_CUT = 1.6  # times that: the longest tooth
 _USUAL = 95.0  # per cent of the teeth are no longer than that
 _MARGIN, _HEAD = 12.0, 11.0  # mm at A3
 
@@ -69,7 +70,7 @@ def curvature_combs(
         Where to write it; the ending says whether PDF, SVG or PNG.
     scale : float, optional
         Curvature (1/m) that a tooth of 10 mm on paper stands for, at all lines; by default
-        chosen line by line so that 95 % of the teeth fit.
+        chosen line by line so that 95 % of the teeth fit; how many longer ones are cut is told.
     paper : "A3", "A1" or "A4"
         Size of the sheet, landscape.
 
@@ -151,20 +152,32 @@ def _panel(sheet: Sheet, comb: _Comb, top: float, tall: float, given: float | No
     low = np.concatenate(comb.courses).min(axis=0)
     centre = np.array([0.5 * sheet.paper.width, top - _HEAD * factor - 0.5 * room])
     origin = centre - unit * (low + 0.5 * comb.size)
-    _draw(sheet, comb, origin, unit, high)
+    cut = _draw(sheet, comb, origin, unit, high, _CUT * _HIGH * room)
     bends = len(comb.inflections)
     words = (
         f"1:{denominator:g};  tooth of 10 mm: curvature {per_ten:g} 1/m, radius {1.0 / per_ten:.4g} m;"
         f"  {bends} inflection{'' if bends == 1 else 's'} (dots)"
+        + (f";  {cut} longer teeth are cut" if cut else "")
     )
     left = _MARGIN * factor
     name = comb.line.name
     title = sheet.text(
-        (left, top - 2.0 * factor), name, size=1.5, bold=True, across="left", up="top", name=f"label/{name}"
+        (left, top - 2.0 * factor),
+        name,
+        size=1.5,
+        bold=True,
+        across="left",
+        up="top",
+        name=f"label/{name}",
     )
     beside = sheet.box(title)[2] + 4.0 * factor
     sheet.text(
-        (beside, top - 2.6 * factor), words, size=1.1, across="left", up="top", name=f"label/scale/{name}"
+        (beside, top - 2.6 * factor),
+        words,
+        size=1.1,
+        across="left",
+        up="top",
+        name=f"label/scale/{name}",
     )
 
 
@@ -176,18 +189,25 @@ def _round(value: float) -> float:
     return float(f"{next(step for step in _STEPS if step * power >= value) * power:.6g}")
 
 
-def _draw(sheet: Sheet, comb: _Comb, origin: FloatArray, unit: float, high: float) -> None:
+def _draw(
+    sheet: Sheet, comb: _Comb, origin: FloatArray, unit: float, high: float, most: float
+) -> int:
+    """Draw curve, teeth and their tips; give how many teeth were cut at `most` mm."""
     name = comb.line.name
     base = origin + unit * comb.base
-    tip = base + high * comb.tooth
+    length = high * np.sqrt((comb.tooth * comb.tooth).sum(axis=1))
+    long = length > most
+    short = np.where(long, most / np.where(long, length, 1.0), 1.0)
+    tip = base + high * short[:, None] * comb.tooth
     teeth = np.full((3 * len(base), 2), np.nan)
     teeth[0::3], teeth[1::3] = base, tip
     sheet.line(teeth, _TOOTH, f"teeth/{name}")
-    count = 0
+    edge, count = np.where(long[:, None], np.nan, tip), 0
     for spline in comb.line.splines:
         size = (len(spline.knot) - 1) * _TEETH
-        sheet.line(tip[count : count + size], _TIPS, f"tips/{name}")
+        sheet.line(edge[count : count + size], _TIPS, f"tips/{name}")
         count += size
     for course in comb.courses:
         sheet.line(origin + unit * course, HEAVY, f"line/{name}")
     sheet.dots(origin + unit * comb.inflections, TINT, 1.3, f"inflections/{name}")
+    return int(long.sum())

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assoc_hull.plot.block import caption, frame, title_block
-from assoc_hull.plot.drawing import Drawing, Sketchable, drawing
+from assoc_hull.plot.drawing import Drawing, DrawnLine, Sketchable, drawing
 from assoc_hull.plot.layout import BLOCK, MARGIN, place_body
-from assoc_hull.plot.movement import LineMovement, movements
+from assoc_hull.plot.movement import LEAST, LineMovement, moved_parts, movements, same
 from assoc_hull.plot.pens import BEFORE, TINT
 from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
 from assoc_hull.plot.view import View, scale_of
@@ -26,6 +26,7 @@ _ABOVE, _BELOW = 16.0, 20.0
 _TOLD = 12
 """At most so many movements are listed."""
 
+_AFTER = Pen(0.22, TINT, over=3.0)
 _ARROW = Pen(0.2, TINT, over=4.0)
 
 
@@ -45,9 +46,9 @@ def before_after(
 ) -> Figure:
     """Draw the body plan before and after an edit.
 
-    Lines that moved are tinted, and lie over what they were, in grey. The largest movement
-    is named where it is: the distance at right angles to the line, so that a point which
-    slides along its line does not count.
+    Lines are tinted where they moved, over what they were, in grey. The largest movement is
+    named where it is. It is that along the hull's normal: neither a point that slides along
+    the hull counts, nor that a small change moves a line of a grazing plane far.
 
     Parameters
     ----------
@@ -87,9 +88,7 @@ def before_after(
     frame(sheet, MARGIN * sheet.paper.factor)
     _block(sheet, title or new.particulars.name, old, new, moved)
     low, high = (np.stack([old.bounds, new.bounds])).transpose(1, 0, 2)
-    views = Views(
-        sheet, new, np.minimum(low.min(axis=0), 0.0), high.max(axis=0), {each.line for each in moved}
-    )
+    views = Views(sheet, new, np.minimum(low.min(axis=0), 0.0), high.max(axis=0))
     base = _half(views, old) if half_breadth else MARGIN * sheet.paper.factor
     _body(views, old, base, moved)
     if path is not None:
@@ -107,7 +106,10 @@ def _block(
     if len(moved) > _TOLD:
         rows.append((f"and {len(moved) - _TOLD} more", ""))
     gone = sorted({line.name for line in old.lines} - {line.name for line in new.lines})
-    notes = [f"{len(moved)} of {len(new.lines)} lines moved. Grey: before. Red: after."]
+    notes = [
+        f"{len(moved)} of {len(new.lines)} lines moved, by these amounts along the hull's normal.",
+        f"Red: where by more than {1e3 * LEAST:g} mm. Grey: before.",
+    ]
     notes += [f"Removed: {', '.join(gone[:4])}{' ...' if len(gone) > 4 else ''}"] if gone else []
     title_block(sheet, corner, BLOCK * factor, title, rows, notes)
 
@@ -124,20 +126,29 @@ def _half(views: Views, old: Drawing) -> float:
     scale = scale_of(length, paper.width - 2.0 * (MARGIN + 17.0) * factor)
     x = 0.5 * (paper.width - 1e3 / scale * length) - 1e3 / scale * float(low[0])
     view = View("half-breadth", (0, 1), scale, (x, (MARGIN + 20.0) * factor))
-    for line in old.of("waterlines"):
-        _ghost(views, view, old, line.name)
     views.half_breadth(view)
+    for name in _names(old.of("waterlines"), views.drawing.of("waterlines")):
+        _overlay(views, view, old, name)
     words = f"HALF-BREADTH PLAN  1:{scale:g}"
     caption(views.sheet, (view.across(views.middle), view.up(0.0) - 11.0 * factor), words)
     return view.up(float(high[1])) + 12.0 * factor
 
 
-def _ghost(views: Views, view: View, old: Drawing, name: str) -> None:
-    """Draw a line as it was, if it moved or went."""
-    known = {line.name for line in views.drawing.lines}
-    if name in views.tinted or name not in known:
-        for points in old.line(name).polylines:
-            views.sheet.line(view.on_paper(points), BEFORE, f"{view.name}/before/{name}")
+def _names(old: Sequence[DrawnLine], new: Sequence[DrawnLine]) -> list[str]:
+    return list(dict.fromkeys(line.name for line in (*old, *new)))
+
+
+def _overlay(views: Views, view: View, old: Drawing, name: str) -> None:
+    """Draw a line as it was, in grey, and in red where it has moved."""
+    was = {line.name: line for line in old.lines}.get(name)
+    now = {line.name: line for line in views.drawing.lines}.get(name)
+    if was is not None and now is not None and same(was, now):
+        return
+    for points in () if was is None else was.polylines:
+        views.sheet.line(view.on_paper(points), BEFORE, f"{view.name}/before/{name}")
+    if now is not None:
+        for part in moved_parts(was, now):
+            views.sheet.line(view.on_paper(part), _AFTER, f"{view.name}/moved/{name}")
 
 
 def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]) -> None:
@@ -150,17 +161,15 @@ def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]
     spare = room - height * 1e3 / scale
     up = base + _BELOW * factor + 0.5 * spare - float(low[2]) * 1e3 / scale
     view = View("body", (1, 2), scale, (0.5 * (paper.width - BLOCK * factor), up))
-    sections = Views(views.sheet, old, low, high).sections
-    for half, lines in zip(
-        (view.mirrored(), view), body_halves(sections, views.middle), strict=True
-    ):
-        for line in lines:
-            _ghost(views, half, old, line.name)
     views.body(view)
+    sections = Views(views.sheet, old, low, high).sections
+    halves = (body_halves(lines, views.middle) for lines in (sections, views.sections))
+    for half, was, now in zip((view.mirrored(), view), *halves, strict=True):
+        for name in _names(was, now):
+            _overlay(views, half, old, name)
     foot = view.up(float(low[2])) - 9.0 * factor
     caption(views.sheet, (view.across(0.0), foot), f"BODY PLAN  1:{scale:g}")
-    largest = next((each for each in moved if not np.isnan(each.distance)), None)
-    if largest is not None:
+    if moved and not np.isnan((largest := moved[0]).distance):
         _arrow(views, view, largest)
 
 

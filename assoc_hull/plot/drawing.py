@@ -25,9 +25,20 @@ from assoc_hull.geometry.spline import sample
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import FAMILIES, BoundaryKind
+from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.state import HullState, Particulars
 
-__all__ = ["Drawing", "DrawnLine", "Link", "Node", "Sketchable", "drawing", "links", "state_of"]
+__all__ = [
+    "Crossings",
+    "Drawing",
+    "DrawnLine",
+    "Link",
+    "Node",
+    "Sketchable",
+    "drawing",
+    "links",
+    "state_of",
+]
 
 _CHORDS = 8
 """Chords that stand for one segment of a line, and four times as many for a boundary."""
@@ -71,6 +82,26 @@ class DrawnLine:
 
 
 @attrs.frozen(eq=False)
+class Crossings:
+    """The crossings of a hull whose normals are known.
+
+    Attributes
+    ----------
+    key : tuple of k str
+        What they are; a key outlives edits.
+    line : tuple of k (str, str)
+        Names of the lines that cross.
+    xyz, normal : (k, 3)
+        Place, m, and unit normal of the hull, of either sense.
+    """
+
+    key: tuple[str, ...]
+    line: tuple[tuple[str, str], ...]
+    xyz: FloatArray
+    normal: FloatArray
+
+
+@attrs.frozen(eq=False)
 class Drawing:
     """All lines of a hull as they were when it was made.
 
@@ -80,10 +111,13 @@ class Drawing:
         Principal dimensions, m.
     lines : tuple of DrawnLine
         By family, along each family by plane.
+    crossings : Crossings
+        Where they cross.
     """
 
     particulars: Particulars
     lines: tuple[DrawnLine, ...]
+    crossings: Crossings
 
     def of(self, family: str) -> tuple[DrawnLine, ...]:
         """Give the lines of a family."""
@@ -134,7 +168,27 @@ def drawing(hull: Sketchable) -> Drawing:
     book = AddressBook(state)
     lines = [_drawn(state, book, line) for line in state.live("lines").tolist()]
     lines.sort(key=lambda line: (FAMILIES[line.family].rank, line.offset, line.name))
-    return Drawing(state.particulars, tuple(lines))
+    return Drawing(state.particulars, tuple(lines), _crossings(state, book))
+
+
+def _crossings(state: HullState, book: AddressBook) -> Crossings:
+    """Take the crossings where both curves pass and their tangents differ."""
+    table, rows = state.rows, state.live("rows")
+    rows = rows[
+        (table.curve.data[rows, 1] >= 0) & np.isfinite(table.parameter.data[rows]).all(axis=1)
+    ]
+    curve, at = table.curve.data[rows], table.parameter.data[rows]
+    normal = crossing_normals(*(tangents(state, curve[:, i], at[:, i]) for i in (0, 1)))
+    known = (normal != 0.0).any(axis=1)
+    rows, normal = rows[known], normal[known]
+    name = {line: book.line_name(line) for line in state.live("lines").tolist()}
+    lines = state.curves.line.data[table.curve.data[rows]]
+    return Crossings(
+        tuple(table.key.data[row] for row in rows.tolist()),
+        tuple((name[a], name[b]) for a, b in lines.tolist()),
+        table.spot.data[rows].mean(axis=1),
+        normal,
+    )
 
 
 def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:

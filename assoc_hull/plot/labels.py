@@ -154,7 +154,9 @@ def label_lines(
     return written
 
 
-def label_above(sheet: Sheet, lines: Sequence[Lettered], wanted: set[str], at: float, name: str) -> None:
+def label_above(
+    sheet: Sheet, lines: Sequence[Lettered], wanted: set[str], at: float, name: str
+) -> None:
     """Write labels for which lines have no room in a row above a view, each with a leader.
 
     Parameters
@@ -201,9 +203,7 @@ def resample(points: FloatArray, step: float) -> FloatArray:
     return np.column_stack([np.interp(at, way, points[:, i]) for i in range(2)])
 
 
-def _courses(
-    sheet: Sheet, lines: Sequence[Lettered]
-) -> tuple[list[FloatArray], list[FloatArray]]:
+def _courses(sheet: Sheet, lines: Sequence[Lettered]) -> tuple[list[FloatArray], list[FloatArray]]:
     """Give places along each line and their distance (mm) from the nearest other line."""
     from scipy.spatial import cKDTree
 

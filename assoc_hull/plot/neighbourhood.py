@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -15,15 +16,13 @@ from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.state import HullState
 from assoc_hull.plot.drawing import Link, Node, links
 from assoc_hull.plot.pens import FAMILY_COLOURS
+from assoc_hull.plot.ranks import MARGIN, TALL, WIDE, stand
 from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["neighbourhood"]
-
-_MARGIN, _HEAD, _ROW = 10.0, 18.0, 4.0  # mm at A3
-_WIDE, _TALL = 30.0, 3.0  # of a node, mm at A3
 
 
 @attrs.frozen
@@ -62,7 +61,8 @@ def neighbourhood(
     Returns
     -------
     matplotlib.figure.Figure
-        Families stand in columns by rank. An arrow runs from what drives to what is made
+        The curve stands in the middle, the others farther out by hops, each family on one
+        side. An arrow runs from what drives to what is made
         from it, with the number of crossings; where crossings are shared it has two heads.
 
     Raises
@@ -87,12 +87,12 @@ def neighbourhood(
     edges = _near(_pairs(every), centre, hops)
     nodes = {centre} | {node for edge in edges for node in (edge.tail, edge.head)}
     sheet = Sheet(paper)
-    place = _places(sheet, nodes)
+    place = stand(sheet.paper, _columns(edges, centre))
     for edge in edges:
         _draw_edge(sheet, edge, centre, place)
     for node in sorted(nodes, key=lambda each: each.name):
         _draw_node(sheet, node, place[node], node == centre)
-    _legend(sheet, centre, nodes, edges, place)
+    _legend(sheet, centre, edges, place)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
@@ -130,33 +130,39 @@ def _near(edges: Iterable[_Edge], centre: Node, hops: int) -> list[_Edge]:
     return found
 
 
-def _places(sheet: Sheet, nodes: Iterable[Node]) -> dict[Node, FloatArray]:
-    """Stand families side by side by rank, each in as many columns as it needs."""
-    factor = sheet.paper.factor
-    tall = sheet.paper.height - (2.0 * _MARGIN + _HEAD) * factor
-    most = max(1, int(tall / (_ROW * factor)))
-    columns: list[list[Node]] = []
-    for family in sorted({node.family for node in nodes}, key=lambda name: FAMILIES[name].rank):
-        mine = sorted(
-            (node for node in nodes if node.family == family),
-            key=lambda node: (np.nan_to_num(node.offset), node.name),
-        )
-        count = -(-len(mine) // most)
-        size = -(-len(mine) // count)
-        columns += [mine[i : i + size] for i in range(0, len(mine), size)]
-    width = (sheet.paper.width - (2.0 * _MARGIN + _WIDE) * factor) / max(len(columns) - 1, 1)
-    found = {}
-    for i, column in enumerate(columns):
-        step = min(tall / max(len(column), 1), 9.0 * factor)
-        middle = _MARGIN * factor + 0.5 * tall
-        x = (_MARGIN + 0.5 * _WIDE) * factor + i * width if len(columns) > 1 else 0.5 * sheet.paper.width
-        for k, node in enumerate(column):
-            found[node] = np.array([x, middle + (k - 0.5 * (len(column) - 1)) * step])
-    return found
+def _columns(edges: Sequence[_Edge], centre: Node) -> list[list[list[Node]]]:
+    """Give columns from left to right, each of blocks of nodes of one family."""
+    hop, front = {centre: 0}, {centre}
+    while front:
+        pairs = {
+            (a, b) for edge in edges for a, b in ((edge.tail, edge.head), (edge.head, edge.tail))
+        }
+        front = {b for a, b in pairs if a in front and b not in hop}
+        hop |= dict.fromkeys(front, 1 + max(hop.values()))
+    side = _sides([node for node in hop if node != centre])
+    found: dict[int, dict[str, list[Node]]] = {}
+    for node in sorted(hop, key=lambda each: (np.nan_to_num(each.offset), each.name)):
+        column = hop[node] * side.get(node.family, 0) if node != centre else 0
+        found.setdefault(column, {}).setdefault(node.family, []).append(node)
+    rank = {name: FAMILIES[name].rank for name in FAMILIES}
+    return [
+        [found[at][family] for family in sorted(found[at], key=lambda name: -rank[name])]
+        for at in sorted(found)
+    ]
+
+
+def _sides(nodes: Sequence[Node]) -> dict[str, int]:
+    """Put each family left (-1) or right (1), so that both sides hold about as many."""
+    count = Counter(node.family for node in nodes)
+    held, side = {-1: 0, 1: 0}, {}
+    for family, size in sorted(count.items(), key=lambda each: (-each[1], each[0])):
+        side[family] = -1 if held[-1] <= held[1] else 1
+        held[side[family]] += size
+    return side
 
 
 def _draw_node(sheet: Sheet, node: Node, place: FloatArray, centre: bool) -> None:
-    half = 0.5 * np.array([_WIDE, _TALL]) * sheet.paper.factor
+    half = 0.5 * np.array([WIDE, TALL]) * sheet.paper.factor
     corners = place + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
     colour = FAMILY_COLOURS[node.family]
     fill = colour if centre else "white"
@@ -187,7 +193,7 @@ def _draw_edge(sheet: Sheet, edge: _Edge, centre: Node, place: dict[Node, FloatA
 
 def _ports(tail: FloatArray, head: FloatArray, factor: float) -> tuple[FloatArray, FloatArray]:
     """Give where an arrow leaves one node and meets the other: at their facing sides."""
-    half = np.array([0.5 * _WIDE * factor, 0.0])
+    half = np.array([0.5 * WIDE * factor, 0.0])
     side = np.sign(head[0] - tail[0])
     if side == 0.0:
         return tail + half, head + half
@@ -195,24 +201,27 @@ def _ports(tail: FloatArray, head: FloatArray, factor: float) -> tuple[FloatArra
 
 
 def _legend(
-    sheet: Sheet, centre: Node, nodes: Iterable[Node], edges: Sequence[_Edge], place: dict[Node, FloatArray]
+    sheet: Sheet, centre: Node, edges: Sequence[_Edge], place: dict[Node, FloatArray]
 ) -> None:
+    """Write what the picture shows, and the names of the families above their blocks."""
     factor = sheet.paper.factor
-    top, left = sheet.paper.height - _MARGIN * factor, _MARGIN * factor
-    shared = sum(edge.both for edge in edges)
+    top, left = sheet.paper.height - MARGIN * factor, MARGIN * factor
+    shared = sum(edge.both and centre in (edge.tail, edge.head) for edge in edges)
     into = sum(edge.head == centre and not edge.both for edge in edges)
     out = sum(edge.tail == centre and not edge.both for edge in edges)
-    sheet.text(
-        (left, top), f"Around {centre.name}", size=2.0, bold=True, across="left", up="top", name="label/title"
-    )
+    title = f"Around {centre.name}"
+    sheet.text((left, top), title, size=2.0, bold=True, across="left", up="top", name="label/title")
     words = (
-        f"{into} drive it, {out} are driven by it, {shared} links run both ways; "
-        "arrows run from driver to driven, the number is that of crossings"
+        f"{into} drive it, {out} are driven by it, with {shared} it drives both ways. "
+        "Arrows run from driver to driven; the number is that of crossings."
     )
-    sheet.text((left, top - 6.0 * factor), words, size=1.1, across="left", up="top", name="label/legend")
-    for family in {node.family for node in nodes}:
-        x = np.mean([place[node][0] for node in place if node.family == family])
+    low = top - 6.0 * factor
+    sheet.text((left, low), words, size=1.1, across="left", up="top", name="label/legend")
+    heads: dict[tuple[str, float], float] = {}
+    for node, (x, y) in place.items():
+        heads[node.family, float(x)] = max(float(y), heads.get((node.family, float(x)), 0.0))
+    for (family, x), y in heads.items():
         sheet.text(
-            (float(x), top - 12.5 * factor), family, size=1.3, bold=True, up="top",
+            (x, y + 0.5 * TALL * factor + 0.8 * factor), family, size=1.1, bold=True, up="bottom",
             colour=FAMILY_COLOURS[family], name=f"label/family/{family}",
         )  # fmt: skip

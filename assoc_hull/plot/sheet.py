@@ -170,7 +170,9 @@ class Sheet:
             )
         )  # fmt: skip
 
-    def rule(self, start: tuple[float, float], end: tuple[float, float], pen: Pen, name: str = "") -> None:
+    def rule(
+        self, start: tuple[float, float], end: tuple[float, float], pen: Pen, name: str = ""
+    ) -> None:
         """Draw a straight line between two places, mm."""
         self.line(np.array([start, end], np.float64), pen, name)
 
@@ -285,5 +287,7 @@ def save(figure: Figure, path: Path_) -> None:
             figure.savefig(os.fspath(path), format=suffix[1:], metadata=_FORMATS[suffix], **more)
         except OSError as trouble:
             raise BadInputError(
-                f"the file cannot be written ({trouble.strerror})", f"at {path}", "name another place"
+                f"the file cannot be written ({trouble.strerror})",
+                f"at {path}",
+                "name another place",
             ) from None

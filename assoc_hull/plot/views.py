@@ -78,7 +78,9 @@ class Views:
         ends, words = [], []
         for line in self.drawing.of("buttocks"):
             for points in self.draw(view, line):
-                tops = [end for end in (points[0], points[-1]) if end[1] > view.up(self.middle_height)]
+                tops = [
+                    end for end in (points[0], points[-1]) if end[1] > view.up(self.middle_height)
+                ]
                 ends += tops
                 words += [line.label] * len(tops)
         top = view.up(self.high[2]) + 3.2 * self.sheet.paper.factor
@@ -110,7 +112,9 @@ class Views:
         start, end, middle = (view.across(x) for x in (self.low[0], self.high[0], self.middle))
         wanted = {line.label for line in lettered}
         for low, high, part in ((start, middle, "aft"), (middle, end, "fore")):
-            wanted -= label_lines(self.sheet, lettered, low, high, name=f"label/half-breadth/{part}")
+            wanted -= label_lines(
+                self.sheet, lettered, low, high, name=f"label/half-breadth/{part}"
+            )
         top = view.up(self.high[1]) + 3.2 * self.sheet.paper.factor
         label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
 
@@ -151,7 +155,9 @@ class Views:
                 words.append(line.label)
         edge = view.up(self.high[2])
         part = "aft" if view.sign < 0.0 else "fore"
-        order = sorted(range(len(tops)), key=lambda i: self._outward(view, tops[i], sections, words[i]))
+        order = sorted(
+            range(len(tops)), key=lambda i: self._outward(view, tops[i], sections, words[i])
+        )
         factor = self.sheet.paper.factor
         rail(
             self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2), [words[i] for i in order],
@@ -197,7 +203,9 @@ class Views:
         )  # fmt: skip
         self.sheet.rule((view.across(0.0), low), (view.across(0.0), high), AXIS, "body/grid/CL")
         for edge in (-breadth, breadth):
-            self.sheet.rule((view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side")
+            self.sheet.rule(
+                (view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side"
+            )
 
     def _stations(self, view: View, low: float, high: float) -> None:
         """Draw the sections as upright straight lines, labelled below."""
@@ -226,7 +234,9 @@ class Views:
             self.sheet.rule((left, z), (right, z), GRID, f"{view.name}/grid/{line.name}")
         for height, pen in ((0.0, HEAVY), (self.drawing.particulars.draught, WATER)):
             z = view.up(height)
-            self.sheet.rule((left, z), (right, z), attrs.evolve(pen, width=0.16), f"{view.name}/grid/")
+            self.sheet.rule(
+                (left, z), (right, z), attrs.evolve(pen, width=0.16), f"{view.name}/grid/"
+            )
 
     def _level_labels(self, view: View, side: Side, end: float) -> None:
         """Label waterlines by name on the left; design waterline and base line on the right."""
@@ -250,7 +260,14 @@ class Views:
         marks = [(0.0, "CL"), *((line.offset, line.name) for line in lines)]
         ends = np.array([(left, view.up(offset)) for offset, _ in marks])
         at = left - 2.5 * self.sheet.paper.factor
-        rail(self.sheet, ends, [name for _, name in marks], "left", at, name=f"label/{view.name}/left")
+        rail(
+            self.sheet,
+            ends,
+            [name for _, name in marks],
+            "left",
+            at,
+            name=f"label/{view.name}/left",
+        )
 
     def _perpendiculars(self, view: View, low: float, high: float) -> None:
         """Draw both perpendiculars and the middle between them, named in a row below."""

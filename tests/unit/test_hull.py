@@ -106,10 +106,11 @@ def test_nested_edits_join(hull: ah.Hull) -> None:
 def test_a_preview_publishes_nothing(hull: ah.Hull) -> None:
     """The report is that of the edit, the hull as before."""
     before = hull.fingerprint
-    report = hull.preview(lambda edit: shift(edit, hull.points[POINT], 0.01))
+    report = hull.preview(lambda edit: shift(edit, hull.points[POINT], 0.01)).report
     assert len(report.relofted) == 2
     assert (hull.fingerprint, len(hull.history)) == (before, 0)
-    report = hull.preview([{"op": "move", "point": POINT, "y": 2.95}])
+    report = hull.preview([{"op": "move", "point": POINT, "y": 2.95}]).report
+    assert report is not None
     assert report.largest is not None
     assert (len(report.relofted), len(hull.history)) == (2, 0)
     with pytest.raises(BadInputError, match="modification 1"):

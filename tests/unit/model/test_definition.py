@@ -159,6 +159,19 @@ def test_keys_that_were_taken_out_stay_known() -> None:
     assert key.endswith("~2")
 
 
+def test_a_point_that_rode_with_a_dead_one_keeps_its_value(document: Document) -> None:
+    """A link to a point that was taken out is none: the value itself is the definition."""
+    state = document.state
+    dead = Maker(state, Journal()).points([PointSpec(0, (0.0, 0.0, 0.0), Sort.PLACED)])
+    state.rows.alive.store[dead] = False
+    alone = next(
+        row for row in state.live("rows").tolist() if state.rows.sort.data[row] == Sort.ADOPTED
+    )
+    state.rows.anchor.store[alone] = (dead[0], -1)
+    assert verify(state) == []
+    assert fingerprint(from_definition(records(state))) == fingerprint(state)
+
+
 def failing(name: str) -> Any:
     """Make the evaluation of one curve fail."""
     original = HullNetwork.evaluate

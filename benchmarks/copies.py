@@ -1,0 +1,115 @@
+"""Many copies of a net side by side in one hull: own groups, no crossing between copies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from assoc_hull.graph.journal import ArrayColumn, Journal
+from assoc_hull.model.index import build_index
+from assoc_hull.model.network import HullNetwork
+from assoc_hull.model.state import Association, HullState, Meets, curve_node, row_node
+
+__all__ = ["copies_of"]
+
+STEP = 200.0
+"""Distance (m) from one copy to the next, along x."""
+
+REFERS = {
+    ("lines", "group"): "groups",
+    ("curves", "line"): "lines",
+    ("rows", "curve"): "curves",
+    ("rows", "reader"): "curves",
+    ("rows", "driver"): "curves",
+    ("rows", "anchor"): "rows",
+}
+"""Columns that hold numbers of rows of another table, or -1."""
+
+PLACES = {("rows", "xyz"), ("rows", "spot"), ("rows", "base")}
+
+
+def copies_of(net: HullState, count: int) -> HullState:
+    """Give a hull that holds a net `count` times."""
+    state = HullState(net.particulars, net.tolerances)
+    for name in ("groups", "lines", "curves", "rows"):
+        source, target = getattr(net, name), getattr(state, name)
+        target.resize(count * source.count)
+        for title, column in source.columns.items():
+            copy = _array_copy if isinstance(column, ArrayColumn) else _list_copy
+            for number in range(count):
+                copy(net, target.columns[title], column, (name, title), number)
+    _settings(net, state, count)
+    _loft(state)
+    return state
+
+
+def _array_copy(
+    net: HullState, target: Any, source: Any, which: tuple[str, str], number: int
+) -> None:
+    size = len(source.data)
+    block = target.store[number * size : (number + 1) * size]
+    block[...] = source.data
+    if which in REFERS:
+        block[source.data >= 0] += number * getattr(net, REFERS[which]).count
+    elif which in PLACES:
+        block[..., 0] += number * STEP
+    elif which == ("lines", "offset"):
+        block += number * STEP * net.lines.normal.data[:, 0]
+
+
+def _list_copy(
+    net: HullState, target: Any, source: Any, which: tuple[str, str], number: int
+) -> None:
+    lines, curves, rows = (number * getattr(net, name).count for name in ("lines", "curves", "rows"))
+    turns: dict[tuple[str, str], Callable[[Any], Any]] = {
+        ("groups", "name"): lambda name: _named(name, number),
+        ("lines", "key"): lambda key: _named(key, number),
+        ("curves", "key"): lambda key: _named(key, number),
+        ("rows", "key"): lambda key: _named(key, number),
+        ("lines", "curves"): lambda each: tuple(curve + curves for curve in each),
+        ("curves", "rows"): lambda each: each + rows,
+        ("curves", "meets"): lambda each: _meets(each, lines, rows),
+    }
+    turn = turns.get(which, lambda each: each)
+    size = len(source.data)
+    target.data[number * size : (number + 1) * size] = [turn(each) for each in source.data]
+
+
+def _meets(meets: Meets, lines: int, rows: int) -> Meets:
+    row = np.where(meets.row >= 0, meets.row + rows, -1)
+    return Meets(meets.line + lines, meets.sign, row, meets.parameter, meets.xyz)
+
+
+def _named(name: str, number: int) -> str:
+    return f"{name} #{number}"
+
+
+def _settings(net: HullState, state: HullState, count: int) -> None:
+    links: list[Association] = []
+    births: dict[tuple[str, str], int] = {}
+    for number in range(count):
+        links += [
+            Association(_named(link.a, number), _named(link.b, number), link.two_way)
+            for link in net.associations
+        ]
+        births |= {
+            (_named(a, number), _named(b, number)): born for (a, b), born in net.births.items()
+        }
+    state.settings.associations.data[0] = tuple(links)
+    state.settings.births.data[0] = births
+
+
+def _loft(state: HullState) -> None:
+    """Loft and cut every copy where it stands."""
+    index, journal = build_index(state), Journal()
+    network = HullNetwork(state, index)
+    for level in range(int(index.level.max()) + 1):
+        curves = np.flatnonzero(index.level == level)
+        network.evaluate(curve_node(curves), journal)
+        driven = [index.drives[curve] for curve in curves.tolist() if curve in index.drives]
+        if driven:
+            network.evaluate(row_node(np.sort(np.concatenate(driven))), journal)
+    if network.realigned:
+        raise AssertionError("a copy has other crossings than the net")

@@ -1,0 +1,175 @@
+"""Every command does what its help says, in words and as JSON."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.cli import main
+
+from .conftest import Json
+
+TABLE = """# station 0 = AP
+station,wl_0,wl_1,wl_2,wl_3,wl_4,wl_5,wl_6
+0,0,0,0,0,0.1,0.8,1.4
+1,0,0.4,0.9,1.3,1.8,2.4,2.9
+2,0.5,1.9,2.6,3.0,3.4,3.7,3.9
+4,1.8,3.4,3.8,4.0,4.0,4.0,4.0
+6,1.8,3.4,3.8,4.0,4.0,4.0,4.0
+8,0.6,2.0,2.6,2.9,3.1,3.3,3.5
+9,0.2,0.8,1.2,1.4,1.6,1.9,2.3
+10,0,0,0,0,0,0.2,0.5
+"""
+
+
+def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    """On standard output."""
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"assoc-hull {ah.__version__}\n"
+
+
+@pytest.mark.parametrize("module", ["assoc_hull", "assoc_hull.cli"])
+def test_the_program_runs_as_a_module(module: str) -> None:
+    """In a process of its own."""
+    command = [sys.executable, "-m", module, "--version"]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert (run.stdout, run.stderr) == (f"assoc-hull {ah.__version__}\n", "")
+
+
+@pytest.mark.parametrize(
+    "command", ["demo", "example", "import", "info", "check", "verify", "edit", "graph", "plot"]
+)
+def test_help_shows_examples(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Each command has examples that begin with the name of the program."""
+    assert main([command, "--help"]) == 0
+    assert f"examples:\n  assoc-hull {command} " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "wigley",
+        pytest.param("series60-060", marks=pytest.mark.slow),
+        pytest.param("series60-070", marks=pytest.mark.slow),
+    ],
+)
+def test_an_example_is_written(name: str, tmp_path: Path, facts: Json) -> None:
+    """It is the hull of that name."""
+    path = tmp_path / "ship.hull.json"
+    found = facts("example", name, "-o", path)
+    assert ah.open(path).fingerprint == found["fingerprint"]
+    assert ah.open(path).particulars.name.lower().startswith(name[:6])
+
+
+def test_a_table_is_imported_with_its_report(tmp_path: Path, facts: Json) -> None:
+    """Assumptions, rounding and deviations come as data, on the output and in the file."""
+    table, out, report = (tmp_path / name for name in ("s.csv", "s.hull.json", "report.json"))
+    table.write_text(TABLE, "utf-8")
+    given = ["--length", 60, "--breadth", 8, "--draught", 4, "--unit", "m", "--station-zero", "ap"]
+    found = facts("import", table, "-o", out, *given, "--report", report)
+    assert json.loads(report.read_text("utf-8")) == found["report"]
+    assert list(found["report"]) == ["offsets", "rounding", "adoption"]
+    assert found["report"]["rounding"][0] == {"z": 0.0, "rounding": pytest.approx(0.05)}
+    first = found["report"]["adoption"]["lines"][0]
+    assert set(first) == {"curve", "given", "defining", "adopted", "deviation"}
+    ship = ah.open(out)
+    assert ship.fingerprint == found["fingerprint"]
+    assert (ship.particulars.length, ship.particulars.draught) == (60.0, 4.0)
+
+
+def test_an_import_tells_what_it_assumed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In words."""
+    (tmp_path / "s.csv").write_text(TABLE, "utf-8")
+    arguments = ["import", tmp_path / "s.csv", "-o", tmp_path / "s.hull.json", "--length", "60"]
+    assert main([*map(str, arguments), "--unit", "m"]) == 0
+    text = capsys.readouterr().out
+    assert "station zero: " in text
+    assert "rounding: +-50 mm at waterlines" in text
+
+
+def test_info_names_the_lines(hull: Path, facts: Json, capsys: pytest.CaptureFixture[str]) -> None:
+    """The facts are those of the Python objects."""
+    found, ship = facts("info", hull), ah.open(hull)
+    assert found["fingerprint"] == ship.fingerprint
+    assert found["particulars"]["length"] == ship.particulars.length
+    assert found["groups"]["sections"]["lines"] == list(ship.groups["sections"].lines)
+    assert sum(found["points"].values()) == len(ship.points)
+    assert sum(found["crossings"].values()) == len(ship.crossings)
+    assert main(["info", str(hull)]) == 0
+    assert "ST 7, ST 8" in capsys.readouterr().out
+
+
+def test_a_sound_hull_has_no_findings(hull: Path, facts: Json) -> None:
+    """Exit 0 of check and verify; notes are no findings."""
+    assert facts("check", hull) == {"findings": []}
+    facts("check", hull, "--notes")
+    found = facts("verify", hull)
+    assert (found["differences"], found["fingerprint"]) == ([], ah.open(hull).fingerprint)
+
+
+def test_findings_and_differences_give_exit_1(
+    hull: Path, facts: Json, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each comes with kind, object, place and amount, or key, field and amount."""
+    from assoc_hull.edit.finding import Finding
+    from assoc_hull.model.verify import Difference
+
+    gap = Finding("gap", "WL 1 x ST 2", (1.0, 2.0, 3.0), 0.004, "is wide")
+    odd = Difference("sections:1/1", "spline.xyz", float("inf"))
+    monkeypatch.setattr(ah.Hull, "check", lambda self, notes: (gap,))
+    monkeypatch.setattr(ah.Hull, "verify", lambda self, relative: (odd,))
+    found = facts("check", hull, code=1)["findings"][0]
+    assert (found["kind"], found["place"], found["amount"]) == ("gap", [1.0, 2.0, 3.0], 0.004)
+    found = facts("verify", hull, code=1)["differences"]
+    assert found == [{"key": "sections:1/1", "field": "spline.xyz", "amount": None}]
+    assert main(["check", str(hull)]) == 1
+    assert main(["verify", str(hull)]) == 1
+
+
+@pytest.mark.parametrize("form", ["dot", "graphml", "mermaid", "json"])
+def test_a_graph_is_written(
+    form: str, hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On standard output or to a file, the same text; JSON and GraphML parse."""
+    arguments = ["graph", str(hull), "--format", form, "--around", "WL 2.5 x ST 7", "--hops", "1"]
+    assert main(arguments) == 0
+    text = capsys.readouterr().out
+    assert "WL 2.5 x ST 7" in text
+    assert main([*arguments, "-o", str(tmp_path / "graph.txt")]) == 0
+    assert (tmp_path / "graph.txt").read_text("utf-8") == text
+    if form == "json":
+        assert {"nodes", "edges"} <= set(json.loads(text))
+    if form == "graphml":
+        assert len(ElementTree.fromstring(text)) > 1
+
+
+def test_the_whole_graph_is_written(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Without an object to look around, all of it."""
+    assert main(["graph", str(hull), "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["nodes"]) == len(ah.open(hull).graph())
+
+
+@pytest.mark.parametrize("ending", ["pdf", "svg", "png"])
+def test_lines_are_plotted(ending: str, hull: Path, tmp_path: Path) -> None:
+    """In each form that the ending may ask for."""
+    pytest.importorskip("matplotlib")
+    path = tmp_path / f"lines.{ending}"
+    assert main(["plot", str(hull), "-o", str(path), "--paper", "A3"]) == 0
+    assert path.read_bytes().startswith(
+        {"pdf": b"%PDF", "svg": b"<?xml", "png": b"\x89PNG"}[ending]
+    )
+
+
+def test_combs_are_plotted(hull: Path, tmp_path: Path) -> None:
+    """Of the lines that are named."""
+    pytest.importorskip("matplotlib")
+    path = tmp_path / "combs.svg"
+    assert main(["plot", str(hull), "-o", str(path), "--combs", "WL 2.5", "ST 7"]) == 0
+    assert "WL 2.5" in path.read_text("utf-8")
