@@ -135,9 +135,10 @@ class HullNetwork:
         key = curves.tobytes()
         old = [table.spline.data[curve] for curve in numbers]
         met = [table.meets.data[curve] for curve in numbers]
-        known: Recall | None = recall.get(key)
-        if known is not None and not (
-            same_objects(known.splines, old) and same_objects(known.meets, met)
+        last: Recall | None = recall.get(key)
+        known = last
+        if last is not None and not (
+            same_objects(last.splines, old) and same_objects(last.meets, met)
         ):
             known = None
         batch = loft_curves(self.state, curves, recall)
@@ -151,6 +152,9 @@ class HullNetwork:
         now = self._attach(numbers, met, splines, batch, found, known)
         journal.set(table.meets, numbers, now.meets)
         self._write_spots(now, known, journal)
+        if last is not None:
+            last.spot.release()
+            last.at.release()
         remember(recall, key, now)
         differs = moved != 0.0
         return Evaluation(curve_node(curves[differs]), moved[differs])
@@ -193,8 +197,6 @@ class HullNetwork:
         ):
             new.take()
             journal.put_parts(column, now.part, new, old)
-            if old is not None:
-                old.release()
         if len(guess) == 2 * table.count:
             segment = now.found.segment
             guess[now.part] = segment if now.actual is None else segment.take(now.actual)

@@ -13,8 +13,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fairness import combs, inflections
 from assoc_hull.geometry.spline import evaluate
 from assoc_hull.plot.drawing import DrawnLine, Sketchable, drawing
+from assoc_hull.plot.paper import PaperName, Pen
 from assoc_hull.plot.pens import HEAVY, TINT
-from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
+from assoc_hull.plot.sheet import Path_, Sheet, save
 from assoc_hull.plot.view import scale_of
 
 if TYPE_CHECKING:
@@ -155,8 +156,8 @@ def _panel(sheet: Sheet, comb: _Comb, top: float, tall: float, given: float | No
     cut = _draw(sheet, comb, origin, unit, high, _CUT * _HIGH * room)
     bends = len(comb.inflections)
     words = (
-        f"1:{denominator:g};  tooth of 10 mm: curvature {per_ten:g} 1/m, radius {1.0 / per_ten:.4g} m;"
-        f"  {bends} inflection{'' if bends == 1 else 's'} (dots)"
+        f"1:{denominator:g};  tooth of 10 mm: curvature {per_ten:g} 1/m, "
+        f"radius {1.0 / per_ten:.4g} m;  {bends} inflection{'' if bends == 1 else 's'} (dots)"
         + (f";  {cut} longer teeth are cut" if cut else "")
     )
     left = _MARGIN * factor

@@ -11,8 +11,9 @@ from assoc_hull.plot.block import caption, frame, title_block
 from assoc_hull.plot.drawing import Drawing, DrawnLine, Sketchable, drawing
 from assoc_hull.plot.layout import BLOCK, MARGIN, place_body
 from assoc_hull.plot.movement import LEAST, LineMovement, moved_parts, movements, same
+from assoc_hull.plot.paper import PaperName, Pen
 from assoc_hull.plot.pens import BEFORE, TINT
-from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
+from assoc_hull.plot.sheet import Path_, Sheet, save
 from assoc_hull.plot.view import View, scale_of
 from assoc_hull.plot.views import Views, body_halves
 

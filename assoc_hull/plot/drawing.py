@@ -1,6 +1,6 @@
-"""What is drawn of a hull: its lines as polylines, and who drives whom.
+"""What is drawn of a hull: its lines as polylines, and where they cross.
 
-The one place in this package that reads a hull's tables. Everything given out is frozen, so
+The one place in this package that reads a hull's tables, but for `links`. Everything given out is frozen, so
 a drawing is also a snapshot: it stays as it is while the hull is edited.
 
 Examples
@@ -14,8 +14,6 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import attrs
 import numpy as np
 
@@ -28,17 +26,7 @@ from assoc_hull.model.family import FAMILIES, BoundaryKind
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.state import HullState, Particulars
 
-__all__ = [
-    "Crossings",
-    "Drawing",
-    "DrawnLine",
-    "Link",
-    "Node",
-    "Sketchable",
-    "drawing",
-    "links",
-    "state_of",
-]
+__all__ = ["Crossings", "Drawing", "DrawnLine", "Sketchable", "drawing", "state_of"]
 
 _CHORDS = 8
 """Chords that stand for one segment of a line, and four times as many for a boundary."""
@@ -223,58 +211,3 @@ def _curves(state: HullState, line: int) -> list[int]:
 def _short(name: str, prefix: str) -> str:
     found = name.removeprefix(prefix).strip() if prefix else name
     return found or name
-
-
-@attrs.frozen
-class Node:
-    """A curve in the network: its name, the family, and where its plane lies (m)."""
-
-    name: str
-    family: str
-    offset: float
-
-
-@attrs.frozen
-class Link:
-    """That one curve makes another through some crossings.
-
-    Attributes
-    ----------
-    tail, head : Node
-        What drives, and what is made from it.
-    driven, shared : int
-        Crossings at which the tail drives the head, and those that define both.
-    """
-
-    tail: Node
-    head: Node
-    driven: int
-    shared: int
-
-
-def links(hull: Hull | HullState) -> tuple[Link, ...]:
-    """Give who drives whom, by crossings; a pair with shared crossings comes once each way."""
-    state = state_of(hull)
-    book = AddressBook(state)
-    node: dict[int, Node] = {}
-    for curve in state.live("curves").tolist():
-        line = state.line_of(curve)
-        offset = float(state.lines.offset.data[line])
-        node[curve] = Node(book.curve_name(curve), state.family(line).name, offset)
-    counts: dict[tuple[int, int], list[int]] = {}
-    for tail, head, shared in _links(state):
-        counts.setdefault((tail, head), [0, 0])[shared] += 1
-    return tuple(Link(node[a], node[b], *count) for (a, b), count in sorted(counts.items()))
-
-
-def _links(state: HullState) -> Iterator[tuple[int, int, int]]:
-    """Give tail, head, and whether the crossing is shared, for each crossing that counts."""
-    table = state.rows
-    for row in state.live("rows").tolist():
-        driver = int(table.driver.data[row])
-        readers = [int(reader) for reader in table.reader.data[row] if reader >= 0]
-        if driver >= 0:
-            yield from ((driver, reader, 0) for reader in readers)
-        elif len(readers) == 2:
-            yield (*readers, 1)
-            yield (readers[1], readers[0], 1)

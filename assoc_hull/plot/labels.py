@@ -1,26 +1,18 @@
-"""Labels that stay clear of one another: on rails beside a view, and on the lines themselves."""
+"""Labels on the lines themselves, where there is room; the others in a row above."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.plot.sheet import Pen, Sheet
-from assoc_hull.plot.spread import spread
+from assoc_hull.plot.rails import overlaps, rail
+from assoc_hull.plot.sheet import Sheet
 
-if TYPE_CHECKING:
-    from matplotlib.text import Text
+__all__ = ["Lettered", "label_above", "label_lines", "resample"]
 
-__all__ = ["Lettered", "Side", "label_above", "label_lines", "overlaps", "rail", "resample"]
-
-Side = Literal["left", "right", "below", "above"]
-
-_LEADER = Pen(0.07, "0.45", over=1.5)
-_GAP, _GAP_ALONG = 0.35, 0.9  # mm at A3 between two labels above, and beside one another
 _STEP = 1.2  # mm between two places where a label may lie on a line
 _CLEAR = 0.5  # least distance (label heights) of another line from the middle of a label
 _FREE = 1.0  # beyond this distance (label heights) more room is no gain
@@ -36,88 +28,6 @@ class Lettered:
     label: str
     points: FloatArray
     name: str = ""
-
-
-def rail(
-    sheet: Sheet,
-    anchors: FloatArray,
-    words: Sequence[str],
-    side: Side,
-    at: float,
-    *,
-    upright: bool = False,
-    heading: str = "",
-    name: str = "label",
-) -> None:
-    """Write labels in a row beside a view, each with a leader to what it names.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        Where to draw.
-    anchors : (k, 2), mm
-        Where the named lines end.
-    words : sequence of k str
-        The labels.
-    side : "left", "right", "below" or "above"
-        On which side of the view the row lies.
-    at : float, mm
-        Where the row begins: its edge toward the view.
-    upright : bool
-        Whether the words run upward.
-    heading : str
-        Written before the row.
-    name : str
-        Begins the ids of the labels.
-    """
-    if not len(words):
-        return
-    along = 1 if side in ("left", "right") else 0
-    texts = [_write(sheet, side, at, upright, each, f"{name}/{each}") for each in words]
-    boxes = np.array([sheet.box(text) for text in texts])
-    size = boxes[:, along + 2] - boxes[:, along]
-    gap = _GAP if upright or along else _GAP_ALONG
-    place = spread(anchors[:, along], size, gap * sheet.paper.factor)
-    shift = place - 0.5 * (boxes[:, along + 2] + boxes[:, along])
-    for text, anchor, middle, move in zip(texts, anchors, place, shift, strict=True):
-        x, y = text.get_position()
-        text.set_position((x + move, y) if along == 0 else (x, y + move))
-        sheet.take(text)
-        end = (middle, at) if along == 0 else (at, middle)
-        sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
-    if heading:
-        _head(sheet, _write(sheet, side, at, False, heading, f"{name}/heading"), place, size)
-
-
-def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> None:
-    """Put the heading of a row before it; after it where the space before is taken."""
-    off = 1.2 * sheet.paper.factor
-    ends = float((place - 0.5 * size).min()) - off, float((place + 0.5 * size).max()) + off
-    for x, across in zip(ends, ("right", "left"), strict=True):
-        title.set_position((x, title.get_position()[1]))
-        title.set_horizontalalignment(across)
-        if not overlaps(sheet.box(title), sheet.taken):
-            break
-    sheet.take(title)
-
-
-def _write(sheet: Sheet, side: Side, at: float, upright: bool, words: str, name: str) -> Text:
-    off = 0.3 * sheet.paper.factor
-    angle = 90.0 if upright else 0.0
-    if side == "left":
-        return sheet.text((at - off, 0.0), words, across="right", name=name)
-    if side == "right":
-        return sheet.text((at + off, 0.0), words, across="left", name=name)
-    up: Literal["top", "bottom"] = "top" if side == "below" else "bottom"
-    place = (0.0, at - off if side == "below" else at + off)
-    return sheet.text(place, words, up=up, angle=angle, name=name)
-
-
-def _leader(anchor: FloatArray, end: tuple[float, float], along: int) -> FloatArray:
-    """Straight on from the line for a third of the way, then to the label."""
-    knee = np.array(anchor, np.float64)
-    knee[1 - along] += 0.3 * (end[1 - along] - anchor[1 - along])
-    return np.array([anchor, knee, end])
 
 
 def label_lines(
@@ -213,7 +123,8 @@ def _courses(sheet: Sheet, lines: Sequence[Lettered]) -> tuple[list[FloatArray],
     every = np.concatenate(courses)
     owner = np.repeat(np.arange(len(courses)), [len(course) for course in courses])
     near = min(_NEIGHBOURS, len(every))
-    distance, index = cKDTree(every).query(every, k=[*range(1, near + 1)])
+    found, index = cKDTree(every).query(every, k=[*range(1, near + 1)])
+    distance = np.asarray(found)
     distance[owner[index] == owner[:, None]] = np.inf
     room = np.minimum(distance.min(axis=1), _FAR * sheet.paper.factor)
     return courses, np.split(room, np.cumsum([len(course) for course in courses])[:-1])
@@ -256,17 +167,3 @@ def _around(place: FloatArray, width: float, height: float, angle: float) -> Flo
     cosine, sine = abs(np.cos(turn)), abs(np.sin(turn))
     half = 0.5 * np.array([width * cosine + height * sine, width * sine + height * cosine])
     return np.concatenate([place - half, place + half])
-
-
-def overlaps(box: FloatArray, taken: Sequence[FloatArray], slack: float = 0.15) -> bool:
-    """Tell whether a box comes within `slack` (mm) of one of others."""
-    if not taken:
-        return False
-    others = np.array(taken)
-    apart = (
-        (others[:, 0] > box[2] + slack)
-        | (others[:, 2] < box[0] - slack)
-        | (others[:, 1] > box[3] + slack)
-        | (others[:, 3] < box[1] - slack)
-    )
-    return not bool(apart.all())

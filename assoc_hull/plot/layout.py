@@ -7,7 +7,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.drawing import Drawing
-from assoc_hull.plot.sheet import Paper
+from assoc_hull.plot.paper import Paper
 from assoc_hull.plot.view import View, scale_of
 
 __all__ = ["Layout", "lay_out", "place_body"]

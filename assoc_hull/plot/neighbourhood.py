@@ -14,15 +14,20 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.state import HullState
-from assoc_hull.plot.drawing import Link, Node, links
+from assoc_hull.plot.links import Link, Node, links
+from assoc_hull.plot.paper import PaperName, Pen
 from assoc_hull.plot.pens import FAMILY_COLOURS
 from assoc_hull.plot.ranks import MARGIN, TALL, WIDE, stand
-from assoc_hull.plot.sheet import PaperName, Path_, Pen, Sheet, save
+from assoc_hull.plot.sheet import Path_, Sheet, save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["neighbourhood"]
+
+
+_BOTH = "black"
+_PART = 0.35  # how far arrows part at the node in the middle, as a part of their distances
 
 
 @attrs.frozen
@@ -62,8 +67,9 @@ def neighbourhood(
     -------
     matplotlib.figure.Figure
         The curve stands in the middle, the others farther out by hops, each family on one
-        side. An arrow runs from what drives to what is made
-        from it, with the number of crossings; where crossings are shared it has two heads.
+        side. An arrow runs from what drives to what is made from it, with the number of
+        crossings, in the colour of the driver's family; where either drives the other it is
+        black and has two heads.
 
     Raises
     ------
@@ -91,7 +97,7 @@ def neighbourhood(
     for edge in edges:
         _draw_edge(sheet, edge, centre, place)
     for node in sorted(nodes, key=lambda each: each.name):
-        _draw_node(sheet, node, place[node], node == centre)
+        _draw_node(sheet, node, centre, place)
     _legend(sheet, centre, edges, place)
     if path is not None:
         save(sheet.figure, path)
@@ -161,24 +167,34 @@ def _sides(nodes: Sequence[Node]) -> dict[str, int]:
     return side
 
 
-def _draw_node(sheet: Sheet, node: Node, place: FloatArray, centre: bool) -> None:
-    half = 0.5 * np.array([WIDE, TALL]) * sheet.paper.factor
-    corners = place + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
+def _half_height(node: Node, centre: Node, place: dict[Node, FloatArray], factor: float) -> float:
+    """Give half the height of a node (mm): that in the middle is tall, so that arrows part."""
+    if node != centre:
+        return 0.5 * TALL * factor
+    reach = max(abs(float(at[1] - place[centre][1])) for at in place.values())
+    return 0.5 * TALL * factor + _PART * reach
+
+
+def _draw_node(sheet: Sheet, node: Node, centre: Node, place: dict[Node, FloatArray]) -> None:
+    middle, chosen = place[node], node == centre
+    high = _half_height(node, centre, place, sheet.paper.factor)
+    half = np.array([0.5 * WIDE * sheet.paper.factor, high])
+    corners = middle + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
     colour = FAMILY_COLOURS[node.family]
-    fill = colour if centre else "white"
+    fill = colour if chosen else "white"
     sheet.axes.fill(corners[:, 0], corners[:, 1], color=fill, linewidth=0.0, zorder=3.0)
     sheet.line(corners, Pen(0.25, colour, over=3.5), f"node/{node.name}")
     text = sheet.text(
-        (float(place[0]), float(place[1])), node.name, up="center",
-        colour="white" if centre else "black", bold=centre, name=f"label/node/{node.name}",
+        (float(middle[0]), float(middle[1])), node.name, size=1.4 if chosen else 1.0,
+        colour="white" if chosen else "black", bold=chosen, name=f"label/node/{node.name}",
     )  # fmt: skip
     sheet.take(text)
 
 
 def _draw_edge(sheet: Sheet, edge: _Edge, centre: Node, place: dict[Node, FloatArray]) -> None:
-    """Draw an arrow between the sides of two nodes, with the number of crossings at its far end."""
-    start, end = _ports(place[edge.tail], place[edge.head], sheet.paper.factor)
-    colour = FAMILY_COLOURS[edge.tail.family]
+    """Draw an arrow between two nodes, with the number of crossings at its far end."""
+    start, end = _ports(edge, centre, place, sheet.paper.factor)
+    colour = _BOTH if edge.both else FAMILY_COLOURS[edge.tail.family]
     pen = Pen(0.12, colour, over=2.0)
     name = f"edge/{edge.tail.name} - {edge.head.name}"
     sheet.arrow((start[0], start[1]), (end[0], end[1]), pen, name, both=edge.both)
@@ -191,13 +207,18 @@ def _draw_edge(sheet: Sheet, edge: _Edge, centre: Node, place: dict[Node, FloatA
     )  # fmt: skip
 
 
-def _ports(tail: FloatArray, head: FloatArray, factor: float) -> tuple[FloatArray, FloatArray]:
+def _ports(
+    edge: _Edge, centre: Node, place: dict[Node, FloatArray], factor: float
+) -> tuple[FloatArray, FloatArray]:
     """Give where an arrow leaves one node and meets the other: at their facing sides."""
-    half = np.array([0.5 * WIDE * factor, 0.0])
-    side = np.sign(head[0] - tail[0])
-    if side == 0.0:
-        return tail + half, head + half
-    return tail + side * half, head - side * half
+    tail, head = place[edge.tail], place[edge.head]
+    side = np.sign(head[0] - tail[0]) or 1.0
+    out = np.array([0.5 * WIDE * factor * side, 0.0])
+    found = [tail + out, head - out if head[0] != tail[0] else head + out]
+    for i, node in enumerate((edge.tail, edge.head)):
+        if node == centre:
+            found[i] = found[i] + np.array([0.0, _PART * float(found[1 - i][1] - found[i][1])])
+    return found[0], found[1]
 
 
 def _legend(
@@ -213,13 +234,14 @@ def _legend(
     sheet.text((left, top), title, size=2.0, bold=True, across="left", up="top", name="label/title")
     words = (
         f"{into} drive it, {out} are driven by it, with {shared} it drives both ways. "
-        "Arrows run from driver to driven; the number is that of crossings."
+        "Arrows run from driver to driven, black ones both ways; the number is that of crossings."
     )
     low = top - 6.0 * factor
     sheet.text((left, low), words, size=1.1, across="left", up="top", name="label/legend")
     heads: dict[tuple[str, float], float] = {}
     for node, (x, y) in place.items():
         heads[node.family, float(x)] = max(float(y), heads.get((node.family, float(x)), 0.0))
+    heads.pop((centre.family, float(place[centre][0])))
     for (family, x), y in heads.items():
         sheet.text(
             (x, y + 0.5 * TALL * factor + 0.8 * factor), family, size=1.1, bold=True, up="bottom",

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.plot.drawing import DrawnLine
-from assoc_hull.plot.sheet import Pen
+from assoc_hull.plot.paper import Pen
 
 __all__ = [
     "AXIS", "BEFORE", "FAMILY_COLOURS", "FRAME", "GRID", "HEAVY", "LINE", "TINT", "WATER", "pen_of",

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.sheet import Paper
+from assoc_hull.plot.paper import Paper
 
 __all__ = ["MARGIN", "TALL", "WIDE", "stand"]
 

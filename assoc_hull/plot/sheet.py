@@ -8,102 +8,25 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.plot.paper import POINT, Pen, paper_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.text import Text
 
-__all__ = ["PAPERS", "Paper", "PaperName", "Pen", "Sheet", "paper_of", "require_matplotlib", "save"]
-
-POINT = 25.4 / 72.0
-"""Millimetres in a typographic point."""
+__all__ = ["Path_", "Sheet", "require_matplotlib", "save"]
 
 _FONT = "DejaVu Sans"  # comes with matplotlib: the same letters on every machine
 _FORMATS = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}
 
 Path_ = str | os.PathLike[str]
-PaperName = Literal["A1", "A3", "A4"]
-
-
-@attrs.frozen
-class Paper:
-    """A size of paper, landscape, mm, and of the letters on it, points.
-
-    Attributes
-    ----------
-    name : str
-        A1, A3, A4.
-    width, height : float, mm
-        Of the sheet.
-    letter : float, points
-        Size of the letters of labels.
-    dots : int
-        Dots per inch of a PNG.
-    """
-
-    name: str
-    width: float
-    height: float
-    letter: float
-    dots: int
-
-    @property
-    def factor(self) -> float:
-        """How much wider spaces are than on A3."""
-        return self.letter / 5.0
-
-
-PAPERS = {
-    paper.name: paper
-    for paper in (
-        Paper("A1", 841.0, 594.0, 8.0, 120),
-        Paper("A3", 420.0, 297.0, 5.0, 200),
-        Paper("A4", 297.0, 210.0, 5.0, 200),
-    )
-}
-
-
-@attrs.frozen
-class Pen:
-    """How a line is drawn.
-
-    Attributes
-    ----------
-    width : float, mm
-        At A3; wider on larger paper.
-    colour : str
-        As matplotlib names colours.
-    dash : tuple of float, mm
-        Lengths drawn and left out, in turn; empty for a full line.
-    over : float
-        Lines of higher numbers lie over those of lower ones.
-    """
-
-    width: float
-    colour: str = "black"
-    dash: tuple[float, ...] = ()
-    over: float = 2.0
-
-
-def paper_of(name: str) -> Paper:
-    """Give a size of paper.
-
-    Raises
-    ------
-    BadInputError
-        An unknown name.
-    """
-    if name not in PAPERS:
-        known = ", ".join(PAPERS)
-        raise BadInputError(f"the paper {name!r} was asked", "in a picture", f"use one of {known}")
-    return PAPERS[name]
 
 
 def require_matplotlib() -> None:
@@ -149,7 +72,7 @@ class Sheet:
         self.paper = size if height is None else attrs.evolve(size, height=height)
         inches = (self.paper.width / 25.4, self.paper.height / 25.4)
         self.figure: Figure = Figure(figsize=inches, dpi=self.paper.dots, facecolor="white")
-        self._renderer = FigureCanvasAgg(self.figure).get_renderer()
+        self._renderer = FigureCanvasAgg(self.figure).get_renderer()  # type: ignore[no-untyped-call]
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set_xlim(0.0, self.paper.width)
         self.axes.set_ylim(0.0, self.paper.height)
@@ -201,7 +124,8 @@ class Sheet:
         from matplotlib.patches import FancyArrowPatch
 
         patch = FancyArrowPatch(
-            start, end, arrowstyle="<|-|>" if both else "-|>", color=pen.colour, shrinkA=0.0, shrinkB=0.0,
+            start, end, arrowstyle="<|-|>" if both else "-|>", color=pen.colour,
+            shrinkA=0.0, shrinkB=0.0,
             linewidth=pen.width * self.paper.factor / POINT, mutation_scale=self.paper.letter,
             zorder=pen.over, gid=name or None,
         )  # fmt: skip
@@ -280,14 +204,16 @@ def save(figure: Figure, path: Path_) -> None:
         raise BadInputError(
             f"the ending {suffix!r} was asked", f"for {path}", f"use one of {', '.join(_FORMATS)}"
         )
-    fixed = {"svg.hashsalt": "assoc-hull", "svg.fonttype": "path", "pdf.fonttype": 42}
-    with matplotlib.rc_context({**fixed, "savefig.bbox": None, "savefig.dpi": "figure"}):
-        more = {"pil_kwargs": {"compress_level": 3}} if suffix == ".png" else {}
+    fixed: dict[Any, Any] = {
+        "svg.hashsalt": "assoc-hull", "svg.fonttype": "path", "pdf.fonttype": 42,
+        "savefig.bbox": None, "savefig.dpi": "figure",
+    }  # fmt: skip
+    more: dict[str, Any] = {"pil_kwargs": {"compress_level": 3}} if suffix == ".png" else {}
+    with matplotlib.rc_context(fixed):
         try:
             figure.savefig(os.fspath(path), format=suffix[1:], metadata=_FORMATS[suffix], **more)
         except OSError as trouble:
+            why = trouble.strerror or trouble
             raise BadInputError(
-                f"the file cannot be written ({trouble.strerror})",
-                f"at {path}",
-                "name another place",
+                f"the file cannot be written ({why})", f"at {path}", "name another place"
             ) from None

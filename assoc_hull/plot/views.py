@@ -1,4 +1,4 @@
-"""The contents of the three views: lines, straight grid, and the labels of both."""
+"""The lines of the three views, and their labels."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.drawing import Drawing, DrawnLine
-from assoc_hull.plot.labels import Lettered, Side, label_above, label_lines, rail
-from assoc_hull.plot.pens import AXIS, GRID, HEAVY, WATER, pen_of
-from assoc_hull.plot.sheet import Pen, Sheet
+from assoc_hull.plot.grid import Grid
+from assoc_hull.plot.labels import Lettered, label_above, label_lines
+from assoc_hull.plot.paper import Pen
+from assoc_hull.plot.pens import pen_of
+from assoc_hull.plot.rails import rail
+from assoc_hull.plot.sheet import Sheet
 from assoc_hull.plot.view import View
 
 __all__ = ["Views", "body_halves"]
-
-_OVER = 1.6
-"""How far grid lines reach beyond the hull, mm at A3."""
 
 _NEAR = 1e-6
 """Planes within this distance (m) are the same."""
@@ -46,14 +46,14 @@ class Views:
     tinted: Collection[str] = ()
 
     @property
-    def over(self) -> float:
-        """How far grid lines reach beyond the hull, mm."""
-        return _OVER * self.sheet.paper.factor
+    def grid(self) -> Grid:
+        """Draws the straight lines."""
+        return Grid(self.sheet, self.drawing, self.low, self.high)
 
     @property
     def sections(self) -> tuple[DrawnLine, ...]:
         """The sections; the frames of a hull that has no sections."""
-        return self.drawing.of("sections") or self.drawing.of("frames")
+        return self.grid.sections
 
     @property
     def middle(self) -> float:
@@ -70,9 +70,9 @@ class Views:
 
     def profile(self, view: View) -> None:
         """Draw the sheer plan: buttocks and boundaries over stations and waterlines."""
-        self._stations(view, self.low[2], self.high[2])
-        self._levels(view, self.low[0], self.high[0])
-        self._perpendiculars(view, self.low[2], self.high[2])
+        self.grid.stations(view, self.low[2], self.high[2])
+        self.grid.levels(view, self.low[0], self.high[0])
+        self.grid.perpendiculars(view, self.low[2], self.high[2])
         for line in self.drawing.of("boundary"):
             self.draw(view, line)
         ends, words = [], []
@@ -96,10 +96,10 @@ class Views:
         return float(0.5 * (self.low[2] + self.high[2]))
 
     def half_breadth(self, view: View) -> None:
-        """Draw the half-breadth plan: waterlines and boundaries; diagonals below the centre line."""
-        self._stations(view, 0.0, self.high[1])
-        self._lanes(view, self.low[0], self.high[0])
-        self._perpendiculars(view, 0.0, self.high[1])
+        """Draw the half-breadth plan: waterlines, boundaries; diagonals below the centre line."""
+        self.grid.stations(view, 0.0, self.high[1])
+        self.grid.lanes(view, self.low[0], self.high[0])
+        self.grid.perpendiculars(view, 0.0, self.high[1])
         lettered = []
         for line in (*self.drawing.of("boundary"), *self.drawing.of("waterlines")):
             if line is self.drawing.profile:
@@ -120,7 +120,7 @@ class Views:
 
     def _along_grid(self, line: DrawnLine) -> bool:
         """Whether a line is straight along the ship when seen from above."""
-        return abs(line.normal[1]) == 1.0
+        return bool(abs(line.normal[1]) == 1.0)
 
     def _diagonals(self, view: View) -> None:
         """Draw diagonals in true breadth along their planes, mirrored below."""
@@ -135,7 +135,7 @@ class Views:
 
     def body(self, view: View) -> None:
         """Draw the body plan: aft body on the left, fore body on the right."""
-        self._body_grid(view)
+        self.grid.body(view)
         for mirrored in (True, False):
             half = view.mirrored() if mirrored else view
             self._half_body(half, body_halves(self.sections, self.middle)[0 if mirrored else 1])
@@ -160,8 +160,8 @@ class Views:
         )
         factor = self.sheet.paper.factor
         rail(
-            self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2), [words[i] for i in order],
-            "above", edge + 5.5 * factor, upright=True, heading="ST" if part == "aft" else "",
+            self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2),
+            [words[i] for i in order], "above", edge + 5.5 * factor, upright=True, heading="ST" if part == "aft" else "",
             name=f"label/body/{part}",
         )  # fmt: skip
         low = view.up(self.low[2])
@@ -181,105 +181,6 @@ class Views:
             part = _clip(points, self.middle, view.sign)
             if len(part) > 1:
                 self.sheet.line(view.on_paper(part), pen, f"body/boundary/{line.name}")
-
-    def _body_grid(self, view: View) -> None:
-        factor, breadth = self.sheet.paper.factor, self.high[1]
-        left, right = view.across(-breadth) - self.over, view.across(breadth) + self.over
-        for side, end in (("left", left), ("right", right)):
-            self._level_labels(view, side, end)
-        self._level_lines(view, left, right)
-        low, high = view.up(self.low[2]) - self.over, view.up(self.high[2]) + self.over
-        below = low - 2.0 * factor
-        ends, words = [], []
-        for line in self.drawing.of("buttocks"):
-            for half in (view, view.mirrored()):
-                x = half.across(line.offset)
-                self.sheet.rule((x, low), (x, high), GRID, f"body/grid/{line.name}")
-                ends.append([x, low])
-                words.append(line.label)
-        rail(
-            self.sheet, np.array(ends).reshape(-1, 2), words, "below", below,
-            heading="BTK", name="label/body/buttocks",
-        )  # fmt: skip
-        self.sheet.rule((view.across(0.0), low), (view.across(0.0), high), AXIS, "body/grid/CL")
-        for edge in (-breadth, breadth):
-            self.sheet.rule(
-                (view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side"
-            )
-
-    def _stations(self, view: View, low: float, high: float) -> None:
-        """Draw the sections as upright straight lines, labelled below."""
-        bottom, top = view.up(low) - self.over, view.up(high) + self.over
-        ends = [(view.across(line.offset), bottom) for line in self.sections]
-        for line, (x, _) in zip(self.sections, ends, strict=True):
-            self.sheet.rule((x, bottom), (x, top), GRID, f"{view.name}/grid/{line.name}")
-        words = [line.label for line in self.sections]
-        below = bottom - 2.0 * self.sheet.paper.factor
-        ends_ = np.array(ends).reshape(-1, 2)
-        rail(
-            self.sheet, ends_, words, "below", below,
-            heading="ST", name=f"label/{view.name}/sections",
-        )  # fmt: skip
-
-    def _levels(self, view: View, low: float, high: float) -> None:
-        """Draw the waterlines as level straight lines, labelled at both ends."""
-        left, right = view.across(low) - self.over, view.across(high) + self.over
-        self._level_lines(view, left, right)
-        self._level_labels(view, "left", left)
-        self._level_labels(view, "right", right)
-
-    def _level_lines(self, view: View, left: float, right: float) -> None:
-        for line in self.drawing.of("waterlines"):
-            z = view.up(line.offset)
-            self.sheet.rule((left, z), (right, z), GRID, f"{view.name}/grid/{line.name}")
-        for height, pen in ((0.0, HEAVY), (self.drawing.particulars.draught, WATER)):
-            z = view.up(height)
-            self.sheet.rule(
-                (left, z), (right, z), attrs.evolve(pen, width=0.16), f"{view.name}/grid/"
-            )
-
-    def _level_labels(self, view: View, side: Side, end: float) -> None:
-        """Label waterlines by name on the left; design waterline and base line on the right."""
-        draught = self.drawing.particulars.draught
-        marks = [(0.0, "base line"), (draught, "DWL")]
-        if side == "left":
-            marks = [(line.offset, line.name) for line in self.drawing.of("waterlines")]
-        ends = np.array([(end, view.up(height)) for height, _ in marks]).reshape(-1, 2)
-        off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
-        words = [name for _, name in marks]
-        rail(self.sheet, ends, words, side, end + off, name=f"label/{view.name}/{side}")
-
-    def _lanes(self, view: View, low: float, high: float) -> None:
-        """Draw the buttocks as straight lines along the ship, labelled on the left."""
-        left, right = view.across(low) - self.over, view.across(high) + self.over
-        lines = self.drawing.of("buttocks")
-        for line in lines:
-            y = view.up(line.offset)
-            self.sheet.rule((left, y), (right, y), GRID, f"{view.name}/grid/{line.name}")
-        self.sheet.rule((left, view.up(0.0)), (right, view.up(0.0)), AXIS, f"{view.name}/grid/CL")
-        marks = [(0.0, "CL"), *((line.offset, line.name) for line in lines)]
-        ends = np.array([(left, view.up(offset)) for offset, _ in marks])
-        at = left - 2.5 * self.sheet.paper.factor
-        rail(
-            self.sheet,
-            ends,
-            [name for _, name in marks],
-            "left",
-            at,
-            name=f"label/{view.name}/left",
-        )
-
-    def _perpendiculars(self, view: View, low: float, high: float) -> None:
-        """Draw both perpendiculars and the middle between them, named in a row below."""
-        factor, length = self.sheet.paper.factor, self.drawing.particulars.length
-        bottom, top = view.up(low) - self.over, view.up(high) + self.over
-        for x, words in ((0.0, "AP"), (0.5 * length, "Lpp/2"), (length, "FP")):
-            at = view.across(x)
-            self.sheet.rule((at, bottom), (at, top), AXIS, f"{view.name}/grid/{words}")
-            text = self.sheet.text(
-                (at, bottom - 5.2 * factor), words, up="top", name=f"label/{view.name}/{words}"
-            )
-            self.sheet.take(text)
 
 
 def body_halves(

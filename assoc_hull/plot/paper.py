@@ -1,0 +1,90 @@
+"""Sizes of paper, and the pens that are used on them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import attrs
+
+from assoc_hull.errors import BadInputError
+
+__all__ = ["PAPERS", "POINT", "Paper", "PaperName", "Pen", "paper_of"]
+
+POINT = 25.4 / 72.0
+"""Millimetres in a typographic point."""
+
+PaperName = Literal["A1", "A3", "A4"]
+
+
+@attrs.frozen
+class Paper:
+    """A size of paper, landscape, mm, and of the letters on it, points.
+
+    Attributes
+    ----------
+    name : str
+        A1, A3, A4.
+    width, height : float, mm
+        Of the sheet.
+    letter : float, points
+        Size of the letters of labels.
+    dots : int
+        Dots per inch of a PNG.
+    """
+
+    name: str
+    width: float
+    height: float
+    letter: float
+    dots: int
+
+    @property
+    def factor(self) -> float:
+        """How much wider spaces are than on A3."""
+        return self.letter / 5.0
+
+
+PAPERS = {
+    paper.name: paper
+    for paper in (
+        Paper("A1", 841.0, 594.0, 8.0, 120),
+        Paper("A3", 420.0, 297.0, 5.0, 200),
+        Paper("A4", 297.0, 210.0, 5.0, 200),
+    )
+}
+
+
+@attrs.frozen
+class Pen:
+    """How a line is drawn.
+
+    Attributes
+    ----------
+    width : float, mm
+        At A3; wider on larger paper.
+    colour : str
+        As matplotlib names colours.
+    dash : tuple of float, mm
+        Lengths drawn and left out, in turn; empty for a full line.
+    over : float
+        Lines of higher numbers lie over those of lower ones.
+    """
+
+    width: float
+    colour: str = "black"
+    dash: tuple[float, ...] = ()
+    over: float = 2.0
+
+
+def paper_of(name: str) -> Paper:
+    """Give a size of paper.
+
+    Raises
+    ------
+    BadInputError
+        An unknown name.
+    """
+    if name not in PAPERS:
+        known = ", ".join(PAPERS)
+        raise BadInputError(f"the paper {name!r} was asked", "in a picture", f"use one of {known}")
+    return PAPERS[name]

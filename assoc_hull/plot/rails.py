@@ -1,0 +1,120 @@
+"""Labels in a row beside a view, moved apart as little as possible, with leaders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.plot.paper import Pen
+from assoc_hull.plot.sheet import Sheet
+from assoc_hull.plot.spread import spread
+
+if TYPE_CHECKING:
+    from matplotlib.text import Text
+
+__all__ = ["Side", "overlaps", "rail"]
+
+Side = Literal["left", "right", "below", "above"]
+
+_LEADER = Pen(0.07, "0.45", over=1.5)
+_GAP, _GAP_ALONG = 0.35, 0.9  # mm at A3 between two labels above, and beside one another
+
+
+def rail(
+    sheet: Sheet,
+    anchors: FloatArray,
+    words: Sequence[str],
+    side: Side,
+    at: float,
+    *,
+    upright: bool = False,
+    heading: str = "",
+    name: str = "label",
+) -> None:
+    """Write labels in a row beside a view, each with a leader to what it names.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Where to draw.
+    anchors : (k, 2), mm
+        Where the named lines end.
+    words : sequence of k str
+        The labels.
+    side : "left", "right", "below" or "above"
+        On which side of the view the row lies.
+    at : float, mm
+        Where the row begins: its edge toward the view.
+    upright : bool
+        Whether the words run upward.
+    heading : str
+        Written before the row.
+    name : str
+        Begins the ids of the labels.
+    """
+    if not len(words):
+        return
+    along = 1 if side in ("left", "right") else 0
+    texts = [_write(sheet, side, at, upright, each, f"{name}/{each}") for each in words]
+    boxes = np.array([sheet.box(text) for text in texts])
+    size = boxes[:, along + 2] - boxes[:, along]
+    gap = _GAP if upright or along else _GAP_ALONG
+    place = spread(anchors[:, along], size, gap * sheet.paper.factor)
+    shift = place - 0.5 * (boxes[:, along + 2] + boxes[:, along])
+    for text, anchor, middle, move in zip(texts, anchors, place, shift, strict=True):
+        x, y = text.get_position()
+        text.set_position((x + move, y) if along == 0 else (x, y + move))
+        sheet.take(text)
+        end = (middle, at) if along == 0 else (at, middle)
+        sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
+    if heading:
+        _head(sheet, _write(sheet, side, at, False, heading, f"{name}/heading"), place, size)
+
+
+def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> None:
+    """Put the heading of a row before it; after it where the space before is taken."""
+    off = 1.2 * sheet.paper.factor
+    ends = float((place - 0.5 * size).min()) - off, float((place + 0.5 * size).max()) + off
+    sides: tuple[Literal["right"], Literal["left"]] = ("right", "left")
+    for x, across in zip(ends, sides, strict=True):
+        title.set_position((x, title.get_position()[1]))
+        title.set_horizontalalignment(across)
+        if not overlaps(sheet.box(title), sheet.taken):
+            break
+    sheet.take(title)
+
+
+def _write(sheet: Sheet, side: Side, at: float, upright: bool, words: str, name: str) -> Text:
+    off = 0.3 * sheet.paper.factor
+    angle = 90.0 if upright else 0.0
+    if side == "left":
+        return sheet.text((at - off, 0.0), words, across="right", name=name)
+    if side == "right":
+        return sheet.text((at + off, 0.0), words, across="left", name=name)
+    up: Literal["top", "bottom"] = "top" if side == "below" else "bottom"
+    place = (0.0, at - off if side == "below" else at + off)
+    return sheet.text(place, words, up=up, angle=angle, name=name)
+
+
+def _leader(anchor: FloatArray, end: tuple[float, float], along: int) -> FloatArray:
+    """Straight on from the line for a third of the way, then to the label."""
+    knee = np.array(anchor, np.float64)
+    knee[1 - along] += 0.3 * (end[1 - along] - anchor[1 - along])
+    return np.array([anchor, knee, end])
+
+
+def overlaps(box: FloatArray, taken: Sequence[FloatArray], slack: float = 0.15) -> bool:
+    """Tell whether a box comes within `slack` (mm) of one of others."""
+    if not taken:
+        return False
+    others = np.array(taken)
+    apart = (
+        (others[:, 0] > box[2] + slack)
+        | (others[:, 2] < box[0] - slack)
+        | (others[:, 1] > box[3] + slack)
+        | (others[:, 3] < box[1] - slack)
+    )
+    return not bool(apart.all())
