@@ -97,7 +97,7 @@ def _values_of(place: str) -> Iterator[None]:
         yield
     except AssocHullError:
         raise
-    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         what = f"these values cannot be used ({type(error).__name__}: {error})"
         raise BadInputError(what, f"in {place}", "mend them") from error
 

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
+from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import Net, Thinned, thin
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
@@ -101,6 +102,7 @@ def adopt(
     thinned = thin(net)
     notes = _write(maker, net, thinned)
     notes += _loft(maker)
+    ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
     return state, AdoptionReport(_report(net, thinned), tuple(notes))
 

@@ -23,7 +23,10 @@ def ride_links(state: HullState, curves: IntArray, journal: Journal) -> None:
         rows: IntArray = state.curves.rows.data[curve]
         adopted = np.flatnonzero(state.rows.sort.data[rows] == Sort.ADOPTED)
         others = np.flatnonzero(state.rows.sort.data[rows] != Sort.ADOPTED)
-        if not len(adopted) or not len(others):
+        if not len(adopted):
+            continue
+        if not len(others):
+            journal.put(state.rows.anchor, rows[adopted], -1)
             continue
         after = np.searchsorted(others, adopted)
         pair = np.column_stack(

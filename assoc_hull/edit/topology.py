@@ -36,12 +36,14 @@ def settle(maker: Maker, alignments: list[Alignment], edited: set[int]) -> Chang
     born: list[str] = []
     gone: list[str] = []
     curves: set[int] = set()
-    for alignment in sorted(alignments, key=lambda each: each.curve):
+    keys = maker.state.curves.key.data
+    ordered = sorted(alignments, key=lambda each: str(keys[each.curve]))
+    for alignment in ordered:
         for row in alignment.gone.tolist():
             if maker.state.rows.alive.data[row] and not _holds(maker.state, row, alignment.curve):
                 gone.append(maker.state.rows.key.data[row])
                 curves |= _remove(maker, row)
-    for alignment in sorted(alignments, key=lambda each: each.curve):
+    for alignment in ordered:
         for spot in alignment.come.tolist():
             row = bear(maker, alignment.curve, spot, edited)
             if row is not None:
@@ -124,7 +126,7 @@ def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> floa
         places.append(meets.xyz[spot])
         slopes.append(_tangent(state, curve, float(meets.parameter[spot])))
     normal = crossing_normals(slopes[0][None], slopes[1][None])[0]
-    return abs(float((places[0] - places[1]) @ normal))
+    return abs(float(((places[0] - places[1]) * normal).sum()))
 
 
 def _tangent(state: HullState, curve: int, at: float) -> FloatArray:
@@ -178,11 +180,18 @@ def _role(
     )
 
 
+def _spot(state: HullState, row: int, side: int) -> FloatArray:
+    """Give where a crossing lies on a curve: its one value, unless it is watched."""
+    watched = state.rows.role.data[row] == Role.WATCHED
+    spot: FloatArray = state.rows.spot.data[row, side] if watched else state.rows.xyz.data[row]
+    return spot
+
+
 def role_by_rule(state: HullState, row: int) -> Role:
     """Give the role that the rule chooses for a crossing, the rest of its curves as it is."""
     a, b = state.rows.curve.data[row].tolist()
     places = [
-        float(closest(state.spline(curve), 0, state.rows.spot.data[row, [side]])[0][0])
+        float(closest(state.spline(curve), 0, _spot(state, row, side)[None])[0][0])
         for side, curve in enumerate((a, b))
     ]
     lines = state.line_of(a), state.line_of(b)
@@ -204,7 +213,7 @@ def _may_define(state: HullState, curve: int, partner: int, at: float, row: int 
     slopes = tangents(state, np.full(len(places), curve), places)
     fixed = np.ones(len(places), bool)
     fixed[position] = False
-    sine = abs(float(slopes[position] @ state.lines.normal.data[partner]))
+    sine = abs(float((slopes[position] * state.lines.normal.data[partner]).sum()))
     angle = np.full(len(places), 90.0)
     angle[position] = float(np.degrees(np.arcsin(min(1.0, sine))))
     return bool(choose(Candidates(places, angle, slopes, fixed), state.tolerances)[position])

@@ -119,7 +119,7 @@ class LineSource:
 
 def _points(points: ArrayLike, where: str) -> FloatArray:
     try:
-        xyz = np.array(points, np.float64)
+        xyz = np.array(points, np.float64) + 0.0
     except (TypeError, ValueError) as error:
         raise BadInputError("the points are not numbers", where, "give an (n, 3) array") from error
     if xyz.ndim != 2 or xyz.shape[1] != 3:

@@ -1,0 +1,39 @@
+"""From nothing to the first re-loft, in new processes, against importing numpy alone."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from time import perf_counter
+
+from benchmarks.clock import Figure
+
+__all__ = ["figures"]
+
+BARE = "import numpy"
+FIRST = """
+import assoc_hull
+from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.crossing import meet_planes
+from benchmarks.full_reloft import kernel
+from benchmarks.shape import shape
+"""
+"""The first re-loft is that of the benchmark net; its lines are made here too."""
+
+
+def figures(quick: bool = False) -> list[Figure]:
+    """Measure."""
+    jobs = {"numpy": BARE, "first": FIRST + "kernel(shape())()", "package": "import assoc_hull"}
+    times: dict[str, list[float]] = {name: [] for name in jobs}
+    for _ in range(7 if quick else 25):
+        for name, code in jobs.items():
+            begin = perf_counter()
+            subprocess.run([sys.executable, "-c", code], check=True)  # noqa: S603
+            times[name].append(perf_counter() - begin)
+    numpy, first, package = (sorted(taken)[len(taken) // 2] for taken in times.values())
+    return [
+        Figure("start: import numpy", 1e3 * numpy, "ms"),
+        Figure("start: import assoc_hull", 1e3 * package, "ms"),
+        Figure("start: import and first re-loft", 1e3 * first, "ms"),
+        Figure("start: import and first re-loft / numpy", first / numpy, goal=2.5, sense="most"),
+    ]

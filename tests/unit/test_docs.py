@@ -1,0 +1,95 @@
+"""The documentation: its code runs and prints what it shows, its links lead somewhere."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import assoc_hull as ah
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
+PAGES += sorted((ROOT / "docs").glob("*.md"))
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+FENCE = re.compile(r"```.*?```", re.DOTALL)
+LARGEST_IMAGE = 150_000
+
+
+def _blocks() -> ModuleType:
+    """`docs/blocks.py`; the folder is no package."""
+    spec = importlib.util.spec_from_file_location("blocks", ROOT / "docs" / "blocks.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+BLOCKS = _blocks()
+
+
+def _name(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
+
+
+def _headings(page: Path) -> set[str]:
+    """The anchors of a page, as the usual renderers of Markdown make them."""
+    lines = FENCE.sub("", page.read_text("utf-8")).splitlines()
+    titles = [line.lstrip("#").strip() for line in lines if re.match(r"#+ ", line)]
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.fixture
+def ready_made(
+    series60_70: ah.Hull, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Path:
+    """A folder to work in; Series 60 CB 0.70 is opened there, not made again for each page."""
+    saved = tmp_path / "made.hull.json"
+    series60_70.save(saved)
+    make = ah.examples.series60
+
+    def series60(cb: float = 0.70) -> ah.Hull:
+        return ah.open(saved) if cb == 0.70 else make(cb)
+
+    monkeypatch.setattr(ah.examples, "series60", series60)
+    folder = tmp_path / "page"
+    folder.mkdir()
+    return folder
+
+
+@pytest.mark.parametrize("page", BLOCKS.pages(), ids=_name)
+def test_code_runs_and_prints_what_the_page_shows(page: Path, ready_made: Path) -> None:
+    """Each block runs after those before it; `python docs/blocks.py` renews what is shown."""
+    for block, printed in BLOCKS.run(page, ready_made):
+        if block["shown"] is not None:
+            assert printed == block["shown"], block["code"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=_name)
+def test_links_lead_somewhere(page: Path) -> None:
+    """A link within the repository leads to a file, and its anchor to a heading there."""
+    broken = []
+    for target in LINK.findall(FENCE.sub("", page.read_text("utf-8"))):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = page if not path else (page.parent / path).resolve()
+        if not file.exists() or (anchor and anchor not in _headings(file)):
+            broken.append(target)
+    assert broken == []
+
+
+def test_every_picture_is_shown_and_small() -> None:
+    """No picture lies about that no page shows, and none weighs more than 150 kB."""
+    shown = {
+        (page.parent / target).resolve()
+        for page in PAGES
+        for target in LINK.findall(page.read_text("utf-8"))
+    }
+    pictures = sorted((ROOT / "docs" / "images").iterdir())
+    assert [path.name for path in pictures if path.resolve() not in shown] == []
+    assert [path.name for path in pictures if path.stat().st_size > LARGEST_IMAGE] == []
