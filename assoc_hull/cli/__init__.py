@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 
 from assoc_hull.cli.parser import make_parser
@@ -60,7 +61,9 @@ def _run(argv: Sequence[str] | None) -> int:
         arguments = make_parser().parse_args(argv)
     except SystemExit as done:  # --help and --version
         return int(done.code or 0)
-    code: int = arguments.run(arguments)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the one line on standard error says what is wrong
+        code: int = arguments.run(arguments)
     return code
 
 

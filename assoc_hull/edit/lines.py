@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.keep import deviation
+from assoc_hull.edit.keep import drift
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import NameTakenError, TooFewPointsError
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, IntArray
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.family import Sort
@@ -103,24 +104,29 @@ def prune(edit: Transaction, curve: int, points: IntArray) -> None:
     state = edit.state
     published = state.spline(curve)
     rows: IntArray = state.curves.rows.data[curve]
+    known = np.array(published.knot)
+    if len(known) != len(rows):
+        known = np.array(closest(published, 0, state.rows.xyz.data[rows])[0])
     inner = rows[1:-1]
     inner = inner[np.isin(inner, points)]
     for row in inner[state.rows.kind.data[inner, 0] == 0].tolist():
         data = curve_data(state, np.array([curve]))
-        at = int(np.flatnonzero(state.curves.rows.data[curve] == row)[0])
+        place = int(np.flatnonzero(state.curves.rows.data[curve] == row)[0])
         if data.start[1] < 4:
             return
         trial = loft(
             CurveData(
                 data.start - np.array([0, 1]),
-                np.delete(data.xyz, at, axis=0),
-                np.delete(data.kind, at),
-                np.delete(data.direction, at, axis=0),
+                np.delete(data.xyz, place, axis=0),
+                np.delete(data.kind, place),
+                np.delete(data.direction, place, axis=0),
                 data.end_kind.copy(),
                 data.end_vector.copy(),
             )
         )
-        if float(deviation(published, trial)[0]) <= state.tolerances.prune:
+        at = np.delete(known, place)
+        if float(drift(published, trial, at)[0]) <= state.tolerances.prune:
+            known = at
             kept: IntArray = state.curves.rows.data[curve]
             edit.maker.define(curve, kept[kept != row])
             edit.maker.remove_rows([row])

@@ -15,7 +15,12 @@ from assoc_hull.model.make import CrossingSpec, Maker
 from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["Change", "bear", "generates", "role_by_rule", "settle", "unmeet"]
+__all__ = [
+    "Change", "bear", "generates", "latent_meetings", "role_by_rule", "settle", "unmeet",
+]  # fmt: skip
+
+_ONE_PLACE = 2.0
+"""Meetings farther apart than this (m) are not one place, whatever the gap between them."""
 
 
 @attrs.frozen
@@ -27,28 +32,46 @@ class Change:
     curves: tuple[int, ...]
 
 
-def settle(maker: Maker, alignments: list[Alignment], edited: set[int]) -> Change:
+def latent_meetings(state: HullState, curves: IntArray) -> list[tuple[int, int]]:
+    """Give the meetings of curves at which the other line did not pass so far.
+
+    Returns
+    -------
+    list of (int, int)
+        Curve, and index of the meeting on it.
+    """
+    met = [state.curves.meets.data[curve].row for curve in curves.tolist()]
+    if not met or np.concatenate(met).min(initial=0) >= 0:
+        return []
+    return [
+        (curve, spot)
+        for curve, row in zip(curves.tolist(), met, strict=True)
+        for spot in np.flatnonzero(row < 0).tolist()
+    ]
+
+
+def settle(
+    maker: Maker, alignments: list[Alignment], latent: list[tuple[int, int]], edited: set[int]
+) -> Change:
     """Take out crossings that have no place any more, and make those that have come.
 
     A crossing exists only where both curves reach each other's plane at one place; where
-    only one does, the relation stays latent.
+    only one does, the relation stays latent, until the curves come near one another there.
     """
     born: list[str] = []
     gone: list[str] = []
     curves: set[int] = set()
     keys = maker.state.curves.key.data
-    ordered = sorted(alignments, key=lambda each: str(keys[each.curve]))
-    for alignment in ordered:
+    for alignment in sorted(alignments, key=lambda each: str(keys[each.curve])):
         for row in alignment.gone.tolist():
             if maker.state.rows.alive.data[row] and not _holds(maker.state, row, alignment.curve):
                 gone.append(maker.state.rows.key.data[row])
                 curves |= _remove(maker, row)
-    for alignment in ordered:
-        for spot in alignment.come.tolist():
-            row = bear(maker, alignment.curve, spot, edited)
-            if row is not None:
-                born.append(maker.state.rows.key.data[row])
-                curves |= {int(each) for each in maker.state.rows.reader.data[row] if each >= 0}
+    for curve, spot in sorted(latent, key=lambda each: (str(keys[each[0]]), each[1])):
+        row = bear(maker, curve, spot, edited)
+        if row is not None:
+            born.append(maker.state.rows.key.data[row])
+            curves |= {int(each) for each in maker.state.rows.reader.data[row] if each >= 0}
     return Change(tuple(sorted(born)), tuple(sorted(gone)), tuple(sorted(curves)))
 
 
@@ -107,26 +130,30 @@ def bear(
     if meets.row[spot] >= 0:
         return None
     best: tuple[float, int, int] | None = None
+    least = 0.0
     for other in state.lines.curves.data[int(meets.line[spot])]:
         theirs: Meets = state.curves.meets.data[other]
         free = np.flatnonzero((theirs.line == state.line_of(curve)) & (theirs.row < 0))
         for there in free.tolist():
-            gap = _gap(state, (curve, spot), (other, there))
-            if gap <= 2.0 * state.tolerances.adoption and (best is None or gap < best[0]):
-                best = (gap, other, there)
+            gap, apart = _gap(state, (curve, spot), (other, there))
+            near = gap <= 2.0 * state.tolerances.adoption and apart <= _ONE_PLACE
+            if near and (best is None or gap + 0.01 * apart < best[0]):
+                best, least = (gap + 0.01 * apart, other, there), gap
     if best is None:
         return None
-    return _make(maker, (curve, spot), (best[1], best[2]), best[0], edited, watch)
+    return _make(maker, (curve, spot), (best[1], best[2]), least, edited, watch)
 
 
-def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> float:
+def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> tuple[float, float]:
+    """Give the gap along the hull's normal, and how far the places lie apart, m."""
     places, slopes = [], []
     for curve, spot in (one, other):
         meets: Meets = state.curves.meets.data[curve]
         places.append(meets.xyz[spot])
         slopes.append(_tangent(state, curve, float(meets.parameter[spot])))
     normal = crossing_normals(slopes[0][None], slopes[1][None])[0]
-    return abs(float(((places[0] - places[1]) * normal).sum()))
+    step = places[0] - places[1]
+    return abs(float((step * normal).sum())), float(np.sqrt((step * step).sum()))
 
 
 def _tangent(state: HullState, curve: int, at: float) -> FloatArray:

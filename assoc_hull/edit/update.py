@@ -16,7 +16,7 @@ from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
-from assoc_hull.edit.topology import settle
+from assoc_hull.edit.topology import latent_meetings, settle
 from assoc_hull.edit.trouble import blocked_nodes, note_states
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -251,18 +251,20 @@ def _settle(work: _Work) -> None:
     """Let crossings come and go until every meeting has its place."""
     for _ in range(_ROUNDS):
         alignments, work.network.realigned = work.network.realigned, []
-        if not alignments:
+        latent = latent_meetings(work.state, work.touched())
+        if not alignments and not latent:
             return
         maker = Maker(work.state, work.journal)
-        change = settle(maker, alignments, work.pending.moved_curves)
+        change = settle(maker, alignments, latent, work.pending.moved_curves)
         work.born += change.born
         work.gone += change.gone
         curves = np.array(change.curves, np.int64)
         if change.born or change.gone:
             ride_links(work.state, curves, work.journal)
             work.renew()
-        if len(curves):
-            work.go(_NONE, curves)
+        if not len(curves):
+            return
+        work.go(_NONE, curves)
 
 
 def _check(work: _Work) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from assoc_hull.plot.drawing import Drawing
 from assoc_hull.plot.pens import FRAME, LINE
 from assoc_hull.plot.sheet import Sheet
 from assoc_hull.plot.view import View
+
+if TYPE_CHECKING:
+    from matplotlib.text import Text
 
 __all__ = ["caption", "frame", "particulars_of", "scale_bar", "title_block"]
 
@@ -77,16 +81,9 @@ def title_block(
     sheet.rule((left, y), (right, y), LINE, "block")
     for name, value in rows:
         y -= row
-        for x, across, words in ((inset, "left", name), (right - 3.0 * factor, "right", value)):
-            text = sheet.text(
-                (x, y),
-                words,
-                size=1.15,
-                across=across,
-                up="baseline",
-                name=f"label/block/{words}",  # type: ignore[arg-type]
-            )
-            sheet.take(text)
+        sheet.take(_words(sheet, (inset, y), name, "left"))
+        if value:
+            sheet.take(_words(sheet, (right - 3.0 * factor, y), value, "right"))
     y -= 0.6 * row
     sheet.rule((left, y), (right, y), LINE, "block")
     for words in notes:
@@ -98,6 +95,14 @@ def title_block(
     edge = np.array([(left, top), (left, y), (right, y)])
     sheet.line(edge, FRAME, "block")
     return y
+
+
+def _words(
+    sheet: Sheet, place: tuple[float, float], words: str, across: Literal["left", "right"]
+) -> Text:
+    return sheet.text(
+        place, words, size=1.15, across=across, up="baseline", name=f"label/block/{words}"
+    )
 
 
 def scale_bar(

@@ -1,7 +1,7 @@
 """What is drawn of a hull: its lines as polylines, and where they cross.
 
-The one place in this package that reads a hull's tables, but for `links`. Everything given out is frozen, so
-a drawing is also a snapshot: it stays as it is while the hull is edited.
+The one place in this package that reads a hull's tables, but for `links`. Everything given
+out is frozen, so a drawing is also a snapshot: it stays as it is while the hull is edited.
 
 Examples
 --------

@@ -77,13 +77,11 @@ def rail(
 def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> None:
     """Put the heading of a row before it; after it where the space before is taken."""
     off = 1.2 * sheet.paper.factor
-    ends = float((place - 0.5 * size).min()) - off, float((place + 0.5 * size).max()) + off
-    sides: tuple[Literal["right"], Literal["left"]] = ("right", "left")
-    for x, across in zip(ends, sides, strict=True):
-        title.set_position((x, title.get_position()[1]))
-        title.set_horizontalalignment(across)
-        if not overlaps(sheet.box(title), sheet.taken):
-            break
+    title.set_position((float((place - 0.5 * size).min()) - off, title.get_position()[1]))
+    title.set_horizontalalignment("right")
+    if overlaps(sheet.box(title), sheet.taken):
+        title.set_position((float((place + 0.5 * size).max()) + off, title.get_position()[1]))
+        title.set_horizontalalignment("left")
     sheet.take(title)
 
 

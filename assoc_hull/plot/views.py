@@ -161,8 +161,8 @@ class Views:
         factor = self.sheet.paper.factor
         rail(
             self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2),
-            [words[i] for i in order], "above", edge + 5.5 * factor, upright=True, heading="ST" if part == "aft" else "",
-            name=f"label/body/{part}",
+            [words[i] for i in order], "above", edge + 5.5 * factor, upright=True,
+            heading="ST" if part == "aft" else "", name=f"label/body/{part}",
         )  # fmt: skip
         low = view.up(self.low[2])
         label_lines(self.sheet, lettered, low, edge, axis=1, name=f"label/body/on {part}")
