@@ -35,7 +35,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _machine() -> str:
     day = datetime.now(UTC).date().isoformat()
-    return f"{day}, Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
+    return (
+        f"{day}, Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores"
+    )
 
 
 def table(figures: Sequence[Figure]) -> str:

@@ -61,12 +61,11 @@ class Bare:
         places[self.knots[: up.count]], places[self.knots[up.count :]] = up.xyz, out.xyz
         batch = loft(_moved(self.lines, places))
         found = self._meet(batch)
-        assert self.watched is not None
         return batch, (up, out, *found), self._gaps(batch, found[1], found[3])
 
     def _meet(self, batch: SplineBatch) -> tuple[Meetings, Meetings, Meetings, Meetings]:
         """Meet waterlines with sections and buttocks, buttocks with sections and waterlines."""
-        level, upright = _part(batch, 0, self.waterlines), _part(batch, self.waterlines, batch.count)
+        level, upright = batch.part(0, self.waterlines), batch.part(self.waterlines, batch.count)
         return (
             meet_planes(level, X, SECTIONS),
             meet_planes(level, Y, BUTTOCKS),
@@ -81,14 +80,18 @@ class Bare:
         left = {key: i for i, key in enumerate(zip(one.curve, one.plane, one.sign, strict=True))}
         right = zip(other.plane, other.curve, -other.sign, strict=True)
         pairs = [(left[key], i) for i, key in enumerate(right) if key in left]
-        return tuple(np.array(pairs).T.copy())  # type: ignore[return-value]
+        first, second = np.array(pairs).T.copy()
+        return first, second
 
     def _gaps(self, batch: SplineBatch, one: Meetings, other: Meetings) -> FloatArray:
         """Give the gaps along the normal, from the tangents of both curves."""
-        first, second = self.watched  # type: ignore[misc]
+        assert self.watched is not None
+        first, second = self.watched
         shift = int(batch.start[self.waterlines])
         segment = np.concatenate([one.segment.take(first), other.segment.take(second) + shift])
-        tangent = _tangents(batch, segment, np.concatenate([one.t.take(first), other.t.take(second)]))
+        tangent = _tangents(
+            batch, segment, np.concatenate([one.t.take(first), other.t.take(second)])
+        )
         a, b = tangent[:, : len(first)], tangent[:, len(first) :]
         normal = np.empty_like(a)
         for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -103,18 +106,6 @@ class Bare:
 
 def _moved(data: CurveData, xyz: FloatArray) -> CurveData:
     return CurveData(data.start, xyz, data.kind, data.direction, data.end_kind, data.end_vector)
-
-
-def _part(batch: SplineBatch, first: int, last: int) -> SplineBatch:
-    """Give some neighbouring curves of a batch, without copying."""
-    a, b = batch.start[first], batch.start[last]
-    return SplineBatch(
-        batch.start[first : last + 1] - a,
-        batch.knot[a:b],
-        batch.xyz[a:b],
-        batch.leave[a:b],
-        batch.arrive[a:b],
-    )
 
 
 def _tangents(batch: SplineBatch, segment: IntArray, t: FloatArray) -> FloatArray:

@@ -62,7 +62,9 @@ def _array_copy(
 def _list_copy(
     net: HullState, target: Any, source: Any, which: tuple[str, str], number: int
 ) -> None:
-    lines, curves, rows = (number * getattr(net, name).count for name in ("lines", "curves", "rows"))
+    lines, curves, rows = (
+        number * getattr(net, name).count for name in ("lines", "curves", "rows")
+    )
     turns: dict[tuple[str, str], Callable[[Any], Any]] = {
         ("groups", "name"): lambda name: _named(name, number),
         ("lines", "key"): lambda key: _named(key, number),

@@ -70,6 +70,7 @@ def _run(drag: Dragging, count: int, watch: Collections) -> np.typing.NDArray[np
         drag()
         taken[number] = perf_counter() - begin
         watch.inside = False
+        gc.collect(1)  # what had to wait comes now, as when a program waits for the pointer
         if number % KEPT == KEPT - 1:
             drag.forget()
     return taken

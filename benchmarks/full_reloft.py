@@ -38,7 +38,7 @@ GOALS = (
 def kernel(lines: Shape) -> Callable[[], int]:
     """Give a job that lofts and cuts the net with the kernel, and counts the crossings."""
     families = lines.families()
-    data = batch_of(sum(families, ()))
+    data = batch_of(tuple(line for family in families for line in family))
     bounds = np.cumsum([0, *(len(family) for family in families)]).tolist()
     planes = [(np.eye(3)[axis], offsets) for _, axis, offsets in FAMILIES]
 

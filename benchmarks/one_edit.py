@@ -18,7 +18,7 @@ from benchmarks.copies import copies_of
 from benchmarks.drag import MOVED, Dragging, places
 from benchmarks.loops import Job, scipy_loop
 from benchmarks.net import MIDSHIP, make_net
-from benchmarks.shape import BUTTOCKS, FAMILIES, SECTIONS, WATERLINES, Shape, shape
+from benchmarks.shape import BUTTOCKS, FAMILIES, WATERLINES, Shape, shape
 
 __all__ = ["figures"]
 

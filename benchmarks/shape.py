@@ -18,9 +18,9 @@ from assoc_hull.geometry.spline import loft
 __all__ = ["BUTTOCKS", "FAMILIES", "SECTIONS", "WATERLINES", "Shape", "shape"]
 
 HALF_LENGTH = 50.0
-SECTIONS = HALF_LENGTH * np.linspace(-0.98, 0.98, 60)
-WATERLINES = 10.0 * np.arange(1, 41) / 41.0
-BUTTOCKS = 8.0 * np.arange(1, 31) / 31.0
+SECTIONS: FloatArray = HALF_LENGTH * np.linspace(-0.98, 0.98, 60)
+WATERLINES: FloatArray = np.arange(1, 41) * (10.0 / 41.0)
+BUTTOCKS: FloatArray = np.arange(1, 31) * (8.0 / 31.0)
 FAMILIES = (("sections", 0, SECTIONS), ("waterlines", 2, WATERLINES), ("buttocks", 1, BUTTOCKS))
 """Name, axis of the normal, and offsets (m) of the planes."""
 

@@ -28,7 +28,7 @@ def figures(quick: bool = False) -> list[Figure]:
     for _ in range(7 if quick else 25):
         for name, code in jobs.items():
             begin = perf_counter()
-            subprocess.run([sys.executable, "-c", code], check=True)  # noqa: S603
+            subprocess.run([sys.executable, "-c", code], check=True)
             times[name].append(perf_counter() - begin)
     numpy, first, package = (sorted(taken)[len(taken) // 2] for taken in times.values())
     return [

@@ -75,7 +75,10 @@ def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
 
 
 def measure_gaps(
-    state: HullState, curves: IntArray, journal: Journal, guess: np.typing.NDArray[np.integer] | None = None
+    state: HullState,
+    curves: IntArray,
+    journal: Journal,
+    guess: np.typing.NDArray[np.integer] | None = None,
 ) -> Wide:
     """Measure the watched gaps of curves, store them, and give those over their limit.
 
@@ -100,4 +103,3 @@ def plane_normals(state: HullState, curves: IntArray) -> FloatArray:
         state.lines.planar.data[lines][:, None], state.lines.normal.data[lines], np.nan
     )
     return normal
-

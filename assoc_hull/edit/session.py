@@ -6,7 +6,7 @@ Every method checks its arguments, names what is wrong, and changes nothing unti
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Literal, Self
 
@@ -19,6 +19,7 @@ from assoc_hull.edit import ends as _ends
 from assoc_hull.edit import lines as _lines
 from assoc_hull.edit import points as _points
 from assoc_hull.edit import pull as _pull
+from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
@@ -182,6 +183,10 @@ class Edit:
         """Override what a crossing defines; None gives it back to the rule."""
         row = crossing.row if isinstance(crossing, Crossing) else self._point(crossing)[0]
         _set_role.set_role(self._transaction, row, role)
+
+    def renew_roles(self, lines: Sequence[Line | str]) -> int:
+        """Apply the role rule again to all crossings of lines; gives how many changed."""
+        return _renew.renew_roles(self._transaction, [self._line(line) for line in lines])
 
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
         """Declare that a generates points on b, and b on a if two-way."""

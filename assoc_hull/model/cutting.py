@@ -17,6 +17,7 @@ from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Picked
 from assoc_hull.model.index import Index, PlaneSet
+from assoc_hull.model.recipe import same_objects
 from assoc_hull.model.state import HullState, Meets
 
 __all__ = ["Found", "Recall", "cut_curves"]
@@ -106,6 +107,10 @@ class Recall:
     spot: Picked
     at: Picked
 
+    def holds(self, splines: Sequence[object], meets: Sequence[object]) -> bool:
+        """Tell whether the tables still hold what was written then."""
+        return same_objects(self.splines, splines) and same_objects(self.meets, meets)
+
 
 def cut_curves(
     state: HullState,
@@ -168,9 +173,8 @@ def _merge(pieces: tuple[_Piece, ...], count: int, known: Found | None) -> Found
     if not pieces:
         none = Meets.none()
         whole = none.line.copy()
-        return Found(
-            whole, none.line, none.sign, whole, none.parameter, none.xyz, [0] * (count + 1), (), None
-        )
+        bounds = [0] * (count + 1)
+        return Found(whole, none.line, none.sign, whole, none.parameter, none.xyz, bounds, (), None)
     if known is not None and all(a.same(b) for a, b in zip(pieces, known._pieces, strict=True)):
         curve, line, sign = known.curve, known.line, known.sign
         bounds, order = known.bounds, known._order

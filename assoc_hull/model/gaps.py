@@ -31,7 +31,8 @@ def watched_on(state: HullState, curves: IntArray) -> IntArray:
     first = np.ones(len(rows), np.bool_)
     np.not_equal(rows[1:], rows[:-1], out=first[1:])
     rows = rows[first]
-    return rows[(table.sort.data[rows] == Sort.CROSSING) & table.alive.data[rows]]
+    found: IntArray = rows[(table.sort.data[rows] == Sort.CROSSING) & table.alive.data[rows]]
+    return found
 
 
 def tangents(

@@ -19,7 +19,7 @@ from assoc_hull.graph.node import Evaluation, Readers
 from assoc_hull.model.align import Alignment, align_curve
 from assoc_hull.model.cutting import Found, Recall, cut_curves
 from assoc_hull.model.index import Index
-from assoc_hull.model.recipe import loft_curves, remember, same_objects
+from assoc_hull.model.recipe import loft_curves, remember
 from assoc_hull.model.state import HullState, Meets, curve_node, row_node
 
 __all__ = ["HullNetwork", "bits_differ"]
@@ -136,18 +136,14 @@ class HullNetwork:
         old = [table.spline.data[curve] for curve in numbers]
         met = [table.meets.data[curve] for curve in numbers]
         last: Recall | None = recall.get(key)
-        known = last
-        if last is not None and not (
-            same_objects(last.splines, old) and same_objects(last.meets, met)
-        ):
-            known = None
+        known = last if last is not None and last.holds(old, met) else None
         batch = loft_curves(self.state, curves, recall)
         splines = batch.single()
-        found = cut_curves(self.state, self.index, curves, splines, known and known.found)
+        found = cut_curves(self.state, self.index, curves, splines, known.found if known else None)
         for curve, spline in zip(numbers, old, strict=True):
             if spline is not None:
                 self.before.setdefault(curve, spline)
-        moved = _moved(old, known and known.batch, splines, batch)
+        moved = _moved(old, known.batch if known else None, splines, batch)
         journal.set(table.spline, numbers, splines)
         now = self._attach(numbers, met, splines, batch, found, known)
         journal.set(table.meets, numbers, now.meets)
@@ -171,7 +167,9 @@ class HullNetwork:
         """Give each meeting the crossing it is: at once where lines and signs are as before."""
         at, xyz, spans = found.parameter, found.xyz, list(pairwise(found.bounds))
         if known is not None and found.line is known.found.line:
-            meets = [_placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)]
+            meets = [
+                _placed(each, at[a:b], xyz[a:b]) for each, (a, b) in zip(old, spans, strict=True)
+            ]
             row, actual, part = known.row, known.actual, known.part
         else:
             row = self._identify(numbers, old, found)
@@ -192,8 +190,8 @@ class HullNetwork:
         table, guess = self.state.rows, self.index.guess.reshape(-1)
         before = known if known is not None and known.part is now.part else None
         for column, new, old in (
-            (table.spot, now.spot, before and before.spot),
-            (table.parameter, now.at, before and before.at),
+            (table.spot, now.spot, before.spot if before else None),
+            (table.parameter, now.at, before.at if before else None),
         ):
             new.take()
             journal.put_parts(column, now.part, new, old)

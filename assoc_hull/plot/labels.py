@@ -83,7 +83,7 @@ def label_above(
         Begins the ids of the labels.
     """
     courses, room = _courses(sheet, lines)
-    apart = 3.0 * sheet.paper.factor
+    apart = 5.0 * sheet.paper.factor
     anchors: list[FloatArray] = []
     words: list[str] = []
     names: list[str] = []
@@ -99,7 +99,7 @@ def label_above(
     if words:
         ends = np.array(anchors)
         sheet.dots(ends, "black", 0.45, "leader/dots")
-        rail(sheet, ends, names, "above", at, upright=True, name=name)
+        rail(sheet, ends, names, "above", at, name=name)
 
 
 def resample(points: FloatArray, step: float) -> FloatArray:

@@ -19,7 +19,8 @@ BLOCK = 92.0
 """Width of the block of particulars."""
 
 _SIDE = 17.0  # for labels left and right of a view
-_ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 8.0  # half-breadth plan and profile alike
+_ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 7.0
+_ABOVE_HALF = 6.5
 _BODY_ABOVE, _BODY_BELOW = 15.0, 12.0
 
 
@@ -62,7 +63,7 @@ def lay_out(drawing: Drawing, paper: Paper) -> Layout:
     frame = MARGIN * factor
     scale = scale_of(length, paper.width - 2.0 * frame - 2.0 * _SIDE * factor)
     unit = 1e3 / scale
-    bands = 2.0 * (_ABOVE + _BELOW + _CAPTION) * factor
+    bands = (_ABOVE_HALF + _ABOVE + 2.0 * (_BELOW + _CAPTION)) * factor
     lower = unit * (height + breadth + depth) + bands
     room = paper.height - 2.0 * frame - lower
     body_room = (
@@ -74,7 +75,7 @@ def lay_out(drawing: Drawing, paper: Paper) -> Layout:
     gap = max(spare, 0.0) / 4.0
     x = 0.5 * (paper.width - unit * length) - unit * low[0]
     y = frame + gap + (_CAPTION + _BELOW) * factor + unit * depth
-    z = y + unit * breadth + gap + (_ABOVE + _CAPTION + _BELOW) * factor - unit * low[2]
+    z = y + unit * breadth + gap + (_ABOVE_HALF + _CAPTION + _BELOW) * factor - unit * low[2]
     top = z + unit * high[2] + _ABOVE * factor
     middle = 0.5 * (paper.width - BLOCK * factor)
     base = top + gap + (_CAPTION + _BODY_BELOW) * factor - low[2] * 1e3 / body_scale

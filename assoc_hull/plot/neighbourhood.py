@@ -27,6 +27,7 @@ __all__ = ["neighbourhood"]
 
 
 _BOTH = "black"
+_FARTHER = Pen(0.04, "0.78", over=1.0)
 _PART = 0.35  # how far arrows part at the node in the middle, as a part of their distances
 
 
@@ -69,7 +70,7 @@ def neighbourhood(
         The curve stands in the middle, the others farther out by hops, each family on one
         side. An arrow runs from what drives to what is made from it, with the number of
         crossings, in the colour of the driver's family; where either drives the other it is
-        black and has two heads.
+        black and has two heads. Links farther out are pale.
 
     Raises
     ------
@@ -194,6 +195,10 @@ def _draw_node(sheet: Sheet, node: Node, centre: Node, place: dict[Node, FloatAr
 def _draw_edge(sheet: Sheet, edge: _Edge, centre: Node, place: dict[Node, FloatArray]) -> None:
     """Draw an arrow between two nodes, with the number of crossings at its far end."""
     start, end = _ports(edge, centre, place, sheet.paper.factor)
+    if centre not in (edge.tail, edge.head):
+        name = f"edge/{edge.tail.name} - {edge.head.name}"
+        sheet.arrow((start[0], start[1]), (end[0], end[1]), _FARTHER, name, both=edge.both)
+        return
     colour = _BOTH if edge.both else FAMILY_COLOURS[edge.tail.family]
     pen = Pen(0.12, colour, over=2.0)
     name = f"edge/{edge.tail.name} - {edge.head.name}"

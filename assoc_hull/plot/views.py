@@ -115,7 +115,7 @@ class Views:
             wanted -= label_lines(
                 self.sheet, lettered, low, high, name=f"label/half-breadth/{part}"
             )
-        top = view.up(self.high[1]) + 3.2 * self.sheet.paper.factor
+        top = view.up(self.high[1]) + 3.5 * self.sheet.paper.factor
         label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
 
     def _along_grid(self, line: DrawnLine) -> bool:

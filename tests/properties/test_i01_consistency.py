@@ -75,12 +75,14 @@ def test_series_60_is_consistent_before_and_after_edits(series60_70: ah.Hull) ->
     """The whole net, after a drag, a pull and a re-shape, each from the start."""
     hull = series60_70
     assert_consistent(hull)
-    row = places.places(hull, places.PAIRS, 3, 11)[1]
-    for act in (places.drag(hull, 0.004), places.pull(hull, 0.03), places.reshape(hull, "buttocks", 0.03)):
+    rows = places.places(hull, places.PAIRS, 6, 11)
+    acts = (places.drag(hull, 0.004), places.pull(hull, 0.03), places.reshape(hull, "buttocks", 0.03))
+    for act, row in zip(acts, (rows[0], rows[2], rows[4]), strict=True):
         with hull.edit("act") as edit:
             act(edit, row)
         assert list(trouble(hull)) == []
         hull.undo()
+    assert_consistent(hull)
 
 
 def test_a_value_set_through_one_friend_is_read_through_the_other() -> None:

@@ -45,7 +45,8 @@ def test_movement_is_taken_along_the_normal(pulled: tuple[Hull, Drawing]) -> Non
     found = movements(drawing(before), drawing(hull))
     assert found[0].line in ("ST 7", "WL 2.5")
     assert found[0].distance == pytest.approx(0.02, rel=0.01)
-    assert found[0].place == pytest.approx(hull.points["WL 2.5 x ST 7"].xyz.tolist(), abs=1e-6)
+    point = hull.points["WL 2.5 x ST 7"]
+    assert found[0].place == pytest.approx((point.x, point.y, point.z), abs=1e-6)
     assert "ST 15" not in {each.line for each in found}
     assert movements(drawing(hull), drawing(hull)) == ()
 

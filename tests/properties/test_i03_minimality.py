@@ -1,0 +1,163 @@
+"""I3: nothing is lofted that need not be, and nothing twice; told by a walk of the role table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from unittest import mock
+
+import numpy as np
+from hypothesis import given, settings
+
+import assoc_hull as ah
+from assoc_hull.edit import update
+from assoc_hull.edit.report import EditReport
+from assoc_hull.graph.run import Pass
+from assoc_hull.model.handles import Point
+from tests.cases import series60_places as places
+from tests.independent import closure, relofted, snapshot
+from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, live_points, tasks
+
+
+@contextmanager
+def passes() -> Iterator[list[Pass]]:
+    """Listen to the passes of the engine."""
+    heard: list[Pass] = []
+    run = update.run
+
+    def listen(*given: object, **named: object) -> Pass:
+        heard.append(run(*given, **named))  # type: ignore[arg-type]
+        return heard[-1]
+
+    with mock.patch.object(update, "run", listen):
+        yield heard
+
+
+def quiet(report: EditReport) -> bool:
+    """Whether an edit needed no second pass."""
+    return not (report.born or report.gone or report.mended)
+
+
+@settings(max_examples=25)
+@given(hulls(), tasks((*SHAPES, "set_role")))
+def test_the_curves_lofted_are_those_whose_inputs_changed(hull: ah.Hull, edits: list[Task]) -> None:
+    """The report lists exactly the curves that the walk over the tables gives."""
+    for task in edits:
+        before = snapshot(hull)
+        report = carry_out(hull, task)
+        if report is not None:
+            wanted = relofted(before, hull)
+            assert len(report.relofted) == len(set(report.relofted))
+            assert wanted <= set(report.relofted)
+            if quiet(report):
+                assert needless(report, wanted, task) == set()
+
+
+def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
+    """Curves lofted although the walk does not ask for it.
+
+    An edit that says again what is so already, or takes back what it did, may loft a curve
+    whose inputs come out as they were.
+    """
+    again = {"set_end", "set_kind", "set_role", "insert", "delete"}
+    if {act.op for act in task.acts} & again:
+        return set()
+    return set(report.relofted) - wanted
+
+
+@settings(max_examples=25)
+@given(hulls(), tasks((*SHAPES, *STRUCTURE)))
+def test_no_pass_evaluates_a_node_twice(hull: ah.Hull, edits: list[Task]) -> None:
+    """In the main pass and in each that follows; an edit that stays quiet has only one."""
+    for task in edits:
+        with passes() as heard:
+            report = carry_out(hull, task)
+        for part in heard:
+            assert len(part.evaluated) == len(np.unique(part.evaluated))
+        fields = any(act.op in ("pull", "reshape") for act in task.acts)
+        if report is not None and quiet(report) and not fields:
+            assert len(heard) == 1
+
+
+@settings(max_examples=15)
+@given(hulls(), tasks(("move",)))
+def test_a_second_pass_lofts_only_what_births_deaths_and_mends_touch(
+    hull: ah.Hull, edits: list[Task]
+) -> None:
+    """Each curve in it reads a point that came, went, or was moved by mending."""
+    for task in edits:
+        with passes() as heard:
+            report = carry_out(hull, task)
+        if report is None:
+            continue
+        keys = hull.state.curves.key.data
+        for part in heard[1:]:
+            pushed = set(part.cause.reader.tolist())
+            seeds = [n for n in part.evaluated.tolist() if n & 1 and n not in pushed]
+            touched = set(report.mended) | _curves_of(hull, (*report.born, *report.gone))
+            assert {keys[node >> 1] for node in seeds} <= touched
+
+
+def _curves_of(hull: ah.Hull, rows: tuple[str, ...]) -> set[str]:
+    table = hull.state.rows
+    numbers = [table.key.data.index(key) for key in rows]
+    return {hull.state.curves.key.data[c] for c in table.curve.data[numbers].ravel().tolist()}
+
+
+@settings(max_examples=20)
+@given(hulls(), tasks(("move",), most=3, acts=1))
+def test_a_move_stays_within_the_closure_of_the_role_table(
+    hull: ah.Hull, edits: list[Task]
+) -> None:
+    """The closure is what an update without cut-off would loft; more is never lofted."""
+    for task in edits:
+        report = carry_out(hull, task)
+        if report is None or not quiet(report):
+            continue
+        step = hull.document.history[-1]
+        seeds = {hull.state.rows.key.data[node >> 1] for node in step.seeds.tolist()}
+        assert set(report.relofted) <= closure(hull, seeds)
+
+
+def test_a_value_that_comes_out_as_it_was_stops_the_update() -> None:
+    """Early cut-off: a driven point whose bits do not change passes nothing on."""
+    hull = fresh(2)
+    point = next(p for p in live_points(hull, "crossing") if _drives_unmoved(hull, p))
+    with hull.edit("move") as edit:
+        edit.move(point, y=point.y + 1e-3)
+    report = edit.report
+    assert report is not None
+    reach = closure(hull, {point.id})
+    assert report.cut_off > 0
+    assert set(report.relofted) < reach
+
+
+def _drives_unmoved(hull: ah.Hull, point: Point) -> bool:
+    """Whether a shared point lies on a curve that drives others, most of them from far away."""
+    if point.crossing_role != "shared" or point.free != ("y",):
+        return False
+    with hull.edit("try") as edit:
+        edit.move(point, y=point.y + 1e-3)
+    report = edit.report
+    hull.undo()
+    assert report is not None
+    return quiet(report) and report.cut_off > 0
+
+
+def test_the_lofted_curves_of_series_60_are_those_of_the_walk(series60_70: ah.Hull) -> None:
+    """For drags and pulls at crossings of all three pairs."""
+    hull = series60_70
+    for row in places.places(hull, places.PAIRS, 9, 2):
+        for act in (places.drag(hull, 0.005), places.pull(hull, 0.02)):
+            before = snapshot(hull)
+            try:
+                with hull.edit("act") as edit:
+                    act(edit, row)
+            except ah.RefusedEditError:
+                continue
+            report = edit.report
+            assert report is not None
+            wanted = relofted(before, hull)
+            assert set(report.relofted) >= wanted
+            assert not quiet(report) or set(report.relofted) == wanted
+            hull.undo()

@@ -1,0 +1,73 @@
+"""I5: the order in which groups, lines and associations are created changes nothing."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SHUFFLES = """
+import random, sys
+from importlib import import_module
+import assoc_hull.edit.adopt as home
+from assoc_hull.model.definition import fingerprint
+
+seed = int(sys.argv[1])
+plain = home.adopt
+
+def shuffled(sources, particulars, associations, tolerances=None):
+    sources, associations = list(sources), list(associations)
+    chance.shuffle(sources)
+    chance.shuffle(associations)
+    return plain(sources, particulars, associations, tolerances)
+
+for name in ("assoc_hull.examples.wigley", "assoc_hull.io.offset_net"):
+    import_module(name).adopt = shuffled
+wigley = import_module("assoc_hull.examples.wigley").wigley
+series60 = import_module("assoc_hull.examples.series60")
+makers = {
+    "wigley": wigley,
+    "series60-060": lambda: series60.series60_adopted(0.60)[0],
+    "series60-070": lambda: series60.series60_adopted(0.70)[0],
+}
+for name, make in makers.items():
+    for turn in range(5):
+        chance = random.Random(1000 * seed + turn)
+        print(name, fingerprint(make()))
+chance = random.Random(seed)
+print("whole", fingerprint(series60.series60(0.60 + 0.10 * (seed % 2))))
+"""
+
+
+@pytest.fixture(scope="module")
+def printed() -> list[list[str]]:
+    """Four processes with hash seeds of their own, five shuffles of each example in each."""
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", SHUFFLES, str(seed)],
+            env={**os.environ, "PYTHONHASHSEED": str(seed)},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for seed in range(1, 5)
+    ]
+    return [process.communicate(timeout=300)[0].splitlines() for process in running]
+
+
+@pytest.mark.parametrize("name", ["wigley", "series60-060", "series60-070"])
+def test_twenty_shuffles_in_four_processes_give_one_fingerprint(
+    printed: list[list[str]], name: str
+) -> None:
+    """Ids come from content, never from a counter or a hash."""
+    found = [line for lines in printed for line in lines if line.startswith(name)]
+    assert len(found) == 20
+    assert len(set(found)) == 1
+
+
+def test_the_whole_net_of_series_60_does_not_depend_on_the_order(printed: list[list[str]]) -> None:
+    """Lines cut from a shuffled net: two processes each for CB .60 and .70."""
+    whole = [lines[-1] for lines in printed]
+    assert all(line.startswith("whole ") for line in whole)
+    assert (whole[0], whole[1]) == (whole[2], whole[3])
