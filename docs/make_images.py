@@ -87,7 +87,7 @@ def oblique(xyz: Floats) -> Floats:
 
 
 def crossing() -> Figure:
-    """A section and a waterline; their crossing is one row of the table of points."""
+    """Draw a section and a waterline; their crossing is one row of the table of points."""
     hull = ship()
     figure, axes = plt.subplots(figsize=(9.4, 3.0), layout="constrained")
     for name in ("ST 16", "ST 18", "WL 0.25", "WL 0.75"):
@@ -114,12 +114,12 @@ def _window(hull: ah.Hull, name: str) -> Floats:
 
 def _label_ends(axes: Axes, hull: ah.Hull) -> None:
     top, side = _window(hull, "ST 17")[-1], _window(hull, "WL 0.5")[0]
-    axes.text(*(top + (0.0, 0.25)), "curve a: ST 17", color=SHARED, ha="center")
-    axes.text(*(side + (-0.3, 0.0)), "curve b: WL 0.5", color=DRIVEN, ha="right", va="center")
+    axes.text(top[0], top[1] + 0.25, "curve a: ST 17", color=SHARED, ha="center")
+    axes.text(side[0] - 0.3, side[1], "curve b: WL 0.5", color=DRIVEN, ha="right", va="center")
 
 
 def _table(axes: Axes, hull: ah.Hull, spot: Floats) -> None:
-    """The row of the crossing between its neighbours in the table, and the two handles."""
+    """Draw the row of the crossing between its neighbours in the table, and the two handles."""
     left, width, high = 6.6, 15.0, 1.0
     names = ("WL 0.42 x ST 17", "WL 0.5 x ST 17", "WL 0.58 x ST 17")
     heads = (("x", 7.4), ("y", 9.7), ("z", 11.9), ("free", 13.8))
@@ -138,19 +138,23 @@ def _table(axes: Axes, hull: ah.Hull, spot: Floats) -> None:
         cells = (f"{point.x:.3f}", f"{point.y:.3f}", f"{point.z:.3f}", " ".join(point.free))
         axes.text(left, low + 0.3, name, color=color, fontsize=9, zorder=8)
         for text, (_, at) in zip(cells, heads, strict=True):
-            axes.text(left + at + 0.9, low + 0.3, text, color=color, fontsize=9, ha="right", zorder=8)
+            axes.text(
+                left + at + 0.9, low + 0.3, text, color=color, fontsize=9, ha="right", zorder=8
+            )
     boxes = (
-        ("friend point on ST 17", "hull.find(\"ST 17 x WL 0.5\")", 3.9, SHARED),
-        ("friend point on WL 0.5", "hull.find(\"WL 0.5 x ST 17\")", -5.1, DRIVEN),
+        ("friend point on ST 17", 'hull.find("ST 17 x WL 0.5")', 3.9, SHARED),
+        ("friend point on WL 0.5", 'hull.find("WL 0.5 x ST 17")', -5.1, DRIVEN),
     )
     for title, code, low, color in boxes:
         axes.add_patch(Rectangle((left + 1.6, low), 11.4, 1.8, facecolor="white", edgecolor=color))
         axes.text(left + 7.3, low + 1.08, title, color=color, ha="center")
-        axes.text(left + 7.3, low + 0.34, code, color=INK, ha="center", fontsize=8.5, family="monospace")
+        axes.text(
+            left + 7.3, low + 0.34, code, color=INK, ha="center", fontsize=8.5, family="monospace"
+        )
     arrow(axes, np.array([left + 7.3, 3.9]), np.array([left + 7.3, 1.65]), color=SHARED)
     arrow(axes, np.array([left + 7.3, -3.3]), np.array([left + 7.3, -1.55]), color=DRIVEN)
     axes.text(left + 7.7, -2.75, "both read this row", color=INK, fontsize=9)
-    arrow(axes, np.array([left - 0.3, 0.05]), spot + (0.35, 0.0), bend=0.05)
+    arrow(axes, np.array([left - 0.3, 0.05]), spot + np.array([0.35, 0.0]), bend=0.05)
 
 
 # Roles -------------------------------------------------------------------------------------
@@ -165,7 +169,7 @@ _MARKS = {
 
 
 def roles() -> Figure:
-    """Three waterlines of the run, each crossing marked by its role."""
+    """Draw three waterlines of the run, each crossing marked by its role."""
     hull = ship()
     figure, axes = plt.subplots(figsize=(8.6, 5.0), layout="constrained")
     for line in hull.groups["sections"].lines.values():
@@ -194,7 +198,15 @@ def _line_with_roles(axes: Axes, hull: ah.Hull, name: str) -> None:
     near = xyz[:, 0] < 36.0
     axes.plot(xyz[near, 0], xyz[near, 1], color=INK, linewidth=1.1)
     at = int(np.argmin(np.abs(xyz[:, 0] - 34.0)))
-    axes.text(34.25, xyz[at, 1] + 0.1 * (name == "WL 0.75"), name, va="center", color=INK, fontsize=9, weight="bold")
+    axes.text(
+        34.25,
+        xyz[at, 1] + 0.1 * (name == "WL 0.75"),
+        name,
+        va="center",
+        color=INK,
+        fontsize=9,
+        weight="bold",
+    )
     for point in hull.lines[name].points:
         if point.x > 34.0 or point.crossing is None:
             continue
@@ -207,7 +219,7 @@ def _line_with_roles(axes: Axes, hull: ah.Hull, name: str) -> None:
 
 
 def pull() -> Figure:
-    """Body plan and half-breadth plan of the fore body before and after a pull of 200 mm."""
+    """Draw body plan and half-breadth plan of the fore body before and after a pull of 200 mm."""
     hull = ship()
     fore = [f"ST {number:g}" for number in (12, 13, 14, 15, 16, 17, 18, 18.5, 19, 19.5, 20)]
     water = [f"WL {part:g}" for part in (0.075, 0.25, 0.5, 0.75, 1.0, 1.25)]
@@ -225,8 +237,16 @@ def pull() -> Figure:
     body.plot(place[1], place[2], "o", color=ACCENT, markersize=5)
     plan.plot(place[0], place[1], "o", color=ACCENT, markersize=5)
     body.set_aspect("equal")
-    body.set(xlabel="y (m)", ylabel="z (m)", title="fore body, sections", xlim=(0, 9), ylim=(0, 10.6))
-    plan.set(xlabel="x (m)", ylabel="y (m)", title="half-breadth plan, six waterlines", xlim=(82, 124), ylim=(0, 9))
+    body.set(
+        xlabel="y (m)", ylabel="z (m)", title="fore body, sections", xlim=(0, 9), ylim=(0, 10.6)
+    )
+    plan.set(
+        xlabel="x (m)",
+        ylabel="y (m)",
+        title="half-breadth plan, six waterlines",
+        xlim=(82, 124),
+        ylim=(0, 9),
+    )
     handles = [
         Line2D([], [], color=ACCENT, label="moved by more than 1 mm, after"),
         Line2D([], [], color=PALE, label="before, and what did not move"),
@@ -237,7 +257,11 @@ def pull() -> Figure:
 
 
 def _tinted(
-    axes: Axes, before: dict[str, Floats], after: dict[str, Floats], names: list[str], view: tuple[int, int]
+    axes: Axes,
+    before: dict[str, Floats],
+    after: dict[str, Floats],
+    names: list[str],
+    view: tuple[int, int],
 ) -> None:
     for name in names:
         old, new = before[name], after[name]
@@ -254,7 +278,7 @@ def _tinted(
 
 
 def pinned_or_field() -> Figure:
-    """The same 20 mm at one point, as a drag and as a pull, along a waterline and a section."""
+    """Draw the same 20 mm at one point, as a drag and as a pull, along a waterline and a section."""
     hull = ship()
     point = "WL 0.5 x ST 16"
     here = hull.find(point).position
@@ -269,7 +293,9 @@ def pinned_or_field() -> Figure:
                 edit.pull(point, d=0.02 * share, radius=(20.0, 8.0))
         shapes.append((title, color, _breadths(hull, xs, zs)))
         hull.undo()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.6), width_ratios=(1.6, 1.0), layout="constrained")
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(9.4, 3.6), width_ratios=(1.6, 1.0), layout="constrained"
+    )
     for title, color, (along, girth) in shapes:
         left.plot(xs, 1e3 * (along - ground[0]), color=color, label=title)
         right.plot(1e3 * (girth - ground[1]), zs, color=color)
@@ -305,7 +331,7 @@ def _breadths(hull: ah.Hull, xs: Floats, zs: Floats) -> tuple[Floats, Floats]:
 
 
 def levels() -> Figure:
-    """The curves that one drag re-lofts, by level; an arrow is a crossing that drove."""
+    """Draw the curves that one drag re-lofts, by level; a line is a crossing that drove."""
     hull = ship()
     with hull.edit("drag") as edit:
         edit.move("WL 0.5 x ST 16", y=hull.find("WL 0.5 x ST 16").y + 0.02)
@@ -323,7 +349,7 @@ def levels() -> Figure:
     for name, place in places.items():
         color = SHARED if name in {"ST 16", "WL 0.5"} else INK
         axes.text(*place, name, ha="center", va="center", color=color, fontsize=9,
-                  bbox={"facecolor": "white", "edgecolor": color, "pad": 2.0, "linewidth": 0.8})  # fmt: skip
+                  bbox={"facecolor": "white", "edgecolor": color, "pad": 2.0})  # fmt: skip
     axes.text(0.6, 0.0, "WL 0.5 x ST 16\n+20 mm in y", ha="center", va="center", color=ACCENT,
               bbox={"facecolor": "white", "edgecolor": ACCENT, "pad": 4.0})  # fmt: skip
     for name in ("ST 16", "WL 0.5"):
@@ -356,13 +382,17 @@ def _driven_links(hull: ah.Hull) -> list[tuple[str, str]]:
     step, state = hull.document.history[-1], hull.state
     pairs = set(zip(step.cause.source.tolist(), step.cause.reader.tolist(), strict=True))
     moved = set(step.rows.tolist())
-    through = [(source >> 1, reader >> 1) for source, reader in pairs if source & 1 and not reader & 1]
+    through = [
+        (source >> 1, reader >> 1) for source, reader in pairs if source & 1 and not reader & 1
+    ]
     found = set()
     for source, row in through:
         if row in moved:
             for other in state.rows.reader.data[row].tolist():
                 if other >= 0:
-                    names = [str(state.lines.name.data[state.line_of(each)]) for each in (source, other)]
+                    names = [
+                        str(state.lines.name.data[state.line_of(each)]) for each in (source, other)
+                    ]
                     found.add((names[0], names[1]))
     return sorted(found)
 
@@ -371,8 +401,10 @@ def _driven_links(hull: ah.Hull) -> list[tuple[str, str]]:
 
 
 def knuckle_end() -> Figure:
-    """The four vertices of the interval behind a knuckle, and a curve with all three kinds."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), width_ratios=(1.15, 1.0), layout="constrained")
+    """Draw the interval behind a knuckle with its vertices, and all three kinds of points."""
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(9.4, 3.9), width_ratios=(1.15, 1.0), layout="constrained"
+    )
     _four_vertices(left)
     _three_kinds(right)
     return figure
@@ -387,7 +419,10 @@ def _four_vertices(axes: Axes) -> None:
     polygon = np.array([first, second, third, last])
     t = np.linspace(0.0, 1.0, 60)[:, None]
     bezier = (
-        (1 - t) ** 3 * first + 3 * t * (1 - t) ** 2 * second + 3 * t * t * (1 - t) * third + t**3 * last
+        (1 - t) ** 3 * first
+        + 3 * t * (1 - t) ** 2 * second
+        + 3 * t * t * (1 - t) * third
+        + t**3 * last
     )
     axes.plot(*polygon.T, "o--", color=DRIVEN, linewidth=1.0, markersize=5)
     axes.plot(*bezier.T, color=SHARED, linewidth=2.0)
@@ -407,7 +442,9 @@ def _four_vertices(axes: Axes) -> None:
 
 
 def _three_kinds(axes: Axes) -> None:
-    points = np.array([[0, 0], [5.0, 0], [6.7, 0.5], [7.5, 1.9], [7.7, 3.6], [7.7, 6.0], [7.2, 7.4], [7.4, 9.2]])
+    points = np.array(
+        [[0, 0], [5.0, 0], [6.7, 0.5], [7.5, 1.9], [7.7, 3.6], [7.7, 6.0], [7.2, 7.4], [7.4, 9.2]]
+    )
     xyz = np.column_stack([np.zeros(len(points)), points])
     kind = np.array([0, 1, 0, 0, 1, 1, 2, 0])
     direction = np.zeros((len(points), 3))
@@ -420,7 +457,13 @@ def _three_kinds(axes: Axes) -> None:
         chosen = kind == code
         axes.plot(*points[chosen].T, mark, color=color, markersize=6, linestyle="", label=name)
     axes.legend(loc="center left", frameon=False)
-    axes.set(xlabel="y (m)", ylabel="z (m)", xlim=(-0.3, 8.6), ylim=(-0.4, 9.6), title="three kinds of points")
+    axes.set(
+        xlabel="y (m)",
+        ylabel="z (m)",
+        xlim=(-0.3, 8.6),
+        ylim=(-0.4, 9.6),
+        title="three kinds of points",
+    )
     axes.set_aspect("equal")
 
 
@@ -428,7 +471,7 @@ def _three_kinds(axes: Axes) -> None:
 
 
 def completions() -> Figure:
-    """What the Series 60 table leaves open, and what it was completed with."""
+    """Draw what the Series 60 table leaves open, and what it was completed with."""
     from assoc_hull.examples.completion import widening
     from assoc_hull.examples.contours import centre_profile, end_contours
     from assoc_hull.examples.flats import flat_of_bottom, flat_of_side
@@ -439,11 +482,17 @@ def completions() -> Figure:
     profile = curve(ship(), "profile")
     side, bottom = widening(flat_of_side(table).border), flat_of_bottom(table)
     points = centre_profile(table)[0]
-    figure, (above, below) = plt.subplots(2, 1, figsize=(9.4, 5.4), layout="constrained", height_ratios=(1.25, 1))
+    figure, (above, below) = plt.subplots(
+        2, 1, figsize=(9.4, 5.4), layout="constrained", height_ratios=(1.25, 1)
+    )
     above.plot(profile[:, 0], profile[:, 2], color=INK, linewidth=1.6, label="centre-line profile")
-    above.plot(stern, table.z, "o", color=DRIVEN, markersize=4.5, label="waterline ends found or assumed")
+    above.plot(
+        stern, table.z, "o", color=DRIVEN, markersize=4.5, label="waterline ends found or assumed"
+    )
     above.plot(stem, table.z, "o", color=DRIVEN, markersize=4.5)
-    above.plot(side[:, 0], side[:, 2], ".-", color=FIXED, linewidth=1.2, label="border of the flat of side")
+    above.plot(
+        side[:, 0], side[:, 2], ".-", color=FIXED, linewidth=1.2, label="border of the flat of side"
+    )
     above.axhline(table.draught, color=SHARED, linewidth=0.8, linestyle="--")
     above.text(25.0, table.draught + 0.15, "T", color=SHARED)
     above.plot(points[[0, -1], 0], points[[0, -1], 2], color=PALE, linewidth=1.2, zorder=0)
@@ -453,8 +502,20 @@ def completions() -> Figure:
         below.axvline(x, color=FAINT, linewidth=0.6, zorder=0)
     deck = curve(ship(), "deck edge")
     below.plot(deck[:, 0], deck[:, 1], color=PALE, linewidth=1.2, label="deck edge")
-    below.plot(bottom[:, 0], bottom[:, 1], ".-", color=SHARED, linewidth=1.2, label="border of the flat of bottom (WL 0)")
-    below.set(xlabel="x (m, from AP); thin lines: the stations of the table", ylabel="y (m)", xlim=(-7, 127), ylim=(-0.4, 9.4))
+    below.plot(
+        bottom[:, 0],
+        bottom[:, 1],
+        ".-",
+        color=SHARED,
+        linewidth=1.2,
+        label="border of the flat of bottom (WL 0)",
+    )
+    below.set(
+        xlabel="x (m, from AP); thin lines: the stations of the table",
+        ylabel="y (m)",
+        xlim=(-7, 127),
+        ylim=(-0.4, 9.4),
+    )
     above.legend(loc="lower right", bbox_to_anchor=(0.94, 0.12), frameon=False, fontsize=9)
     below.legend(loc="center", bbox_to_anchor=(0.52, 0.3), frameon=False, fontsize=9)
     return figure
@@ -464,7 +525,7 @@ def completions() -> Figure:
 
 
 def plan() -> Figure:
-    """The lines plan of Series 60 CB 0.70."""
+    """Draw the lines plan of Series 60 CB 0.70."""
     return lines_plan(ship(), paper="A4")
 
 

@@ -25,7 +25,6 @@ from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.handles import Curve, Line, Point
 from assoc_hull.model.source import LineSource
-from assoc_hull.model.state import Association
 from tests.strategies import Form, Net, net_of, wigley_sources
 
 __all__ = [

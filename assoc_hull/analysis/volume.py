@@ -70,7 +70,7 @@ def displaced(state: HullState, draught: float | None = None) -> Displaced:
     half = section_area(batch, level)
     x = state.lines.offset.data[state.curves.line.data[np.array(curves)]]
     place, first = np.unique(x, return_inverse=True)
-    area = 2.0 * np.bincount(first, half)
+    area: FloatArray = np.array(2.0 * np.bincount(first, half), np.float64)
     place, area = _with_ends(state, place, area, level)
     volume = float(integrate_stations(place, area))
     moment = float(integrate_stations(place, area * place))

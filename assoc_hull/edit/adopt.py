@@ -173,7 +173,11 @@ def _write(maker: Maker, net: Net, thinned: Thinned) -> list[str]:
     rows = maker.crossings(specs)
     points = [
         PointSpec(
-            item.curve, item.xyz, Sort.PLACED if item.placed else Sort.ADOPTED, item.kind, item.direction
+            item.curve,
+            item.xyz,
+            Sort.PLACED if item.placed else Sort.ADOPTED,
+            item.kind,
+            item.direction,
         )
         for item in thinned.points
     ]
@@ -217,7 +221,8 @@ def _report(net: Net, thinned: Thinned) -> tuple[LineReport, ...]:
         rows = curves.rows.data[i]
         adopted = int((net.state.rows.sort.data[rows] == Sort.ADOPTED).sum())
         found.append(
-            LineReport(curves.key.data[i], len(source.points), len(rows), adopted, float(away.max()))
+            LineReport(
+                curves.key.data[i], len(source.points), len(rows), adopted, float(away.max())
+            )
         )
     return tuple(found)
-

@@ -52,7 +52,11 @@ def _turn(edit: Transaction, row: int, giver: str) -> None:
     names = [_group(state, curve) for curve in state.rows.curve.data[row].tolist()]
     taker = 1 - names.index(giver)
     role = Role(int(state.rows.role.data[row]))
-    defines = {Role.SHARED: (True, True), Role.DRIVES_A: (True, False), Role.DRIVES_B: (False, True)}
+    defines = {
+        Role.SHARED: (True, True),
+        Role.DRIVES_A: (True, False),
+        Role.DRIVES_B: (False, True),
+    }
     if not defines.get(role, (False, False))[taker]:
         change_role(edit, row, Role.WATCHED)
         return
@@ -70,7 +74,8 @@ def _crossings(state: HullState, a: str, b: str) -> IntArray:
         {_group(state, curve) for curve in table.curve.data[row].tolist()} == {a, b}
         for row in rows.tolist()
     ]
-    return rows[np.array(keep, bool)]
+    found: IntArray = rows[np.array(keep, bool)]
+    return found
 
 
 def dissociate(edit: Transaction, a: str, b: str) -> None:
@@ -84,7 +89,9 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
     state = edit.state
     left = tuple(link for link in state.associations if {link.a, link.b} != {a, b})
     if len(left) == len(state.associations):
-        raise BadInputError(f"{a!r} and {b!r} are not associated", "in dissociate", "check the names")
+        raise BadInputError(
+            f"{a!r} and {b!r} are not associated", "in dissociate", "check the names"
+        )
     edit.pending.structural = True
     rows = _crossings(state, a, b)
     leave_behind(edit, rows, np.zeros(0, np.int64))
@@ -108,4 +115,3 @@ def _strike(edit: Transaction, group: str, other: str) -> None:
                 meets.xyz[keep],
             )  # fmt: skip
             edit.journal.set(state.curves.meets, [curve], [new])
-

@@ -11,7 +11,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.state import HullState
 
-__all__ = ["Wide", "find_folds", "find_unbounded", "measure_gaps", "plane_normals"]
+__all__ = ["Wide", "curve_title", "find_folds", "find_unbounded", "measure_gaps", "plane_normals"]
 
 
 @attrs.frozen(eq=False)
@@ -53,11 +53,19 @@ def find_folds(
             continue
         x, y, z = batch.xyz[batch.start[local] + found.knot[mine][0]].tolist()
         findings.append(
-            f"{state.curves.key.data[curve]} folds back on itself at ({x:.3f}, {y:.3f}, {z:.3f}) m "
+            f"{curve_title(state, curve)} folds back on itself at ({x:.3f}, {y:.3f}, {z:.3f}) m "
             f"(cosine {float(found.cosine[mine].min()):.2f}): make the move smaller or move the "
             "neighbouring points too"
         )
     return tuple(findings)
+
+
+def curve_title(state: HullState, curve: int) -> str:
+    """Name a curve by its line, with its number where the line has several."""
+    line = state.line_of(curve)
+    pieces = state.lines.curves.data[line]
+    name = str(state.lines.name.data[line])
+    return name if len(pieces) < 2 else f"{name} [{pieces.index(curve) + 1}]"
 
 
 def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
@@ -68,7 +76,7 @@ def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
     if np.isfinite(batch.leave).all():
         return ()
     return tuple(
-        f"{state.curves.key.data[curve]} has a derivative that is not finite"
+        f"{curve_title(state, curve)} has a derivative that is not finite"
         for curve in curves.tolist()
         if not np.isfinite(state.spline(curve).leave).all()
     )

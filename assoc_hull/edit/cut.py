@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
@@ -95,7 +96,11 @@ def add_line(
     marks = find_marks(state, number, normal, position)
     edit.pending.structural = True
     family = FAMILIES[state.groups.family.data[number]]
-    title = name or _free_name(state, number, f"{family.prefix} {position:g}")
+    title = (
+        line_name(name)
+        if name is not None
+        else _free_name(state, number, f"{family.prefix} {position:g}")
+    )
     line = edit.maker.line(number, title, (normal, position))
     for piece in pieces_of(state, line, marks):
         make_piece(edit, line, piece, keep or state.tolerances.keep)
@@ -185,7 +190,9 @@ def _rows(
     """Make crossings, or let those that are there already have a new place and role."""
     marked = zip(marks.curve.tolist(), marks.root.tolist(), strict=True)
     rows = [known.get(mark, -1) for mark in marked]
-    new = iter(edit.maker.crossings([spec for spec, row in zip(specs, rows, strict=True) if row < 0]))
+    new = iter(
+        edit.maker.crossings([spec for spec, row in zip(specs, rows, strict=True) if row < 0])
+    )
     for spec, row in zip(specs, rows, strict=True):
         if row >= 0:
             edit.maker.replace(row, spec)
@@ -241,13 +248,13 @@ def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]
     return roles
 
 
-def _old_may(
-    state: HullState, line: int, marks: Marks, keep: float
-) -> np.typing.NDArray[np.bool_]:
+def _old_may(state: HullState, line: int, marks: Marks, keep: float) -> np.typing.NDArray[np.bool_]:
     """Tell which old curves may be defined by their mark: transversal, spaced, unmoved."""
     slope = tangents(state, marks.curve, marks.at)
     sine = np.minimum(np.abs(slope @ state.lines.normal.data[line]), 1.0)
-    may = np.degrees(np.arcsin(sine)) >= state.tolerances.transversal_deg
+    may: np.typing.NDArray[np.bool_] = (
+        np.degrees(np.arcsin(sine)) >= state.tolerances.transversal_deg
+    )
     some = np.flatnonzero(may)
     moved, room = deviation_with(state, marks.curve[some], marks.xyz[some])
     may[some] = (moved <= keep) & (room >= state.tolerances.spacing)
@@ -264,4 +271,3 @@ def _spec(
             other, curve, marks.xyz[i], role, int(marks.sign[i]), None, contact, kind, direction
         )
     return CrossingSpec(curve, other, marks.xyz[i], role, int(marks.sign[i]))
-

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -57,9 +56,11 @@ def set_end(
         raise BadInputError(f"the vector {vector.tolist()}", where, "give three finite numbers")
     old: Ends = edit.state.curves.ends.data[curve]
     at = 0 if end == "start" else 1
-    kinds, vectors = list(old.kind), list(old.vector)
-    kinds[at], vectors[at] = int(kind), tuple(vector.tolist())
-    new = attrs.evolve(old, kind=tuple(kinds), vector=tuple(vectors))
+    x, y, z = vector.tolist()
+    given = (int(kind), (x, y, z))
+    kept = (old.kind[1 - at], old.vector[1 - at])
+    first, last = (given, kept) if at == 0 else (kept, given)
+    new = Ends((first[0], last[0]), (first[1], last[1]))
     edit.journal.set(edit.state.curves.ends, [curve], [new])
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)

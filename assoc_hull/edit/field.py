@@ -26,9 +26,20 @@ from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "Field", "FieldContext", "Shift", "add_shifts", "bell", "context", "flat_distance", "land", "move_normal", "on_flat", "on_profile",
-    "row_spacing", "sub_steps",
-]  # fmt: skip
+    "Field",
+    "FieldContext",
+    "Shift",
+    "add_shifts",
+    "bell",
+    "context",
+    "flat_distance",
+    "land",
+    "move_normal",
+    "on_flat",
+    "on_profile",
+    "row_spacing",
+    "sub_steps",
+]
 
 BoolArray = np.typing.NDArray[np.bool_]
 
@@ -92,7 +103,9 @@ class Shift:
 class Field(Protocol):
     """A displacement of the hull."""
 
-    across_flats: bool
+    @property
+    def across_flats(self) -> bool:
+        """Whether flats are moved too."""
 
     def shift(self, ground: FieldContext, part: float) -> Shift:
         """Give the displacements for a part (of 1) of the whole field."""
@@ -110,7 +123,9 @@ def context(state: HullState, *, across_flats: bool = False) -> FieldContext:
     if not across_flats:
         free &= ~on_flat(state)
     rows = np.flatnonzero(free)
-    return FieldContext(state, hull_normals(state), rows, flat_distance(state, state.rows.xyz.data[rows]))
+    return FieldContext(
+        state, hull_normals(state), rows, flat_distance(state, state.rows.xyz.data[rows])
+    )
 
 
 def _boundary_lines(state: HullState, kind: BoundaryKind) -> IntArray:
@@ -122,8 +137,8 @@ def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
     """Tell which points lie on curves of the given lines."""
     curve = state.rows.curve.data
     line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
-    found: BoolArray = np.isin(line, lines).any(axis=1)
-    return found
+    found = np.isin(line, lines)
+    return np.asarray(found[:, 0] | found[:, 1])
 
 
 def on_profile(state: HullState) -> BoolArray:
@@ -139,7 +154,9 @@ def on_flat(state: HullState) -> BoolArray:
     found = _of_lines(state, flats)
     for line in flats.tolist():
         if state.lines.planar.data[line]:
-            off = state.rows.xyz.data @ state.lines.normal.data[line] - state.lines.offset.data[line]
+            off = (
+                state.rows.xyz.data @ state.lines.normal.data[line] - state.lines.offset.data[line]
+            )
             found |= np.abs(off) < 1e-9
     return found
 

@@ -1,4 +1,4 @@
-"""Would a curve keep its shape with one more defining point on it?"""
+"""How far a curve moves when one defining point comes or goes."""
 
 from __future__ import annotations
 

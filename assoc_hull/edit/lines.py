@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.keep import drift
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.ride import ride_links
@@ -139,8 +140,10 @@ def rename_line(edit: Transaction, line: int, name: str) -> None:
     ------
     NameTakenError
         Another line of the group has that name.
+    BadInputError
+        It is no name.
     """
-    state = edit.state
+    state, name = edit.state, line_name(name)
     group = state.lines.group.data[line]
     taken = {
         state.lines.name.data[other]

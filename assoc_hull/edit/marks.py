@@ -44,7 +44,12 @@ class Marks:
     def take(self, chosen: IntArray) -> Marks:
         """Give some of the marks, in the order of the indices."""
         return Marks(
-            self.curve[chosen], self.at[chosen], self.xyz[chosen], self.sign[chosen], self.boundary[chosen], self.root[chosen]
+            self.curve[chosen],
+            self.at[chosen],
+            self.xyz[chosen],
+            self.sign[chosen],
+            self.boundary[chosen],
+            self.root[chosen],
         )
 
 
@@ -55,7 +60,9 @@ def _sources(state: HullState, group: int) -> list[int]:
     linked = {pair.b for pair in state.associations if pair.a == mine}
     linked |= {pair.a for pair in state.associations if pair.b == mine}
     rank = {i: FAMILIES[state.groups.family.data[i]].rank for i in range(len(names))}
-    others = sorted((i for i in range(len(names)) if names[i] in linked), key=lambda i: (rank[i], names[i]))
+    others = sorted(
+        (i for i in range(len(names)) if names[i] in linked), key=lambda i: (rank[i], names[i])
+    )
     lower = [i for i in others if rank[i] < rank[group]]
     plain = [i for i in lower if rank[i] > 0]
     if plain:
@@ -87,13 +94,16 @@ def find_marks(state: HullState, group: int, normal: FloatArray, position: float
     if len(owner) < 2:
         raise _misses(state, group, normal, position)
     return Marks(
-        owner, met.t.copy(), xyz, met.sign.astype(np.int64), state.lines.boundary.data[lines].astype(np.int64), root
+        owner,
+        met.t.copy(),
+        xyz,
+        met.sign.astype(np.int64),
+        state.lines.boundary.data[lines].astype(np.int64),
+        root,
     )
 
 
-def _misses(
-    state: HullState, group: int, normal: FloatArray, position: float
-) -> NoMeetingError:
+def _misses(state: HullState, group: int, normal: FloatArray, position: float) -> NoMeetingError:
     curves = state.live("curves")
     reach = np.concatenate([state.spline(curve).xyz @ normal for curve in curves.tolist()])
     nearest = max(0.0, float(reach.min() - position), float(position - reach.max()))

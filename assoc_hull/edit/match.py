@@ -176,7 +176,9 @@ def find_meetings(state: HullState, reference: SplineBatch) -> list[Meeting]:
     names = state.groups.name.data
     for link in state.associations:
         first, second = names.index(link.a), names.index(link.b)
-        pair = sorted((first, second), key=lambda g: (FAMILIES[state.groups.family.data[g]].rank, names[g]))
+        pair = sorted(
+            (first, second), key=lambda g: (FAMILIES[state.groups.family.data[g]].rank, names[g])
+        )
         if "boundary" in {state.groups.family.data[group] for group in pair}:
             continue
         found += _pair_up(state, reference, pair[0], pair[1])
@@ -194,12 +196,13 @@ def _pair_up(state: HullState, reference: SplineBatch, a: int, b: int) -> list[M
             for other in on_b[line_b, line_a]
         ]
         used: set[tuple[str, int, float]] = set()
-        for one, other, gap, apart in sorted(ends, key=lambda end: (end[2] + 0.01 * end[3], end[0].at)):
+        for one, other, gap, _ in sorted(ends, key=lambda end: (end[2] + 0.01 * end[3], end[0].at)):
             keys = {("a", one.curve, one.at), ("b", other.curve, other.at)}
             if gap > _REACH or used & keys:
                 continue
             used |= keys
-            spots = tuple(snap(state, (line_a, line_b), root.xyz) for root in (one, other))
+            lines = (line_a, line_b)
+            spots = snap(state, lines, one.xyz), snap(state, lines, other.xyz)
             angles = (one.angle_deg, other.angle_deg)
             found.append(
                 Meeting(one.curve, other.curve, (one.at, other.at), angles, spots, gap, one.sign)

@@ -53,4 +53,3 @@ def mend(maker: Maker, rows: IntArray, on: IntArray | None = None) -> tuple[IntA
     touched = np.array(sorted(curves), np.int64)
     ride_links(state, touched, maker.journal)
     return touched, np.array(sorted(moved), np.int64)
-

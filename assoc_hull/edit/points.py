@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.edit.arguments import place as one_place
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.edit.transaction import Transaction
@@ -63,7 +64,9 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     place = state.rows.xyz.data[row].copy()
     for axis, value in to.items():
         place[_AXES[axis]] = value
-    edit.write(np.array([row]), _on_planes(state, row, place)[None], f"move of {address(state, row)}")
+    edit.write(
+        np.array([row]), _on_planes(state, row, place)[None], f"move of {address(state, row)}"
+    )
     curves = state.rows.curve.data[row]
     edit.pending.moved_curves |= {int(curve) for curve in curves if curve >= 0}
     if state.rows.sort.data[row] == Sort.ADOPTED:
@@ -119,13 +122,7 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     """
     state = edit.state
     name = str(state.lines.name.data[state.line_of(curve)])
-    try:
-        xyz = np.array(place, np.float64)
-    except (TypeError, ValueError):
-        xyz = np.zeros(0)
-    if xyz.shape != (3,) or not np.isfinite(xyz).all():
-        raise BadInputError(f"the place {place!r}", f"for a point of {name}", "give three numbers, m")
-    xyz = _in_line(state, curve, xyz)
+    xyz = _in_line(state, curve, one_place(place, f"the place of a point of {name}"))
     rows: IntArray = state.curves.rows.data[curve]
     away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
     if away.min() < state.tolerances.coincident:
@@ -222,7 +219,9 @@ def set_kind(
         at = int(np.flatnonzero(rows == row)[0])
         given = np.array(spline.leave[at] if direction is None else direction, np.float64)
         if given.shape != (3,) or not np.isfinite(given).all() or not (given != 0.0).any():
-            raise BadInputError(f"the direction {direction!r}", where, "give a vector with a length")
+            raise BadInputError(
+                f"the direction {direction!r}", where, "give a vector with a length"
+            )
     kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
     kinds[side], directions[side] = PointKind[kind.upper()], given
     edit.journal.put(state.rows.kind, [row], kinds[None])
@@ -246,7 +245,10 @@ def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
     if state.rows.sort.data[row] != old:
         sort = Sort(int(state.rows.sort.data[row])).name.lower()
         raise PointRoleError(
-            address(state, row), f"a {sort} point", None, f"only {old.name.lower()} points can change"
+            address(state, row),
+            f"a {sort} point",
+            None,
+            f"only {old.name.lower()} points can change",
         )
     edit.journal.put(state.rows.sort, [row], int(new))
     edit.journal.put(state.rows.anchor, [row], -1)

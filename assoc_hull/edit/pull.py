@@ -5,9 +5,10 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.edit.arguments import pair
 from assoc_hull.edit.field import FieldContext, Shift, bell, context, move_normal, row_spacing
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, PointRoleError
+from assoc_hull.errors import PointRoleError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = ["Pull", "pull"]
@@ -45,7 +46,9 @@ class Pull:
         xyz = ground.state.rows.xyz.data[ground.free]
         step = xyz - self.place
         girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        amount = part * self.amount * bell(step[:, 0] / self.radius[0]) * bell(girth / self.radius[1])
+        amount = (
+            part * self.amount * bell(step[:, 0] / self.radius[0]) * bell(girth / self.radius[1])
+        )
         if not self.across_flats and np.isfinite(self.flat_fade):
             amount = amount * (1.0 - bell(ground.flat_distance / self.flat_fade))
         reach = amount != 0.0
@@ -88,11 +91,10 @@ def pull(
     """
     state = edit.state
     place = state.rows.xyz.data[row].copy()
-    reach = radius or (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
-    if not np.isfinite(amount) or not all(np.isfinite(each) and each > 0.0 for each in reach):
-        raise BadInputError(
-            f"a pull of {amount} m with radii {reach}", "in pull", "give a finite d and radii above 0"
-        )
+    if radius is None:
+        reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
+    else:
+        reach = pair(radius, "radius", positive=True)
     ground = context(state, across_flats=across_flats)
     border = _border_distance(ground, row)
     if border is None:

@@ -43,7 +43,9 @@ class Fairness:
         new = SplineBatch.join([self.after[curve] for curve in numbers])
         more = inflections(new, normals)[0] - inflections(old, normals)[0]
         return tuple(
-            (self.keys[i], int(count)) for i, count in zip(known, more.tolist(), strict=True) if count > 0
+            (self.keys[i], int(count))
+            for i, count in zip(known, more.tolist(), strict=True)
+            if count > 0
         )
 
 

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.edit.arguments import pair, places
 from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
 from assoc_hull.edit.normals import hull_normals
 from assoc_hull.edit.points import pin
@@ -34,7 +35,7 @@ from assoc_hull.model.state import HullState
 __all__ = ["reshape"]
 
 _NEAR = 0.5
-"""A point of the new shape as near as this (m) to a crossing, and in its plane, is that crossing."""
+"""A point of the new shape as near as this (m) to a crossing, in its plane, is that crossing."""
 
 _CROWDED = 0.2
 """Old points as near as this (m) to a given one do not shape the designer's curve."""
@@ -116,6 +117,7 @@ def reshape(
     state = edit.state
     section = state.family(state.line_of(curve)).axis == 0
     axis = 2 if section else 0
+    span = pair(span, "span", positive=False)
     shape = _checked(state, curve, points, span, axis)
     old = state.spline(curve)
     design = _design(old, shape, span, axis, _free_ends(state, curve))
@@ -124,13 +126,13 @@ def reshape(
     moved[[0, -1]] = _slide(state, curve, old, moved[[0, -1]])
     new = _designed(state, curve, old, design, moved)
     rows = _own_rows(state, curve, old, design, across_flats=across_flats)
-    places = _places(state, curve, rows, old.xyz + moved, new)
+    goals = _goals(state, curve, rows, old.xyz + moved, new)
     start = state.rows.xyz.data[rows].copy()
     normals = hull_normals(state)[state.curves.rows.data[curve]]
-    made = _place(edit, curve, design.shape, rows, places)
+    made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
         Reshape(
-            curve, old, new, normals, rows, places, start, _radius(state, fade, shape), section,
+            curve, old, new, normals, rows, goals, start, _radius(state, fade, shape), section,
             (float(design.at[0]), float(design.at[-1])), flat, across_flats,
         )
     )  # fmt: skip
@@ -141,26 +143,26 @@ def reshape(
 def _checked(
     state: HullState, curve: int, points: ArrayLike, span: tuple[float, float], axis: int
 ) -> FloatArray:
-    where = f"in reshape of {state.curves.key.data[curve]}"
-    shape = np.atleast_2d(np.array(points, np.float64))
-    if shape.ndim != 2 or shape.shape[1] != 3 or not len(shape) or not np.isfinite(shape).all():
-        raise BadInputError(f"the points have the shape {shape.shape}", where, "give (k, 3) numbers")
-    if not span[0] < span[1]:
-        raise BadInputError(f"the span {span} is empty", where, "give (lower, upper)")
+    """Check the points against the span and the plane of the curve."""
+    name = state.lines.name.data[state.line_of(curve)]
+    shape = places(points, f"the new shape of {name}")
     off = (shape[:, axis] <= span[0]) | (shape[:, axis] >= span[1])
     if off.any():
         raise BadInputError(
-            f"the point {shape[off][0].tolist()} lies outside the span {span}", where,
+            f"the point {shape[off][0].tolist()} lies outside the span {span}",
+            f"in reshape of {name}",
             "widen the span or leave the point out",
-        )  # fmt: skip
+        )
     line = state.line_of(curve)
     if state.lines.planar.data[line]:
-        away = np.abs(shape @ state.lines.normal.data[line] - state.lines.offset.data[line])
+        normal = state.lines.normal.data[line]
+        away = np.abs((shape * normal).sum(axis=1) - state.lines.offset.data[line])
         if away.max() > 1e-9:
             raise BadInputError(
-                f"a point lies {away.max():.3g} m off the plane of the line", where,
+                f"a point lies {away.max():.3g} m off the plane of the line",
+                f"in reshape of {name}",
                 "put it in the plane",
-            )  # fmt: skip
+            )
     return shape
 
 
@@ -262,23 +264,24 @@ def _own_rows(
     mine &= ~on_profile(state)[rows]
     if not across_flats:
         mine &= ~on_flat(state)[rows]
-    return rows[mine]
+    chosen: IntArray = rows[mine]
+    return chosen
 
 
-def _places(
+def _goals(
     state: HullState, curve: int, rows: IntArray, displaced: FloatArray, new: SplineBatch
 ) -> FloatArray:
     """Give where own points go: crossings to the new shape's meeting with their plane."""
     order: IntArray = state.curves.rows.data[curve]
     index = {row: i for i, row in enumerate(order.tolist())}
-    places = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
+    goals = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
     for i, row in enumerate(rows.tolist()):
         if state.rows.sort.data[row] == Sort.CROSSING:
-            places[i] = _meeting(state, curve, row, places[i], new)
+            goals[i] = _meeting(state, curve, row, goals[i], new)
     line = state.line_of(curve)
     if state.lines.planar.data[line]:
-        places[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
-    return places
+        goals[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
+    return goals
 
 
 def _meeting(
@@ -304,39 +307,39 @@ def _meeting(
 def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
     if fade is None:
         return None
-    if fade == "auto":
+    if isinstance(fade, str) and fade == "auto":
         middle = shape[len(shape) // 2]
         girth = 3.0 * row_spacing(state, middle)
         return 3.0 * _station_spacing(state), girth
-    if not all(np.isfinite(each) and each > 0.0 for each in fade):
-        raise BadInputError(f"the fade {fade}", "in reshape", "give two radii above 0")
-    return float(fade[0]), float(fade[1])
+    return pair(fade, "fade", positive=True)
 
 
 def _station_spacing(state: HullState) -> float:
     lines = state.live("lines")
     across = lines[state.lines.planar.data[lines] & (state.lines.normal.data[lines, 0] == 1.0)]
     offsets = np.sort(state.lines.offset.data[across])
-    return float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
+    return (
+        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
+    )
 
 
 def _place(
-    edit: Transaction, curve: int, shape: FloatArray, rows: IntArray, places: FloatArray
+    edit: Transaction, curve: int, shape: FloatArray, rows: IntArray, goals: FloatArray
 ) -> list[int]:
     """Make placed points of the designer's points that no crossing holds.
 
-    An adopted point near by takes the place, and is placed from then on; `places` is
+    An adopted point near by takes the place, and is placed from then on; `goals` is
     changed accordingly.
     """
     state = edit.state
     made: list[int] = []
     for point in shape:
-        held = len(places) and float(np.abs(places - point).max(axis=1).min()) < 1e-9
+        held = len(goals) and float(np.abs(goals - point).max(axis=1).min()) < 1e-9
         if held or _at_crossing(state, curve, point):
             continue
-        near = _adopted_near(state, rows, places, point)
+        near = _adopted_near(state, rows, goals, point)
         if near is not None:
-            places[near] = point
+            goals[near] = point
             pin(edit, int(rows[near]))
             continue
         row = int(edit.maker.points([PointSpec(curve, point, Sort.PLACED)])[0])
@@ -352,13 +355,13 @@ def _place(
 
 
 def _adopted_near(
-    state: HullState, rows: IntArray, places: FloatArray, point: FloatArray
+    state: HullState, rows: IntArray, goals: FloatArray, point: FloatArray
 ) -> int | None:
     """Give the index of the nearest adopted point, if it is near enough."""
     mine = np.flatnonzero(state.rows.sort.data[rows] == Sort.ADOPTED)
     if not len(mine):
         return None
-    step = places[mine] - point
+    step = goals[mine] - point
     away = np.sqrt((step * step).sum(axis=1))
     best = int(away.argmin())
     return int(mine[best]) if away[best] < _NEAR else None
@@ -371,7 +374,9 @@ def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
     """
     table = state.rows
     rows = np.flatnonzero(
-        table.alive.data & (table.curve.data == curve).any(axis=1) & (table.sort.data == Sort.CROSSING)
+        table.alive.data
+        & (table.curve.data == curve).any(axis=1)
+        & (table.sort.data == Sort.CROSSING)
     )
     near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < _NEAR]
     for row in near.tolist():

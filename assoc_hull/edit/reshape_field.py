@@ -81,12 +81,12 @@ class Reshape:
         )
 
     def exact(self) -> tuple[IntArray, FloatArray]:
-        """The curve's own points land on the designer's curve."""
+        """Give the curve's own points, which land on the designer's curve."""
         return self.rows, self.places
 
     def _amount(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the faded normal change at points, and the parameter it comes from, (k,), m."""
-        assert self.radius is not None  # noqa: S101 - shift has looked
+        assert self.radius is not None
         if self.along_x:
             fade = bell((xyz[:, 0] - self.old.xyz[0, 0]) / self.radius[0])
             near = np.flatnonzero(fade != 0.0)
@@ -100,7 +100,7 @@ class Reshape:
 
     def _at_same_x(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Take the change where the old curve has the same x, nearest seen along x."""
-        assert self.radius is not None  # noqa: S101 - shift has looked
+        assert self.radius is not None
         levels, place = np.unique(xyz[:, 0], return_inverse=True)
         met = meet_planes(self.old, np.array([1.0, 0.0, 0.0]), levels)
         first = np.searchsorted(met.plane, np.arange(len(levels) + 1))
@@ -123,7 +123,9 @@ class Reshape:
         here = evaluate(self.old, zero, np.clip(at, 0.0, self.old.knot[-1]))
         inside = (at > self.span[0]) & (at < self.span[1])
         there = closest(self.new, 0, here)[1]
-        normal = np.column_stack([np.interp(at, self.old.knot, self.normal[:, i]) for i in range(3)])
+        normal = np.column_stack(
+            [np.interp(at, self.old.knot, self.normal[:, i]) for i in range(3)]
+        )
         length = np.sqrt((normal * normal).sum(axis=1))
         normal = normal / np.where(length > 1e-12, length, 1.0)[:, None]
         change: FloatArray = ((there - here) * normal).sum(axis=1)

@@ -51,7 +51,9 @@ def _weights(
     chord = np.concatenate([[0.0], np.cumsum(np.sqrt((step * step).sum(axis=1)))])
     low, high = chord[np.maximum(pair[:, 0], 0)], chord[np.maximum(pair[:, 1], 0)]
     whole = np.where(high > low, high - low, 1.0)
-    weight = np.where(pair[:, 0] < 0, 1.0, np.where(pair[:, 1] < 0, 0.0, (chord[adopted] - low) / whole))
+    weight = np.where(
+        pair[:, 0] < 0, 1.0, np.where(pair[:, 1] < 0, 0.0, (chord[adopted] - low) / whole)
+    )
     return np.asarray(weight, np.float64)
 
 

@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Literal, Self
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit import associate as _associate
@@ -23,6 +22,7 @@ from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
+from assoc_hull.edit.arguments import number
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
@@ -107,13 +107,12 @@ class Edit:
         """
         asked = {"x": x, "y": y, "z": z}
         row, _ = self._point(point)
-        given = {axis: _number(value, axis) for axis, value in asked.items() if value is not None}
+        given = {axis: number(value, axis) for axis, value in asked.items() if value is not None}
         _points.move(self._transaction, row, given)
 
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
         """Insert a placed point at (x, y, z), m; it is never moved by an update."""
-        number = self._curve(curve)
-        row = _points.insert(self._transaction, number, place)
+        row = _points.insert(self._transaction, self._curve(curve), place)
         return Point.of(self._tables, row)
 
     def delete(self, point: Point | str) -> None:
@@ -145,7 +144,7 @@ class Edit:
     ) -> None:
         """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
         row, _ = self._point(point)
-        _pull.pull(self._transaction, row, _number(d, "d"), radius, across_flats=across_flats)
+        _pull.pull(self._transaction, row, number(d, "d"), radius, across_flats=across_flats)
 
     def reshape(
         self,
@@ -160,9 +159,8 @@ class Edit:
 
         Returns the placed points that were made.
         """
-        number = self._curve(curve)
         made = _reshape.reshape(
-            self._transaction, number, points, span, fade, across_flats=across_flats
+            self._transaction, self._curve(curve), points, span, fade, across_flats=across_flats
         )
         return tuple(Point.of(self._tables, row) for row in made)
 
@@ -205,12 +203,12 @@ class Edit:
     def add_line(self, group: Group | str, position: float, name: str | None = None) -> Line:
         """Cut a new line at a position (m) along its family's axis."""
         title = group.name if isinstance(group, Group) else group
-        number = _cut.add_line(self._transaction, title, _number(position, "position"), name)
-        return Line.of(self._tables, number)
+        line = _cut.add_line(self._transaction, title, number(position, "position"), name)
+        return Line.of(self._tables, line)
 
     def shift_line(self, line: Line | str, position: float) -> None:
         """Shift a line to another position (m); the hull keeps its shape."""
-        _shift.shift_line(self._transaction, self._line(line), _number(position, "position"))
+        _shift.shift_line(self._transaction, self._line(line), number(position, "position"))
 
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
@@ -231,6 +229,8 @@ class Edit:
         if isinstance(curve, Curve):
             self._check_own(curve)
             return curve.row
+        if not isinstance(curve, str):
+            raise BadInputError(f"the curve {curve!r}", "in an edit", "give a handle or an address")
         found = resolve(self._tables, curve)
         if found.curve >= 0:
             return found.curve
@@ -244,6 +244,8 @@ class Edit:
         if isinstance(line, Line):
             self._check_own(line)
             return line.row
+        if not isinstance(line, str):
+            raise BadInputError(f"the line {line!r}", "in an edit", "give a handle or an address")
         found = resolve(self._tables, line)
         if found.line < 0:
             raise UnknownNameError("line", line)
@@ -252,14 +254,3 @@ class Edit:
     def _check_own(self, handle: Point | Curve | Line) -> None:
         if handle.tables is not self._tables:
             raise ForeignPointError(repr(handle))
-
-
-def _number(value: object, name: str) -> float:
-    """Take a finite number, or say which argument is none."""
-    try:
-        found = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        found = float("nan")
-    if not np.isfinite(found):
-        raise BadInputError(f"{name} is {value!r}", "in an edit", "give a finite number")
-    return found

@@ -55,7 +55,9 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     known = _followed(state, line, crossings, position)
     pieces = pieces_of(state, line, marks)
     if len(pieces) != len(mine):
-        reason = f"{state.lines.name.data[line]} has {len(mine)} curves, at {position:g} m {len(pieces)}"
+        reason = (
+            f"{state.lines.name.data[line]} has {len(mine)} curves, at {position:g} m {len(pieces)}"
+        )
         raise RefusedEditError(edit.name, (f"{reason}; add a line there instead",))
     edit.pending.structural = True
     leave_behind(edit, crossings, mine)

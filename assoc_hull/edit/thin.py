@@ -64,10 +64,10 @@ _SAME = 1e-4
 
 
 class _Item(NamedTuple):
-    """Something on a curve: a contact, a meeting, or a given point; `index` counts them all."""
+    """Something on a curve: a contact, a meeting, or a given point; `number` counts them all."""
 
     at: float
-    index: int
+    number: int
     fixed: bool
     angle_deg: float
 
@@ -103,15 +103,15 @@ def thin(net: Net) -> Thinned:
 
 
 def _outcome(work: _Thinning, roles: list[Role], orders: list[list[_Item]]) -> Thinned:
-    """Number the points that are used anew, and put the outcome together."""
+    """Put the outcome together, with numbers for the points that are used only."""
     contacts, first = len(work.net.contacts), work.fixed_count
-    used = sorted({item.index for order in orders for item in order if item.index >= first})
+    used = sorted({item.number for order in orders for item in order if item.number >= first})
     number = {old: first + new for new, old in enumerate(used)}
     return Thinned(
         tuple(roles[:contacts]),
         tuple(roles[contacts:]),
         tuple(work.points[index - first] for index in used),
-        tuple(tuple(number.get(item.index, item.index) for item in order) for order in orders),
+        tuple(tuple(number.get(item.number, item.number) for item in order) for order in orders),
     )
 
 
@@ -126,7 +126,9 @@ def _collect(work: _Thinning) -> None:
         work.items[contact.boundary].append(_Item(contact.at, index, False, angle))
         held.add((contact.curve, contact.point))
     for index, meeting in enumerate(net.meetings, len(net.contacts)):
-        for curve, at, angle in zip((meeting.a, meeting.b), meeting.at, meeting.angle_deg, strict=True):
+        for curve, at, angle in zip(
+            (meeting.a, meeting.b), meeting.at, meeting.angle_deg, strict=True
+        ):
             work.items[curve].append(_Item(at, index, False, angle))
     for curve, source in enumerate(net.sources):
         last = len(source.points) - 1
@@ -151,7 +153,11 @@ def _add_point(work: _Thinning, curve: int, point: int) -> None:
     index = work.fixed_count + len(work.points)
     work.points.append(
         PointItem(
-            curve, source.points[point], source.placed, int(source.kind[point]), source.direction[point]
+            curve,
+            source.points[point],
+            source.placed,
+            int(source.kind[point]),
+            source.direction[point],
         )
     )
     work.point_at.append((curve, at))
@@ -172,7 +178,7 @@ def _rule(work: _Thinning, curve: int) -> set[int]:
         np.array([item.fixed for item in items]),
     )
     picked = choose(candidates, work.net.state.tolerances)
-    return {item.index for item, take in zip(items, picked.tolist(), strict=True) if take}
+    return {item.number for item, take in zip(items, picked.tolist(), strict=True) if take}
 
 
 def _roles(work: _Thinning) -> list[Role]:
@@ -218,19 +224,19 @@ def _orders(work: _Thinning, roles: list[Role]) -> list[list[_Item]]:
     for i, point in enumerate(work.points, work.fixed_count):
         defines[point.curve].add(i)
     return [
-        _apart(work, [item for item in items if item.index in defines[curve]])
+        _apart(work, [item for item in items if item.number in defines[curve]])
         for curve, items in enumerate(work.items)
     ]
 
 
 def _apart(work: _Thinning, order: list[_Item]) -> list[_Item]:
     """Leave out adopted points at which a crossing has come to define the curve."""
-    held = [_xyz(work, item.index) for item in order if item.index < work.fixed_count]
+    held = [_xyz(work, item.number) for item in order if item.number < work.fixed_count]
     return [
         item
         for item in order
-        if item.index < work.fixed_count
-        or not any(float(np.abs(_xyz(work, item.index) - at).max()) < _SAME for at in held)
+        if item.number < work.fixed_count
+        or not any(float(np.abs(_xyz(work, item.number) - at).max()) < _SAME for at in held)
     ]
 
 
@@ -249,13 +255,13 @@ def _loft_orders(net: Net, orders: list[list[_Item]], work: _Thinning) -> Spline
     kinds, directions = [], []
     for curve, order in enumerate(orders):
         for item in order:
-            kind, direction = _kind(work, curve, item.index)
+            kind, direction = _kind(work, curve, item.number)
             kinds.append(kind)
             directions.append(direction)
     return loft(
         CurveData(
             start,
-            np.array([_xyz(work, item.index) for order in orders for item in order]),
+            np.array([_xyz(work, item.number) for order in orders for item in order]),
             np.array(kinds, np.int8),
             np.array(directions),
             np.array([source.ends.kind for source in net.sources], np.int8),
@@ -283,7 +289,7 @@ def _worst(
     splines = _loft_orders(net, orders, work)
     found: list[tuple[int, int]] = []
     for curve, source in enumerate(net.sources):
-        known = np.array([_xyz(work, item.index) for item in orders[curve]])
+        known = np.array([_xyz(work, item.number) for item in orders[curve]])
         away = closest(splines, curve, source.points)[2]
         apart = np.abs(source.points[:, None, :] - known[None, :, :]).max(axis=2).min(axis=1)
         away = np.where(apart > _SAME, away, 0.0)
@@ -297,8 +303,8 @@ def _take_in(work: _Thinning, curve: int, point: int) -> None:
     """Take the thinned crossing at a given point back in, or adopt the point."""
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
-        near = item.index < work.fixed_count and item.index not in work.chosen[curve]
-        if near and float(np.abs(_xyz(work, item.index) - place).max()) < _SAME:
-            work.chosen[curve].add(item.index)
+        near = item.number < work.fixed_count and item.number not in work.chosen[curve]
+        if near and float(np.abs(_xyz(work, item.number) - place).max()) < _SAME:
+            work.chosen[curve].add(item.number)
             return
     _add_point(work, curve, point)

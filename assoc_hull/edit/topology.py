@@ -5,9 +5,9 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.edit.thread import thread
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.edit.thread import thread
 from assoc_hull.model.align import Alignment
 from assoc_hull.model.family import Role
 from assoc_hull.model.gaps import crossing_normals, tangents
@@ -157,7 +157,8 @@ def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> tupl
 
 
 def _tangent(state: HullState, curve: int, at: float) -> FloatArray:
-    return tangents(state, np.array([curve]), np.array([at]))[0]
+    found: FloatArray = tangents(state, np.array([curve]), np.array([at]))[0]
+    return found
 
 
 def _make(
@@ -178,7 +179,9 @@ def _make(
     role = Role.WATCHED if watch else _role(state, (a, b), (line_a, line_b), at)
     spots = meets_a.xyz[spot_a], meets_b.xyz[spot_b]
     value = spots[1] if b in edited and a not in edited and role is Role.SHARED else spots[0]
-    row = int(maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0])
+    row = int(
+        maker.crossings([CrossingSpec(a, b, value, role, int(meets_a.sign[spot_a]), spots)])[0]
+    )
     for curve, spot in ((a, spot_a), (b, spot_b)):
         meets: Meets = state.curves.meets.data[curve]
         marked = meets.row.copy()
@@ -255,4 +258,3 @@ def generates(state: HullState, line_a: int, line_b: int) -> tuple[bool, bool]:
         if [link.b, link.a] == names:
             return link.two_way, True
     return False, False
-

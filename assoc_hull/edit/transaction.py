@@ -130,4 +130,3 @@ class Transaction:
         self.journal.undo()
         if structural:
             self.document.refresh()
-

@@ -7,6 +7,7 @@ came or went, and for gaps that are mended; it lofts only the curves these touch
 from __future__ import annotations
 
 import time
+
 import attrs
 import numpy as np
 
@@ -23,6 +24,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Readers
 from assoc_hull.graph.run import Pass, Policy, run
+from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
 from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
@@ -114,14 +116,16 @@ class _Work:
     def evaluated(self) -> IntArray:
         """Curves evaluated in any pass, in order, each once."""
         nodes = np.concatenate([_NONE, *(part.evaluated for part in self.passes)])
-        curves = nodes[(nodes & 1) == 1] >> 1
-        return curves[np.sort(np.unique(curves, return_index=True)[1])]
+        curves: IntArray = nodes[(nodes & 1) == 1] >> 1
+        once: IntArray = curves[np.sort(np.unique(curves, return_index=True)[1])]
+        return once
 
     def touched(self) -> IntArray:
         """Curves evaluated in any pass or made in this edit, but for those removed since."""
         fresh = np.array(self.pending.fresh, np.int64)
         curves = np.concatenate([self.evaluated(), fresh]) if len(fresh) else self.evaluated()
-        return curves[self.state.curves.alive.data[curves]]
+        alive: IntArray = curves[self.state.curves.alive.data[curves]]
+        return alive
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
@@ -207,9 +211,7 @@ def _set_values(
     return rows[differs], np.sqrt((step * step).sum(axis=1))
 
 
-def _run_fields(
-    work: _Work, rows: IntArray, away: FloatArray
-) -> tuple[IntArray, FloatArray]:
+def _run_fields(work: _Work, rows: IntArray, away: FloatArray) -> tuple[IntArray, FloatArray]:
     """Run the fields, in sub-steps where they are large; give all points that were set."""
     state, fields = work.state, work.pending.fields
     across = any(field.across_flats for field in fields)
@@ -224,9 +226,7 @@ def _run_fields(
         if step:
             ground = context(state, across_flats=across)
         shift = add_shifts([field.shift(ground, 1.0 / steps) for field in fields], pinned)
-        work.journal.put(
-            state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta
-        )
+        work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
         if step == steps - 1:
             land(state, work.journal, fields)
         adopted = state.rows.sort.data[shift.rows] == Sort.ADOPTED
@@ -236,7 +236,7 @@ def _run_fields(
         work.go(seeds, curves if step == 0 else _NONE)
         _settle(work)
     work.pending.notes += [
-        f"{state.rows.key.data[row]}: left alone, it is free almost along the hull only"
+        f"{address(state, row)}: left alone, it is free almost along the hull only"
         for row in shift.left.tolist()
     ]
     rebase(state, np.array(sorted(work.pending.held), np.int64), work.journal)
@@ -293,11 +293,11 @@ def _check(work: _Work) -> tuple[str, ...]:
 
 def _gap_text(work: _Work, index: int) -> str:
     wide = work.wide
-    assert wide is not None  # noqa: S101 - set by the caller just before
+    assert wide is not None
     row = int(wide.rows[index])
     x, y, z = work.state.rows.spot.data[row, 0].tolist()
     return (
-        f"{work.state.rows.key.data[row]}: the two curves pass {1e3 * wide.gap[index]:.1f} mm apart "
+        f"{address(work.state, row)}: the two curves pass {1e3 * wide.gap[index]:.1f} mm apart "
         f"at ({x:.3f}, {y:.3f}, {z:.3f}) m, over the limit of {1e3 * wide.limit[index]:.1f} mm; "
         "make the move smaller, use a field, or ask for gaps='report'"
     )
@@ -342,9 +342,7 @@ def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
         largest_gap=0.0 if work.wide is None else work.wide.largest,
         notes=tuple(work.pending.notes),
         seconds=work.seconds,
-        fairness=Fairness(
-            work.network.before, after, plane_normals(state, curves), curves, keys
-        ),
+        fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
     )
 
 

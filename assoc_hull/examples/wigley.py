@@ -118,9 +118,7 @@ def _boundaries(x: FloatArray, hull: tuple[float, float, float]) -> list[LineSou
     ]  # fmt: skip
 
 
-def _section(
-    name: str, x: float, z: FloatArray, hull: tuple[float, float, float]
-) -> LineSource:
+def _section(name: str, x: float, z: FloatArray, hull: tuple[float, float, float]) -> LineSource:
     """From the keel up; a tangent point where the wall side begins."""
     height = np.append(z, (1.0 + _FREEBOARD) * hull[2])
     y = half_breadth(np.full(len(height), x), height, *hull)
@@ -128,4 +126,6 @@ def _section(
     kind[-2] = PointKind.TANGENT
     upward = np.where((kind == PointKind.TANGENT)[:, None], [0.0, 0.0, 1.0], 0.0)
     points = np.column_stack([np.full(len(height), x), y, height])
-    return LineSource.make("sections", name, points, kind=kind.tolist(), direction=upward)
+    return LineSource.make(
+        "sections", name, points, kind=[int(each) for each in kind], direction=upward
+    )

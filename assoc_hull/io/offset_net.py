@@ -96,9 +96,13 @@ def net_from_offsets(
     )
     flats = _Flats(completion.side, table)
     sources = _boundaries(table, completion, flats)
-    sources += [_section(table, completion, flats, i) for i in range(len(table.x))]
+    wet = [i for i in range(len(table.x)) if (table.half_breadth[i, 1:] > 0.0).any()]
+    sources += [_section(table, completion, flats, i) for i in wet]
     sources += [_waterline(table, completion, flats, j) for j in range(1, len(table.z) - 1)]
-    return adopt(sources, ship, ASSOCIATIONS, tolerances)
+    state, report = adopt(sources, ship, ASSOCIATIONS, tolerances)
+    bare = [i for i in range(len(table.x)) if i not in wet]
+    notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
+    return state, attrs.evolve(report, notes=(*notes, *report.notes))
 
 
 class _Flats:
@@ -153,7 +157,12 @@ def _boundaries(table: OffsetTable, completion: Completion, flats: _Flats) -> li
 
 
 def _line(
-    group: str, name: str, points: list[FloatArray], tangents: FloatArray, along: FloatArray, axis: int
+    group: str,
+    name: str,
+    points: list[FloatArray],
+    tangents: FloatArray,
+    along: FloatArray,
+    axis: int,
 ) -> LineSource:
     """Put points in order along an axis, those on a flat's border marked as tangent points."""
     xyz = np.array([*points, *tangents])
@@ -216,7 +225,7 @@ def _waterline(table: OffsetTable, completion: Completion, flats: _Flats, j: int
 
 
 def _deck_flat(flats: _Flats, z: float) -> FloatArray:
-    """The border of the flat of side ends in the deck's plane."""
+    """Give the ends of the flat of side's border, in the deck's plane."""
     if flats.side is None:
         return np.zeros((0, 3))
     ends = flats.side[[0, -1]]

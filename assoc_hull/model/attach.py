@@ -145,4 +145,3 @@ def set_limits(state: HullState, journal: Journal, rows: IntArray | None = None)
     least = 2.0 * state.tolerances.adoption
     journal.put(state.rows.limit, watched, np.maximum(least, 1.5 * gap))
     journal.put(state.rows.xyz, watched, state.rows.spot.data[watched, 0])
-

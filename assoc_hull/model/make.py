@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import NameTakenError, UnknownNameError
-from assoc_hull.geometry.curves import IntArray, PointKind, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import Association, Ends, HullState
@@ -68,6 +68,11 @@ class PointSpec:
     direction: ArrayLike = (0.0, 0.0, 0.0)
 
 
+def _stack(values: Sequence[object]) -> FloatArray:
+    """Make one array of places or directions."""
+    return np.array(values, np.float64)
+
+
 @attrs.frozen(eq=False)
 class Maker:
     """Writes structure into the tables of a hull, through a journal."""
@@ -104,12 +109,16 @@ class Maker:
     ) -> int:
         """Add a line without curves."""
         table, title = self.state.lines, self.state.groups.name.data[group]
-        taken = [table.name.data[i] for i in self.state.live("lines") if table.group.data[i] == group]
+        taken = [
+            table.name.data[i] for i in self.state.live("lines") if table.group.data[i] == group
+        ]
         if name in taken:
             raise NameTakenError(f"line of {title}", name)
         number = int(self.journal.grow(table, 1)[0])
         place = name if plane is None or boundary >= 0 else f"{plane[1]:.6f}"
-        self.journal.set(table.key, [number], [self._fresh(table.key.data, key or f"{title}:{place}")])
+        self.journal.set(
+            table.key, [number], [self._fresh(table.key.data, key or f"{title}:{place}")]
+        )
         self.journal.set(table.name, [number], [name])
         self.journal.put(table.group, [number], [group])
         self.journal.put(table.boundary, [number], [boundary])
@@ -162,24 +171,24 @@ class Maker:
         put(table.birth, rows, numbers)
         put(table.alive, rows, True)
         put(table.sort, rows, int(Sort.CROSSING))
-        put(table.xyz, rows, [spec.xyz for spec in specs])
-        put(table.spot, rows, [spec.spots or (spec.xyz, spec.xyz) for spec in specs])
+        put(table.xyz, rows, _stack([spec.xyz for spec in specs]))
+        put(table.spot, rows, _stack([spec.spots or (spec.xyz, spec.xyz) for spec in specs]))
         put(table.curve, rows, [(spec.a, spec.b) for spec in specs])
         put(table.sign, rows, [spec.sign for spec in specs])
         put(table.contact, rows, [spec.contact for spec in specs])
         put(table.kind, rows, [(int(PointKind.SMOOTH), spec.kind_b) for spec in specs])
-        put(table.direction, rows, [((0.0, 0.0, 0.0), spec.direction_b) for spec in specs])
+        put(table.direction, rows, _stack([((0.0, 0.0, 0.0), spec.direction_b) for spec in specs]))
         self.roles(rows, np.array([int(spec.role) for spec in specs]))
         return rows
 
     def replace(self, row: int, spec: CrossingSpec) -> None:
         """Give a crossing that is there already a new place, role and kind; its key stays."""
         table, put = self.state.rows, self.journal.put
-        put(table.xyz, [row], [spec.xyz])
-        put(table.spot, [row], [spec.spots or (spec.xyz, spec.xyz)])
+        put(table.xyz, [row], _stack([spec.xyz]))
+        put(table.spot, [row], _stack([spec.spots or (spec.xyz, spec.xyz)]))
         put(table.contact, [row], [spec.contact])
         put(table.kind, [row], [(int(PointKind.SMOOTH), spec.kind_b)])
-        put(table.direction, [row], [((0.0, 0.0, 0.0), spec.direction_b)])
+        put(table.direction, [row], _stack([((0.0, 0.0, 0.0), spec.direction_b)]))
         self.roles(np.array([row]), np.array([int(spec.role)]))
 
     def _pair(self, spec: CrossingSpec) -> tuple[str, str]:
@@ -214,12 +223,12 @@ class Maker:
         self.journal.set(table.key, rows.tolist(), keys)
         put(table.alive, rows, True)
         put(table.sort, rows, [int(spec.sort) for spec in specs])
-        put(table.xyz, rows, [spec.xyz for spec in specs])
-        put(table.base, rows, [spec.xyz for spec in specs])
+        put(table.xyz, rows, _stack([spec.xyz for spec in specs]))
+        put(table.base, rows, _stack([spec.xyz for spec in specs]))
         put(table.curve, rows, [(spec.curve, -1) for spec in specs])
         put(table.reader, rows, [(spec.curve, -1) for spec in specs])
         put(table.kind, rows, [(spec.kind, 0) for spec in specs])
-        put(table.direction, rows, [(spec.direction, (0.0, 0.0, 0.0)) for spec in specs])
+        put(table.direction, rows, _stack([(spec.direction, (0.0, 0.0, 0.0)) for spec in specs]))
         return rows
 
     def define(self, curve: int, rows: ArrayLike) -> None:

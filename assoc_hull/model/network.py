@@ -29,7 +29,10 @@ _NO_NODES: IntArray = np.zeros(0, np.int64)
 
 def bits_differ(first: FloatArray, second: FloatArray) -> np.typing.NDArray[np.bool_]:
     """Tell for each row of two (k, 3) arrays whether a bit differs."""
-    return (first.view(np.int64) != second.view(np.int64)).any(axis=1)
+    differs: np.typing.NDArray[np.bool_] = (first.view(np.int64) != second.view(np.int64)).any(
+        axis=1
+    )
+    return differs
 
 
 @attrs.define(eq=False)

@@ -98,7 +98,9 @@ class LineSource:
         chosen = FAMILIES.get(family or group)
         if chosen is None:
             raise BadInputError(
-                f"the family {family or group!r} is unknown", where, f"use one of {', '.join(FAMILIES)}"
+                f"the family {family or group!r} is unknown",
+                where,
+                f"use one of {', '.join(FAMILIES)}",
             )
         xyz = _points(points, where)
         normal, offset = _plane(xyz, chosen.axis, plane, where)

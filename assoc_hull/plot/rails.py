@@ -79,7 +79,7 @@ def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> Non
     off = 1.2 * sheet.paper.factor
     title.set_position((float((place - 0.5 * size).min()) - off, title.get_position()[1]))
     title.set_horizontalalignment("right")
-    if overlaps(sheet.box(title), sheet.taken, off):
+    if overlaps(sheet.box(title), sheet.taken, 0.8 * off):
         title.set_position((float((place + 0.5 * size).max()) + off, title.get_position()[1]))
         title.set_horizontalalignment("left")
     sheet.take(title)

@@ -37,7 +37,7 @@ class Row:
         )
 
 
-HEAD = f"{'edit':24s} {'accepted':>7s} {'re-lofts':>8s} {'gap mm':>8s} {'mended':>7s} {'inflections':>11s}"
+HEAD = "edit                     accepted re-lofts   gap mm  mended inflections"
 
 
 def family(hull: ah.Hull, curve: int) -> str:

@@ -76,7 +76,11 @@ def test_series_60_is_consistent_before_and_after_edits(series60_70: ah.Hull) ->
     hull = series60_70
     assert_consistent(hull)
     rows = places.places(hull, places.PAIRS, 6, 11)
-    acts = (places.drag(hull, 0.004), places.pull(hull, 0.03), places.reshape(hull, "buttocks", 0.03))
+    acts = (
+        places.drag(hull, 0.004),
+        places.pull(hull, 0.03),
+        places.reshape(hull, "buttocks", 0.03),
+    )
     for act, row in zip(acts, (rows[0], rows[2], rows[4]), strict=True):
         with hull.edit("act") as edit:
             act(edit, row)

@@ -8,7 +8,16 @@ from hypothesis import given, settings
 import assoc_hull as ah
 from tests.cases import series60_places as places
 from tests.independent import Snapshot, relofted, snapshot
-from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, live_points, tasks
+from tests.net_strategies import (
+    SHAPES,
+    STRUCTURE,
+    Task,
+    carry_out,
+    fresh,
+    hulls,
+    live_points,
+    tasks,
+)
 
 
 def assert_local(hull: ah.Hull, before: Snapshot, published: bool = True) -> None:

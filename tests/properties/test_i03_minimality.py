@@ -16,7 +16,16 @@ from assoc_hull.graph.run import Pass
 from assoc_hull.model.handles import Point
 from tests.cases import series60_places as places
 from tests.independent import closure, relofted, snapshot
-from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, live_points, tasks
+from tests.net_strategies import (
+    SHAPES,
+    STRUCTURE,
+    Task,
+    carry_out,
+    fresh,
+    hulls,
+    live_points,
+    tasks,
+)
 
 
 @contextmanager

@@ -7,7 +7,16 @@ from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.model.family import Role, Sort
-from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, live_points, tasks
+from tests.net_strategies import (
+    SHAPES,
+    STRUCTURE,
+    Task,
+    carry_out,
+    fresh,
+    hulls,
+    live_points,
+    tasks,
+)
 
 
 @attrs.frozen
@@ -27,7 +36,11 @@ def decided(hull: ah.Hull) -> Placed:
     live = state.live("rows").tolist()
     curve = state.curves.key.data
     return Placed(
-        {rows.key.data[i]: rows.xyz.data[i].tobytes() for i in live if rows.sort.data[i] == Sort.PLACED},
+        {
+            rows.key.data[i]: rows.xyz.data[i].tobytes()
+            for i in live
+            if rows.sort.data[i] == Sort.PLACED
+        },
         {
             (rows.key.data[i], curve[int(rows.curve.data[i, side])]): (
                 int(rows.kind.data[i, side]),
@@ -39,11 +52,7 @@ def decided(hull: ah.Hull) -> Placed:
         },
         {curve[i]: repr(state.curves.ends.data[i]) for i in state.live("curves").tolist()},
         {state.lines.key.data[i]: state.lines.name.data[i] for i in state.live("lines").tolist()},
-        {
-            rows.key.data[i]: int(rows.override.data[i])
-            for i in live
-            if rows.override.data[i] >= 0
-        },
+        {rows.key.data[i]: int(rows.override.data[i]) for i in live if rows.override.data[i] >= 0},
     )
 
 
@@ -83,9 +92,9 @@ def test_what_was_decided_stays(hull: ah.Hull, edits: list[Task]) -> None:
                 if not {key, *(key if isinstance(key, tuple) else ())} & (gone | mine):
                     assert new.get(key) == value, f"{name} of {key}"
         if all(act.op != "set_end" for act in task.acts):
-            assert {key: value for key, value in before.ends.items() if key not in gone}.items() <= (
-                after.ends.items()
-            )
+            assert {
+                key: value for key, value in before.ends.items() if key not in gone
+            }.items() <= (after.ends.items())
 
 
 def _gone(hull: ah.Hull) -> set[str]:
@@ -146,7 +155,9 @@ def _roles(hull: ah.Hull) -> dict[str, Role]:
 def test_placed_points_stay_to_the_last_bit_where_the_hull_is_pulled() -> None:
     """A dent is allowed; the point does not move."""
     hull = fresh(0)
-    curve = hull.find("WL 2.083" if "WL 2.083" in hull.lines else next(iter(hull.groups["waterlines"].lines)))
+    curve = hull.find(
+        "WL 2.083" if "WL 2.083" in hull.lines else next(iter(hull.groups["waterlines"].lines))
+    )
     curve = getattr(curve, "curves", (curve,))[0]
     with hull.edit("insert") as edit:
         placed = edit.insert(curve, curve.at(0.4 * curve.span))

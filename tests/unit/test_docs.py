@@ -44,9 +44,7 @@ def _headings(page: Path) -> set[str]:
 
 
 @pytest.fixture
-def ready_made(
-    series60_70: ah.Hull, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Path:
+def ready_made(series60_70: ah.Hull, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder to work in; Series 60 CB 0.70 is opened there, not made again for each page."""
     saved = tmp_path / "made.hull.json"
     series60_70.save(saved)
