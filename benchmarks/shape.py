@@ -8,6 +8,8 @@ x = -50 and 50 m, a buttock to the deck edge if that comes before.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import attrs
 import numpy as np
 
@@ -18,13 +20,19 @@ from assoc_hull.geometry.spline import loft
 __all__ = ["BUTTOCKS", "FAMILIES", "SECTIONS", "WATERLINES", "Shape", "shape"]
 
 HALF_LENGTH = 50.0
-SECTIONS: FloatArray = HALF_LENGTH * np.linspace(-0.98, 0.98, 60)
-WATERLINES: FloatArray = np.arange(1, 41) * (10.0 / 41.0)
-BUTTOCKS: FloatArray = np.arange(1, 31) * (8.0 / 31.0)
+SECTIONS = HALF_LENGTH * np.linspace(-0.98, 0.98, 60)
+WATERLINES = np.linspace(0.0, 10.0, 42)[1:-1]
+BUTTOCKS = np.linspace(0.0, 8.0, 32)[1:-1]
 FAMILIES = (("sections", 0, SECTIONS), ("waterlines", 2, WATERLINES), ("buttocks", 1, BUTTOCKS))
 """Name, axis of the normal, and offsets (m) of the planes."""
 
 POINTS = 40
+"""On each section."""
+
+BEYOND = 4
+"""Points of a line beyond the outermost section that it meets, at either end."""
+
+Point = tuple[float, float, float]
 
 
 @attrs.frozen(eq=False)
@@ -59,19 +67,34 @@ def section(s: float) -> FloatArray:
     return np.column_stack([np.full(POINTS, HALF_LENGTH * s), y, z])
 
 
-def _waterline_end(s: float, z: float) -> FloatArray:
+def _waterline(s: float, z: float) -> list[Point]:
+    """Give the point of a waterline at s, if it reaches so far."""
     breadth, deck, keel, a, b = _parameters(s)
     if z <= keel:
-        return np.zeros((0, 3))
+        return []
     t = np.arccos(((deck - z) / (deck - keel)) ** (1 / b))
-    return np.array([[HALF_LENGTH * s, breadth * np.sin(t) ** a, z]])
+    return [(HALF_LENGTH * s, float(breadth * np.sin(t) ** a), z)]
 
 
-def _buttock_end(sign: float, y: float) -> FloatArray:
-    s = sign * min(1.0, ((1.0 - y / 8.0) / 0.92) ** 0.25)
+def _buttock(s: float, y: float) -> list[Point]:
+    """Give the point of a buttock at s."""
     breadth, deck, keel, a, b = _parameters(s)
     cosine = np.sqrt(max(0.0, 1.0 - (y / breadth) ** (2.0 / a)))
-    return np.array([[HALF_LENGTH * s, y, deck - (deck - keel) * cosine**b]])
+    return [(HALF_LENGTH * s, y, float(deck - (deck - keel) * cosine**b))]
+
+
+def _completed(
+    line: FloatArray, last: float, point: Callable[[float, float], list[Point]], place: float
+) -> FloatArray:
+    """Carry a line on from its outermost sections to where the form ends, at -last and last."""
+    aft, forward = (line[[0, -1], 0] / HALF_LENGTH).tolist()
+    parts = np.linspace(0.0, 1.0, BEYOND + 1)[1:]
+    ends = []
+    for outermost, tip, order in ((aft, -last, -1), (forward, last, 1)):
+        steps = (outermost + (tip - outermost) * parts[::order]).tolist()
+        found = [xyz for s in steps for xyz in point(s, place)]
+        ends.append(np.array(found).reshape(-1, 3))
+    return np.concatenate([ends[0], line, ends[1]])
 
 
 def batch_of(lines: tuple[FloatArray, ...]) -> CurveData:
@@ -95,11 +118,11 @@ def shape() -> Shape:
     sections = tuple(section(x / HALF_LENGTH) for x in SECTIONS.tolist())
     lofted = loft(batch_of(sections))
     waterlines = [
-        np.concatenate([_waterline_end(-1.0, z), line, _waterline_end(1.0, z)])
+        _completed(line, 1.0, _waterline, z)
         for z, line in zip(WATERLINES.tolist(), _through(lofted, 2, WATERLINES), strict=True)
     ]
     buttocks = [
-        np.concatenate([_buttock_end(-1.0, y), line, _buttock_end(1.0, y)])
+        _completed(line, min(1.0, ((1.0 - y / 8.0) / 0.92) ** 0.25), _buttock, y)
         for y, line in zip(BUTTOCKS.tolist(), _through(lofted, 1, BUTTOCKS), strict=True)
     ]
     return Shape(sections, tuple(waterlines), tuple(buttocks))

@@ -19,9 +19,13 @@ BLOCK = re.compile(r"```python\n(?P<code>.*?)```\n(?:\n```text\n(?P<shown>.*?)``
 
 
 def pages() -> list[Path]:
-    """Give the README and all pages of this folder that hold Python blocks."""
+    """Give the README and the pages of this folder that show what their Python blocks print."""
     found = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-    return [page for page in found if BLOCK.search(page.read_text("utf-8"))]
+    return [
+        page
+        for page in found
+        if any(block["shown"] is not None for block in BLOCK.finditer(page.read_text("utf-8")))
+    ]
 
 
 def run(page: Path, folder: Path) -> list[tuple[re.Match[str], str]]:

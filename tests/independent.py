@@ -157,7 +157,11 @@ def lost_meetings(hull: ah.Hull) -> Iterator[str]:
     taken = _taken(state)
     for one, other in _associated(state):
         free = [
-            [root for root in _meet(state, curve, partner) if not _is_taken(root, taken, curve, partner)]
+            [
+                root
+                for root in _meet(state, curve, partner)
+                if not _is_taken(root, taken, curve, partner)
+            ]
             for curve, partner in ((one, other), (other, one))
         ]
         for first in free[0]:
@@ -208,7 +212,9 @@ def _is_taken(
 def curve_bits(state: HullState, curve: int) -> bytes:
     """Give all that a spline is made of, as bytes."""
     spline = state.spline(curve)
-    return b"".join(part.tobytes() for part in (spline.knot, spline.xyz, spline.leave, spline.arrive))
+    return b"".join(
+        part.tobytes() for part in (spline.knot, spline.xyz, spline.leave, spline.arrive)
+    )
 
 
 @attrs.frozen(eq=False)

@@ -78,18 +78,16 @@ def tasks(
 ) -> SearchStrategy[list[Task]]:
     """Give sequences of edits of at most `largest` metres each."""
     number = st.integers(0, 2**16)
-    act = st.builds(
-        Act, st.sampled_from(operations), number, number, st.floats(-largest, largest)
-    )
+    act = st.builds(Act, st.sampled_from(operations), number, number, st.floats(-largest, largest))
     each = st.lists(act, min_size=1, max_size=acts).map(tuple)
     gaps: SearchStrategy[GapsName] = st.sampled_from(("refuse", "report"))
     return st.lists(st.builds(Task, each, gaps), min_size=1, max_size=most)
 
 
-def knuckled(stations: int, waterlines: int) -> Net:
+def knuckled(stations: int, waterlines: int, two_way: bool = True) -> Net:
     """Give a net whose sections turn at a knuckle line, a boundary curve in space."""
-    net = net_of(Form(breadth=16.0, up=2.5, twist=0.2), stations, waterlines)
     form = Form(breadth=16.0, up=2.5, twist=0.2)
+    net = net_of(form, stations, waterlines, two_way=(two_way, True, True))
     along = np.linspace(0.0, form.length, stations + 2)
     height = 0.62 * form.draught + 0.004 * along
     chine = np.column_stack([along, 1.06 * form.half_breadth(along, height), height])
@@ -175,7 +173,10 @@ def live_points(hull: ah.Hull, *sorts: str) -> list[Point]:
     """Give the points of some sorts by key; of crossings those on the line of higher rank."""
     rows = hull.state.rows
     order = sorted(hull.state.live("rows").tolist(), key=rows.key.data.__getitem__)
-    points = [Point(hull.state, row, rows.key.data[row], int(rows.curve.data[row, 1] >= 0)) for row in order]
+    points = [
+        Point(hull.state, row, rows.key.data[row], int(rows.curve.data[row, 1] >= 0))
+        for row in order
+    ]
     return [point for point in points if point.sort in sorts]
 
 
@@ -188,7 +189,9 @@ def _curves(hull: ah.Hull, boundaries: bool = False) -> list[Curve]:
 
 def _lines(hull: ah.Hull) -> list[Line]:
     lines = [Line.of(hull.state, line) for line in hull.state.live("lines").tolist()]
-    return sorted((line for line in lines if line.group.family != "boundary"), key=lambda each: each.id)
+    return sorted(
+        (line for line in lines if line.group.family != "boundary"), key=lambda each: each.id
+    )
 
 
 def _pick(items: list[Item], which: int) -> Item | None:
@@ -243,7 +246,9 @@ def _set_end(hull: ah.Hull, edit: Edit, act: Act) -> None:
     assert curve is not None
     at = 0.0 if act.other % 2 else curve.span
     tilt = curve.tangent(at) + 2.0 * act.amount * _free_way(curve)
-    edit.set_end(curve, "start" if act.other % 2 else "finish", tangent=tilt if act.other % 3 else None)
+    edit.set_end(
+        curve, "start" if act.other % 2 else "finish", tangent=tilt if act.other % 3 else None
+    )
 
 
 def _set_kind(hull: ah.Hull, edit: Edit, act: Act) -> None:

@@ -67,7 +67,8 @@ def place(value: object, name: str) -> FloatArray:
     found = places(value, name)
     if len(found) != 1:
         raise BadInputError(f"{name} holds {len(found)} places", "in an edit", "give one")
-    return found[0]
+    one: FloatArray = found[0]
+    return one
 
 
 def pair(values: ArrayLike, name: str, *, positive: bool) -> tuple[float, float]:

@@ -31,6 +31,9 @@ from assoc_hull.model.state import Ends, HullState
 
 __all__ = ["add_line", "make_piece", "new_plane", "pieces_of"]
 
+_SLIDE = 0.1
+"""Room (m) for a crossing whose driver passes the new plane squarely; more if obliquely."""
+
 
 def new_plane(state: HullState, group: str, position: float) -> tuple[int, FloatArray]:
     """Check a group and position for a new line; give the group's number and the normal.
@@ -218,16 +221,21 @@ def _kinds(
 def _pick(
     state: HullState, line: int, marks: Marks, spline: SplineBatch
 ) -> np.typing.NDArray[np.bool_]:
-    """Apply the role rule on the new line."""
+    """Apply the role rule on the new line.
+
+    A mark on a curve that runs along the new plane slides by decimetres in an edit of
+    centimetres, so it is given the room to.
+    """
     slope = derivative(spline, np.zeros(len(marks.curve), np.int64), spline.knot)
     tangent = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
     normal = state.lines.normal.data[state.curves.line.data[marks.curve]]
     sine = np.minimum(np.abs((tangent * normal).sum(axis=1)), 1.0)
+    theirs = tangents(state, marks.curve, marks.at) * state.lines.normal.data[line]
+    slide = _SLIDE / np.maximum(np.abs(theirs.sum(axis=1)), 0.1)
     fixed = marks.boundary >= 0
     fixed[[0, -1]] = True
-    return choose(
-        Candidates(spline.knot, np.degrees(np.arcsin(sine)), tangent, fixed), state.tolerances
-    )
+    angle = np.degrees(np.arcsin(sine))
+    return choose(Candidates(spline.knot, angle, tangent, fixed, slide), state.tolerances)
 
 
 def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:

@@ -142,10 +142,11 @@ def _of_lines(state: HullState, lines: IntArray) -> BoolArray:
 
 
 def on_profile(state: HullState) -> BoolArray:
-    """Tell which points lie on an END boundary in the centre plane."""
+    """Tell which points lie in the centre plane: they move with the profile only."""
     ends = _boundary_lines(state, BoundaryKind.END)
     centre = np.abs(state.lines.normal.data[ends, 1]) == 1.0
-    return _of_lines(state, ends[state.lines.planar.data[ends] & centre])
+    on_line = _of_lines(state, ends[state.lines.planar.data[ends] & centre])
+    return np.asarray(on_line | (np.abs(state.rows.xyz.data[:, 1]) < 1e-9))
 
 
 def on_flat(state: HullState) -> BoolArray:

@@ -22,9 +22,11 @@ from assoc_hull.errors import (
     PointRoleError,
     TooFewPointsError,
 )
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.gaps import tangents
 from assoc_hull.model.make import PointSpec
 from assoc_hull.model.place import free_axes
 from assoc_hull.model.state import HullState
@@ -215,9 +217,8 @@ def set_kind(
         raise BadInputError("the point does not define the curve", where, "set its role first")
     given = np.zeros(3)
     if kind == "tangent":
-        spline = state.spline(curve)
-        at = int(np.flatnonzero(rows == row)[0])
-        given = np.array(spline.leave[at] if direction is None else direction, np.float64)
+        present = _direction(state, curve, state.rows.xyz.data[row])
+        given = np.array(present if direction is None else direction, np.float64)
         if given.shape != (3,) or not np.isfinite(given).all() or not (given != 0.0).any():
             raise BadInputError(
                 f"the direction {direction!r}", where, "give a vector with a length"
@@ -228,6 +229,15 @@ def set_kind(
     edit.journal.put(state.rows.direction, [row], directions[None])
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)
+
+
+def _direction(state: HullState, curve: int, place: FloatArray) -> FloatArray:
+    """Give the direction of a curve at a place on it; a new point may not be in it yet."""
+    spline = state.spline(curve)
+    at = np.flatnonzero((spline.xyz == place).all(axis=1))
+    if len(at):
+        return np.array(spline.leave[at[0]])
+    return tangents(state, np.array([curve]), closest(spline, 0, place[None])[0])[0]
 
 
 def pin(edit: Transaction, row: int) -> None:

@@ -112,7 +112,8 @@ def reshape(
     Raises
     ------
     BadInputError
-        Points off the curve's plane or outside the span, an empty span, radii not above 0.
+        Points off the curve's plane or outside the span, an empty span, radii not above 0;
+        or points of the curve came or went in the same edit.
     """
     state = edit.state
     section = state.family(state.line_of(curve)).axis == 0
@@ -120,6 +121,9 @@ def reshape(
     span = pair(span, "span", positive=False)
     shape = _checked(state, curve, points, span, axis)
     old = state.spline(curve)
+    if not np.array_equal(old.xyz, state.rows.xyz.data[state.curves.rows.data[curve]]):
+        where = f"in reshape of {state.lines.name.data[state.line_of(curve)]}"
+        raise BadInputError("its points have changed in this edit", where, "use two edits")
     design = _design(old, shape, span, axis, _free_ends(state, curve))
     flat = flat_distance(state, old.xyz)
     moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)

@@ -234,7 +234,8 @@ class Edit:
         found = resolve(self._tables, curve)
         if found.curve >= 0:
             return found.curve
-        pieces = self._tables.lines.curves.data[found.line] if found.line >= 0 else ()
+        found_pieces = self._tables.lines.curves.data[found.line] if found.line >= 0 else ()
+        pieces: tuple[int, ...] = tuple(found_pieces)
         if len(pieces) != 1:
             known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
             raise UnknownNameError("curve", curve, known)

@@ -15,6 +15,7 @@ from assoc_hull.edit.check import Wide, find_folds, find_unbounded, measure_gaps
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
+from assoc_hull.edit.net_change import net_change
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.topology import latent_meetings, settle
@@ -173,6 +174,7 @@ def update(
         If driven links would run in a ring.
     """
     begin = time.perf_counter()
+    origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
     rows, away = _set_values(document.state, journal, pending)
     if pending.structural:
         document.refresh()
@@ -180,7 +182,7 @@ def update(
     work = _Work(document, name, journal, pending, settings, network)
     try:
         if pending.fields:
-            rows, away = _run_fields(work, rows, away)
+            rows, away = _run_fields(work, rows, origin)
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
             _settle(work)
@@ -211,12 +213,14 @@ def _set_values(
     return rows[differs], np.sqrt((step * step).sum(axis=1))
 
 
-def _run_fields(work: _Work, rows: IntArray, away: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Run the fields, in sub-steps where they are large; give all points that were set."""
+def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Run the fields, in sub-steps where they are large; give all points that were set.
+
+    `origin` holds where all points lay before; the distances are from there.
+    """
     state, fields = work.state, work.pending.fields
     across = any(field.across_flats for field in fields)
     pinned = set(work.pending.values)
-    origin = state.rows.xyz.data.copy()
     ground = context(state, across_flats=across)
     shift = add_shifts([field.shift(ground, 1.0) for field in fields], pinned)
     steps = sub_steps(state, shift)
@@ -226,13 +230,15 @@ def _run_fields(work: _Work, rows: IntArray, away: FloatArray) -> tuple[IntArray
         if step:
             ground = context(state, across_flats=across)
         shift = add_shifts([field.shift(ground, 1.0 / steps) for field in fields], pinned)
+        before = state.rows.xyz.data.copy()
         work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
         if step == steps - 1:
             land(state, work.journal, fields)
-        adopted = state.rows.sort.data[shift.rows] == Sort.ADOPTED
-        work.pending.held |= set(shift.rows[adopted].tolist())
-        touched |= set(shift.rows.tolist())
-        seeds = np.union1d(shift.rows, rows) if step == 0 else shift.rows
+        shifted = np.flatnonzero(bits_differ(before, state.rows.xyz.data))
+        adopted = state.rows.sort.data[shifted] == Sort.ADOPTED
+        work.pending.held |= set(shifted[adopted].tolist())
+        touched |= set(shifted.tolist())
+        seeds = np.union1d(shifted, rows) if step == 0 else shifted
         work.go(seeds, curves if step == 0 else _NONE)
         _settle(work)
     work.pending.notes += [
@@ -243,6 +249,7 @@ def _run_fields(work: _Work, rows: IntArray, away: FloatArray) -> tuple[IntArray
     work.pending.held.clear()
     every = np.array(sorted(touched), np.int64)
     every = every[every < len(origin)]
+    every = every[bits_differ(state.rows.xyz.data[every], origin[every])]
     moved = state.rows.xyz.data[every] - origin[every]
     return every, np.sqrt((moved * moved).sum(axis=1))
 
@@ -311,14 +318,18 @@ def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
         told = np.isfinite(part.moved) | ((part.changed & 1) == 1)
         changed.append(part.changed[told])
         moved.append(part.moved[told])
+    nodes, distance = np.concatenate(changed), np.concatenate(moved)
+    if len(parts) > 1:
+        every = np.concatenate([nodes, *(part.changed for part in parts)])
+        known = np.concatenate([distance, *(part.moved for part in parts)])
+        nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)
     cause = Readers(
         np.concatenate([part.cause.reader for part in parts]),
         np.concatenate([part.cause.source for part in parts]),
     )
     return Step(
-        work.name, work.journal, cause, np.concatenate(changed), np.concatenate(moved),
-        row_node(rows), work.pending.structural,
-        _report(work, np.concatenate(changed), np.concatenate(moved)),
+        work.name, work.journal, cause, nodes, distance, row_node(rows),
+        work.pending.structural, _report(work, nodes, distance),
     )  # fmt: skip
 
 

@@ -104,7 +104,7 @@ def _level(x: FloatArray, z: float, hull: tuple[float, float, float]) -> FloatAr
 def _boundaries(x: FloatArray, hull: tuple[float, float, float]) -> list[LineSource]:
     length, _, draught = hull
     deck = (1.0 + _FREEBOARD) * draught
-    corners = [[0, 0, deck], [0, 0, 0], [length, 0, 0], [length, 0, deck]]
+    corners = np.array([[0, 0, deck], [0, 0, 0], [length, 0, 0], [length, 0, deck]], np.float64)
     corner = int(PointKind.KNUCKLE)
     return [
         LineSource.make(

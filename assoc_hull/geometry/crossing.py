@@ -195,7 +195,11 @@ def _tangential(
 ) -> NDArray[np.bool_]:
     """Mark neighbouring meetings between which the curve hardly leaves the plane."""
     result = np.zeros(len(owner), np.bool_)
-    pairs = np.flatnonzero((curve[1:] == curve[:-1]) & (plane[1:] == plane[:-1]))
+    same = plane[1:] == plane[:-1]
+    same &= curve[1:] == curve[:-1]
+    pairs = same.nonzero()[0]
+    if not len(pairs):
+        return result
     near = np.abs(parts.end.take(owner[pairs]) - offsets.take(plane[pairs])) < CONTACT
     if not near.any():
         return result

@@ -16,6 +16,8 @@ array([0. , 0. , 0.5, 1. ])
 
 from __future__ import annotations
 
+from math import isfinite
+
 import attrs
 import numpy as np
 
@@ -83,7 +85,9 @@ def checked_planes(normal: FloatArray, offsets: FloatArray) -> tuple[FloatArray,
     array([1., 2.])
     """
     offsets = np.ascontiguousarray(offsets, np.float64)
-    if offsets.ndim != 1 or not np.isfinite(offsets).all() or (offsets[1:] < offsets[:-1]).any():
+    # Of numbers that ascend none is infinite or not a number but the first or the last.
+    ascend = offsets.ndim == 1 and bool((offsets[1:] >= offsets[:-1]).all())
+    if not ascend or not all(isfinite(end) for end in offsets[[0, -1][: len(offsets)]].tolist()):
         raise BadInputError(
             "the offsets do not ascend or are not finite",
             "in a family of planes",

@@ -250,6 +250,18 @@ class Journal:
         entry.redo()
         return np.arange(entry.old, entry.new)
 
+    def before(self, column: ArrayColumn) -> tuple[NDArray[np.int64], NDArray[Any]]:
+        """Give the rows of a column that `put` wrote, ascending, and what stood there first."""
+        mine = [
+            entry
+            for entry in self.entries
+            if isinstance(entry, _ArrayEntry) and entry.column is column
+        ]
+        index = np.concatenate([np.zeros(0, np.int64), *(entry.index for entry in mine)])
+        old = np.concatenate([column.store[:0], *(entry.old for entry in mine)])
+        rows, first = np.unique(index, return_index=True)
+        return rows, old[first]
+
     def undo(self, keep: int = 0) -> None:
         """Take back every entry after the first `keep`, and forget it."""
         while len(self.entries) > keep:

@@ -122,7 +122,12 @@ class _Flats:
 
 
 def _border_kinds(side: FloatArray) -> list[int]:
-    return [int(PointKind.KNUCKLE)] * len(side)
+    """Let a border be smooth, if as such it passes every level once on either side."""
+    smooth = [int(PointKind.SMOOTH)] * len(side)
+    levels = np.linspace(side[:, 2].min() + 0.1, side[:, 2].max() - 0.02, 40)
+    met = meet_planes(loft(CurveData.single(side, smooth)), np.eye(3)[2], levels)
+    once = np.bincount(met.plane, minlength=len(levels)) == 2
+    return smooth if once.all() else [int(PointKind.KNUCKLE)] * len(side)
 
 
 def _boundaries(table: OffsetTable, completion: Completion, flats: _Flats) -> list[LineSource]:

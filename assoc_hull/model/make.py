@@ -125,7 +125,7 @@ class Maker:
         self.journal.put(table.alive, [number], [True])
         if plane is not None:
             self.journal.put(table.planar, [number], [True])
-            self.journal.put(table.normal, [number], [plane[0]])
+            self.journal.put(table.normal, [number], _stack([plane[0]]))
             self.journal.put(table.offset, [number], [plane[1]])
         return number
 

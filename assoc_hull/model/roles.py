@@ -35,12 +35,15 @@ class Candidates:
         Unit tangents.
     fixed : (k,) bool
         Ends, knuckle, tangent and placed points: they always define.
+    room : (k,), m, or None
+        Least distance to any other point that defines, where a crossing slides easily.
     """
 
     position: FloatArray
     angle_deg: FloatArray
     tangent: FloatArray
     fixed: BoolArray
+    room: FloatArray | None = None
 
 
 def choose(candidates: Candidates, tolerances: Tolerances) -> BoolArray:
@@ -98,6 +101,9 @@ def _fits(
     least = max(tolerances.turn_spacing, tolerances.turn_spacing_part * median)
     for neighbour in accepted[max(after - 1, 0) : after + 1].tolist():
         apart = abs(float(candidates.position[neighbour] - candidates.position[item]))
+        room = 0.0 if candidates.room is None else float(candidates.room[[item, neighbour]].max())
+        if apart < room:
+            return False
         if apart >= tolerances.spacing * median:
             continue
         cosine = float((candidates.tangent[neighbour] * candidates.tangent[item]).sum())

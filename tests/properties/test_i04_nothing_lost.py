@@ -67,9 +67,9 @@ def decide(hull: ah.Hull) -> None:
         edit.set_end(section, "finish", tangent=section.tangent(section.span))
         edit.rename(lines[0], "the one")
         shared = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
-        inner = [p for p in shared if p.container_curve.defining[1:-1].count(p)]
-        edit.set_kind(inner[1], "tangent")
-        edit.set_role(inner[3], "shared")
+        inner = [p for p in shared if p.container_curve.defining[1:-1].count(p)] or shared
+        edit.set_kind(inner[len(inner) // 3], "tangent")
+        edit.set_role(inner[-1], "shared")
 
 
 @settings(max_examples=25)

@@ -9,8 +9,6 @@ from types import ModuleType
 
 import pytest
 
-import assoc_hull as ah
-
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
@@ -43,28 +41,12 @@ def _headings(page: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
-@pytest.fixture
-def ready_made(series60_70: ah.Hull, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder to work in; Series 60 CB 0.70 is opened there, not made again for each page."""
-    saved = tmp_path / "made.hull.json"
-    series60_70.save(saved)
-    make = ah.examples.series60
-
-    def series60(cb: float = 0.70) -> ah.Hull:
-        return ah.open(saved) if cb == 0.70 else make(cb)
-
-    monkeypatch.setattr(ah.examples, "series60", series60)
-    folder = tmp_path / "page"
-    folder.mkdir()
-    return folder
-
-
 @pytest.mark.parametrize("page", BLOCKS.pages(), ids=_name)
-def test_code_runs_and_prints_what_the_page_shows(page: Path, ready_made: Path) -> None:
+def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) -> None:
     """Each block runs after those before it; `python docs/blocks.py` renews what is shown."""
-    for block, printed in BLOCKS.run(page, ready_made):
+    for block, printed in BLOCKS.run(page, tmp_path):
         if block["shown"] is not None:
-            assert printed == block["shown"], block["code"]
+            assert printed == block["shown"], "if the page is out of date: python docs/blocks.py"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=_name)
