@@ -31,6 +31,7 @@ from assoc_hull.edit.view import graph_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.breadth import half_breadth
+from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.points import Points
 from assoc_hull.model.source import LineSource
@@ -89,9 +90,10 @@ class Hull:
 
     @property
     def groups(self) -> Mapping[str, Group]:
-        """The groups of lines by name."""
-        live = self.state.live("groups").tolist()
-        return MappingProxyType({(each := Group.of(self.state, i)).name: each for i in live})
+        """The groups of lines by name, in the order of the ranks."""
+        found = [Group.of(self.state, i) for i in self.state.live("groups").tolist()]
+        found.sort(key=lambda each: (FAMILIES[each.family].rank, each.name))
+        return MappingProxyType({each.name: each for each in found})
 
     @property
     def lines(self) -> Mapping[str, Line]:
@@ -252,9 +254,12 @@ class Examples:
 
     def series60(self, cb: float = 0.70) -> Hull:
         """Make a Series 60 parent, CB 0.60 or 0.70; see `assoc_hull.examples.series60`."""
-        from assoc_hull.examples.series60 import series60
+        from assoc_hull.examples.series60 import series60_net
 
-        return Hull(series60(cb))
+        state, report = series60_net(cb)
+        hull = Hull(state)
+        hull.adoption = report
+        return hull
 
 
 examples = Examples()

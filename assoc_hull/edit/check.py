@@ -26,12 +26,17 @@ class Wide:
         Gap and limit of each.
     largest : float, m
         The largest gap of all that were measured, wide or not.
+    mend : (n,) int
+        What to mend if any are wide: these, and the crossings on the same giving curves
+        whose gap is over half its limit, as a point in one place moves its neighbours. The
+        widest first, ties by key.
     """
 
     rows: IntArray
     gap: FloatArray
     limit: FloatArray
     largest: float
+    mend: IntArray
 
 
 def find_folds(
@@ -94,14 +99,24 @@ def measure_gaps(
     """
     rows = watched_on(state, curves)
     if not len(rows):
-        return Wide(rows, np.zeros(0), np.zeros(0), 0.0)
+        return Wide(rows, np.zeros(0), np.zeros(0), 0.0, rows)
     known = guess if guess is not None and len(guess) == state.rows.count else None
     gap = gap_at(state, rows, known)
     journal.put(state.rows.gap, rows, gap)
     journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
     limit = state.rows.limit.data.take(rows)
     wide = gap > limit
-    return Wide(rows[wide], gap[wide], limit[wide], float(gap.max()))
+    mend = _to_mend(state, rows, gap / limit) if wide.any() else rows[:0]
+    return Wide(rows[wide], gap[wide], limit[wide], float(gap.max()), mend)
+
+
+def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:
+    giving = state.rows.curve.data[rows, 1]
+    chosen = (part > 0.5) & np.isin(giving, giving[part > 1.0])
+    keys = state.rows.key.data
+    order = sorted(np.flatnonzero(chosen).tolist(), key=lambda i: (-part[i], keys[rows[i]]))
+    found: IntArray = rows[np.array(order, np.int64)]
+    return found
 
 
 def plane_normals(state: HullState, curves: IntArray) -> FloatArray:

@@ -28,12 +28,15 @@ class Document:
         Look-ups derived from them.
     history, undone : list of Step
         Committed steps, oldest first; steps taken back, the last one taken back last.
+    writer : object
+        The transaction that is open; None if none is.
     """
 
     state: HullState
     index: Index = attrs.field(init=False)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
+    writer: object = attrs.field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
         self.index = build_index(self.state)
@@ -43,10 +46,10 @@ class Document:
         self.index = build_index(self.state)
 
     def commit(self, step: Step) -> None:
-        """Take a finished step into the history."""
-        self.history.append(step)
-        self.undone.clear()
+        """Take a finished step into the history; what can fail comes first."""
         self._revise(step)
+        self.undone.clear()
+        self.history.append(step)
 
     def undo(self, count: int = 1) -> list[Step]:
         """Take back the last steps.
@@ -54,7 +57,7 @@ class Document:
         Raises
         ------
         BadInputError
-            If there are not so many.
+            If there are not so many, or an edit is open.
         """
         self._enough(self.history, count, "undo")
         return [self._turn(self.history, self.undone, forward=False) for _ in range(count)]
@@ -65,13 +68,14 @@ class Document:
         Raises
         ------
         BadInputError
-            If there are not so many.
+            If there are not so many, or an edit is open.
         """
         self._enough(self.undone, count, "redo")
         return [self._turn(self.undone, self.history, forward=True) for _ in range(count)]
 
-    @staticmethod
-    def _enough(steps: list[Step], count: int, act: str) -> None:
+    def _enough(self, steps: list[Step], count: int, act: str) -> None:
+        if self.writer is not None:
+            raise BadInputError("an edit is open", f"in {act}", "end it first")
         if not 1 <= count <= len(steps):
             raise BadInputError(
                 f"{count} steps were asked and there are {len(steps)} to {act}",

@@ -77,7 +77,7 @@ class EditReport:
     name : str
         Name of the edit.
     planned : int
-        Curves that could at most have changed.
+        Curves that could at most be lofted in the main pass: the closure of what was set.
     relofted : tuple of str
         Keys of the curves that were lofted again, in order of the update.
     cut_off : int

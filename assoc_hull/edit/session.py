@@ -34,6 +34,8 @@ from assoc_hull.model.state import HullState
 
 __all__ = ["Edit"]
 
+_USE = "use it in a with statement"
+
 
 class Edit:
     """One named edit, to be used in a ``with`` statement; one undo step.
@@ -60,10 +62,10 @@ class Edit:
         settings: Settings | None = None,
         look: Callable[[], None] | None = None,
     ) -> None:
-        self._transaction = Transaction(document, name, settings, look)
+        self._held = Transaction(document, name, settings, look)
 
     def __enter__(self) -> Self:
-        self._transaction.__enter__()
+        self._held.__enter__()
         return self
 
     def __exit__(
@@ -72,21 +74,28 @@ class Edit:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._transaction.__exit__(kind, error, trace)
+        self._held.__exit__(kind, error, trace)
 
     @property
     def report(self) -> EditReport | None:
         """What the edit did; None until it is committed."""
-        return self._transaction.report
+        return self._held.report
 
     @property
     def active(self) -> bool:
         """Whether the ``with`` block is open."""
-        return self._transaction.active
+        return self._held.active
+
+    @property
+    def _transaction(self) -> Transaction:
+        """The transaction, for a modification: only while the edit is open."""
+        if not self.active:
+            raise BadInputError("it is not open", f"in the edit {self._held.name!r}", _USE)
+        return self._held
 
     @property
     def _tables(self) -> HullState:
-        return self._transaction.state
+        return self._held.state
 
     def move(
         self,

@@ -39,7 +39,7 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
     PointRoleError
         The point is no crossing, or a contact that its line must be made through.
     BadInputError
-        An unknown role.
+        An unknown role, or a crossing that the same edit moves.
     """
     state = edit.state
     if state.rows.sort.data[row] != Sort.CROSSING:
@@ -48,6 +48,12 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
     if role is not None and role not in known:
         raise BadInputError(
             f"the role {role!r}", f"at {address(state, row)}", f"use one of {', '.join(known)}"
+        )
+    if row in edit.pending.values:
+        raise BadInputError(
+            "a point is moved and given a role in one transaction",
+            f"{address(state, row)}, in set_role",
+            "leave one of the two out, or use two transactions",
         )
     new = role_by_rule(state, row) if role is None else known[role]
     contact = bool(state.rows.contact.data[row])

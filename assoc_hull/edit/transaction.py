@@ -55,6 +55,7 @@ class Transaction:
         self.report: EditReport | None = None
         self._depth = 0
         self._broken = False
+        self._over = False
 
     @property
     def active(self) -> bool:
@@ -92,6 +93,13 @@ class Transaction:
             self.pending.values[row] = value
 
     def __enter__(self) -> Self:
+        if not self._depth:
+            where = f"in the edit {self.name!r}"
+            if self._over:
+                raise BadInputError("it has ended", where, "begin another one")
+            if self.document.writer is not None:
+                raise BadInputError("another edit is open", where, "end that one first")
+            self.document.writer = self
         self._depth += 1
         return self
 
@@ -105,25 +113,30 @@ class Transaction:
         if error is not None:
             self._broken = True
             self._restore()
-            return
         if self._depth:
             return
-        if self._broken:
-            reason = "an edit nested in it failed, so all of it was taken back"
-            raise RefusedEditError(self.name, (reason,))
+        self._over, self.document.writer = True, None
+        if error is None:
+            self._finish()
+
+    def _finish(self) -> None:
+        """Run the update and publish it; whatever goes wrong, the hull is as it was."""
         try:
+            if self._broken:
+                reason = "an edit nested in it failed, so all of it was taken back"
+                raise RefusedEditError(self.name, (reason,))
             step = update(self.document, self.name, self.journal, self.pending, self.settings)
+            if self.look is None:
+                self.document.commit(step)
         except BaseException:
             self._restore()
             raise
         self.report = step.report
-        if self.look is None:
-            self.document.commit(step)
-            return
-        try:
-            self.look()
-        finally:
-            self._restore()
+        if self.look is not None:
+            try:
+                self.look()
+            finally:
+                self._restore()
 
     def _restore(self) -> None:
         structural, self.pending = self.pending.structural, Pending()

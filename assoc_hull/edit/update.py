@@ -24,6 +24,7 @@ from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Readers
+from assoc_hull.graph.plan import closure
 from assoc_hull.graph.run import Pass, Policy, run
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
@@ -109,6 +110,7 @@ class _Work:
     seconds: dict[str, float] = attrs.field(factory=dict)
     failed: dict[int, str] = attrs.field(factory=dict)
     wide: Wide | None = None
+    planned: int = 0
 
     @property
     def state(self) -> HullState:
@@ -130,6 +132,9 @@ class _Work:
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
+        if not self.passes:
+            plan = closure(self.network, np.concatenate([row_node(rows), curve_node(curves)]))
+            self.planned = int((plan & 1).sum())
         held = row_node(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run(
@@ -203,6 +208,7 @@ def _set_values(
 ) -> tuple[IntArray, FloatArray]:
     """Write the new places that differ from the old by a bit; give them with the distances."""
     rows = np.array(sorted(pending.values), np.int64)
+    rows = rows[state.rows.alive.data[rows]]
     if not len(rows):
         return rows, np.zeros(0)
     value = np.array([pending.values[row] for row in rows.tolist()]) + 0.0
@@ -279,9 +285,7 @@ def _check(work: _Work) -> tuple[str, ...]:
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
     if len(wide.rows):
-        keys = work.state.rows.key.data
-        order = sorted(range(len(wide.rows)), key=lambda i: (-wide.gap[i], keys[wide.rows[i]]))
-        touched, moved = mend(Maker(work.state, work.journal), wide.rows[np.array(order)])
+        touched, moved = mend(Maker(work.state, work.journal), wide.mend)
         if len(touched):
             work.mended += [work.state.curves.key.data[curve] for curve in touched.tolist()]
             work.renew()
@@ -335,13 +339,14 @@ def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
 
 def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
     state, parts = work.state, work.passes
-    curves = np.union1d(work.evaluated(), np.array(work.pending.fresh, np.int64))
-    curves = curves[state.curves.alive.data[curves]]
+    curves = work.touched()
+    curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
     after = {curve: state.spline(curve) for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())
     return EditReport(
         work.name,
+        planned=work.planned,
         relofted=keys,
         cut_off=sum(len(part.cut_off) for part in parts),
         born=tuple(work.born),

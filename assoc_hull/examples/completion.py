@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from assoc_hull.edit.adopt import AdoptionReport
-from assoc_hull.examples.contours import centre_profile, end_contours
 from assoc_hull.examples.border import fair_border
+from assoc_hull.examples.contours import centre_profile, end_contours
 from assoc_hull.examples.flats import flat_of_bottom, flat_of_side
 from assoc_hull.io.offset_net import Completion, net_from_offsets
 from assoc_hull.io.offset_table import OffsetTable
@@ -41,4 +41,3 @@ def net_from_table(
     side = fair_border(table, border) if len(border) else None
     completion = Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)
     return net_from_offsets(table, completion, tolerances=tolerances)
-

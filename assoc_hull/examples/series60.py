@@ -15,7 +15,7 @@ from assoc_hull.examples.series60_table import todd_table
 from assoc_hull.model.state import HullState
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["series60", "series60_adopted"]
+__all__ = ["series60", "series60_adopted", "series60_net"]
 
 _WATERLINES = (
     0.15, 0.20, 0.30, 0.35, 0.42, 0.58, 0.625, 0.66, 0.84, 0.92, 1.08, 1.16, 1.33, 1.41,
@@ -77,7 +77,27 @@ def series60(cb: float = 0.70) -> HullState:
     BadInputError
         Another block coefficient.
     """
-    state = series60_adopted(cb)[0]
+    return series60_net(cb)[0]
+
+
+def series60_net(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
+    """Make the net of `series60`, with the report of how the table was adopted.
+
+    Parameters
+    ----------
+    cb : float
+        0.60 or 0.70.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+
+    Raises
+    ------
+    BadInputError
+        Another block coefficient.
+    """
+    state, report = series60_adopted(cb)
     document, ship = Document(state), state.particulars
     for group, prefix, parts, unit in (
         ("waterlines", "WL", _WATERLINES, ship.draught),
@@ -87,7 +107,7 @@ def series60(cb: float = 0.70) -> HullState:
         with Transaction(document, f"cut {group}") as edit:
             for part in parts:
                 add_line(edit, group, part * unit, f"{prefix} {part:g}", _KEEP)
-    return state
+    return state, report
 
 
 _TOLERANCES = Tolerances(spacing=0.35, turn_spacing=0.3)

@@ -102,7 +102,19 @@ def net_from_offsets(
     state, report = adopt(sources, ship, ASSOCIATIONS, tolerances)
     bare = [i for i in range(len(table.x)) if i not in wet]
     notes = tuple(f"station at x = {table.x[i]:g} m: no breadth, no section made" for i in bare)
-    return state, attrs.evolve(report, notes=(*notes, *report.notes))
+    return state, attrs.evolve(report, notes=(*_printed(table), *notes, *report.notes))
+
+
+def _printed(table: OffsetTable) -> list[str]:
+    """Say how coarsely the offsets are printed."""
+    ratio = table.z / (table.draught or 1.0)
+    unit = "T" if table.draught else "m"
+    found: list[str] = []
+    for value in np.unique(np.round(table.rounding, 9)).tolist():
+        mine = ratio[np.abs(table.rounding - value) < 1e-9]
+        heights = ", ".join(f"{each:.4g}" for each in mine)
+        found.append(f"offsets at {heights} {unit} are printed to +-{1e3 * value:.2g} mm")
+    return found
 
 
 class _Flats:

@@ -20,9 +20,8 @@ from tests.net_strategies import (
     STRUCTURE,
     Task,
     carry_out,
-    fresh,
     hulls,
-    live_points,
+    knuckled,
     tasks,
 )
 
