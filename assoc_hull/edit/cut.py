@@ -106,7 +106,7 @@ def add_line(
     )
     line = edit.maker.line(number, title, (normal, position))
     for piece in pieces_of(state, line, marks):
-        make_piece(edit, line, piece, keep or state.tolerances.keep)
+        make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
     enter_line(edit, line)
     return line
 
@@ -115,7 +115,7 @@ def pieces_of(state: HullState, line: int, marks: Marks) -> list[Marks]:
     """Put marks in order, piece by piece; sections upward, other lines from aft forward."""
     axis = 2 if state.family(line).axis == 0 else 0
     ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
-    return [spread(marks.take(piece)) for piece in ordered]
+    return [marks.take(piece) for piece in ordered]
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:

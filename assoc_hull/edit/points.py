@@ -237,7 +237,8 @@ def _direction(state: HullState, curve: int, place: FloatArray) -> FloatArray:
     at = np.flatnonzero((spline.xyz == place).all(axis=1))
     if len(at):
         return np.array(spline.leave[at[0]])
-    return tangents(state, np.array([curve]), closest(spline, 0, place[None])[0])[0]
+    found: FloatArray = tangents(state, np.array([curve]), closest(spline, 0, place[None])[0])[0]
+    return found
 
 
 def pin(edit: Transaction, row: int) -> None:

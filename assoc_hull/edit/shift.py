@@ -12,13 +12,13 @@ import numpy as np
 from assoc_hull.edit.branches import track
 from assoc_hull.edit.cut import make_piece, new_plane, pieces_of
 from assoc_hull.edit.lines import leave_behind
-from assoc_hull.edit.marks import find_marks
+from assoc_hull.edit.marks import find_marks, spread
+from assoc_hull.edit.pieces import match_pieces
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState, Meets
 
@@ -43,8 +43,6 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
         No parallel plane, a number that is not finite, or a plane that is taken.
     NoMeetingError
         The new plane meets fewer than two places.
-    RefusedEditError
-        The line would have another number of curves there.
     """
     state = edit.state
     group = state.groups.name.data[int(state.lines.group.data[line])]
@@ -53,28 +51,36 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     mine = np.array(state.lines.curves.data[line], np.int64)
     crossings, placed = _rows(state, mine)
     known = _followed(state, line, crossings, position)
-    pieces = pieces_of(state, line, marks)
-    if len(pieces) != len(mine):
-        reason = (
-            f"{state.lines.name.data[line]} has {len(mine)} curves, at {position:g} m {len(pieces)}"
-        )
-        raise RefusedEditError(edit.name, (f"{reason}; add a line there instead",))
     edit.pending.structural = True
     leave_behind(edit, crossings, mine)
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
     strike_line(edit, line)
-    own = np.flatnonzero(state.rows.alive.data & np.isin(state.rows.curve.data[:, 0], mine))
-    own = own[state.rows.sort.data[own] == Sort.ADOPTED]
-    edit.maker.remove_rows(own)
+    _drop_adopted(edit, mine)
     edit.journal.put(state.lines.offset, [line], [position])
-    for curve, piece in zip(mine.tolist(), pieces, strict=True):
-        make_piece(edit, line, piece, state.tolerances.keep, curve, known)
+    pieces = match_pieces(edit, line, pieces_of(state, line, marks), known)
+    for curve, piece in pieces:
+        make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
-    _move_spots(state, edit, marks.xyz, marks.curve, marks.root, known)
     enter_line(edit, line)
-    _carry(edit, placed)
-    _drop_lost(edit, mine, np.array(sorted(kept), np.int64))
+    _carry(edit, np.array([curve for curve, _ in pieces]), placed)
+    _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))
+    _tell(edit, crossings, np.array([curve for curve, _ in pieces]))
+
+
+def _tell(edit: Transaction, before: IntArray, curves: IntArray) -> None:
+    """Put the crossings that came and went on the way into the report."""
+    keys = edit.state.rows.key.data
+    after = _rows(edit.state, curves)[0]
+    edit.pending.born += sorted(keys[row] for row in np.setdiff1d(after, before).tolist())
+    edit.pending.gone += sorted(keys[row] for row in np.setdiff1d(before, after).tolist())
+
+
+def _drop_adopted(edit: Transaction, mine: IntArray) -> None:
+    """Take the line's own adopted points out: they held the shape of another place."""
+    table = edit.state.rows
+    own = table.alive.data & np.isin(table.curve.data[:, 0], mine)
+    edit.maker.remove_rows(np.flatnonzero(own & (table.sort.data == Sort.ADOPTED)))
 
 
 def _rows(state: HullState, mine: IntArray) -> tuple[IntArray, IntArray]:
@@ -108,33 +114,21 @@ def _followed(
     return known
 
 
-def _move_spots(
-    state: HullState,
-    edit: Transaction,
-    xyz: FloatArray,
-    curve: IntArray,
-    root: IntArray,
-    known: dict[tuple[int, int], int],
-) -> None:
-    """Tell crossings that the line is not made through where to look for their meetings."""
-    for place, mark in zip(xyz, zip(curve.tolist(), root.tolist(), strict=True), strict=True):
-        row = known.get(mark)
-        if row is not None:
-            edit.journal.put(state.rows.spot, [row], [(place, place)])
-
-
-def _carry(edit: Transaction, placed: IntArray) -> None:
-    """Carry placed points along the hull into the new plane."""
+def _carry(edit: Transaction, curves: IntArray, placed: IntArray) -> None:
+    """Carry placed points along the hull into the new plane, each to the nearest piece."""
     state = edit.state
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     for row in placed.tolist():
-        curve = int(state.rows.curve.data[row, 0])
-        line = state.line_of(curve)
+        exact = state.lines.normal.data[state.line_of(int(curves[0]))] == 1.0
         start = state.rows.xyz.data[row].copy()
-        exact = state.lines.normal.data[line] == 1.0
-        start[exact] = state.lines.offset.data[line]
-        place = closest(state.spline(curve), 0, start[None])[1][0].copy()
-        place[exact] = state.lines.offset.data[line]
+        start[exact] = state.lines.offset.data[state.line_of(int(curves[0]))]
+        feet = [closest(batch, i, start[None]) for i in range(batch.count)]
+        best = int(np.argmin([float(foot[2][0]) for foot in feet]))
+        place, curve = feet[best][1][0].copy(), int(curves[best])
+        place[exact] = start[exact]
         edit.journal.put(state.rows.xyz, [row], [place])
+        edit.journal.put(state.rows.curve, [row], [(curve, -1)])
+        edit.journal.put(state.rows.reader, [row], [(curve, -1)])
         thread(edit.maker, curve, row)
         edit.pending.curves.add(curve)
 

@@ -76,6 +76,8 @@ class Pending:
         Curves that the designer edited: births take their value from these.
     fields : list of Field
         Displacements of the hull; several add.
+    born, gone : list of str
+        Keys of curves and crossings that the modifications made or unmade.
     fresh : list of int
         Curves that were made in this transaction.
     notes : list of str
@@ -89,6 +91,8 @@ class Pending:
     structural: bool = False
     moved_curves: set[int] = attrs.field(factory=set)
     fields: list[Field] = attrs.field(factory=list)
+    born: list[str] = attrs.field(factory=list)
+    gone: list[str] = attrs.field(factory=list)
     fresh: list[int] = attrs.field(factory=list)
     notes: list[str] = attrs.field(factory=list)
 
@@ -349,8 +353,8 @@ def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
         planned=work.planned,
         relofted=keys,
         cut_off=sum(len(part.cut_off) for part in parts),
-        born=tuple(work.born),
-        gone=tuple(work.gone),
+        born=(*work.pending.born, *work.born),
+        gone=(*work.pending.gone, *work.gone),
         mended=tuple(work.mended),
         failed=tuple(f"{work.network.name(node)}: {why}" for node, why in work.failed.items()),
         blocked=tuple(work.network.name(node) for part in parts for node in part.blocked.tolist()),

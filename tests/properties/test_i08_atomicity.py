@@ -1,0 +1,405 @@
+"""I8: with a failure injected at every node in turn, the hull is as it was, to the last bit.
+
+Under `keep_going` only what is made from the failed curve is blocked, and the next edit works.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from unittest import mock
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit import update
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import Step
+from assoc_hull.edit.session import Edit
+from assoc_hull.errors import AssocHullError, TooFewPointsError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.node import Evaluation
+from assoc_hull.model import network
+from assoc_hull.model.network import HullNetwork
+from assoc_hull.model.state import HullState
+from tests.cases import series60_places as places
+from tests.independent import closure, curve_bits, snapshot
+from tests.net_strategies import live_points
+from tests.strategies import wigley_sources
+
+Change = Callable[[Edit], object]
+FAILED = TooFewPointsError("the injected failure", 1)
+
+
+@attrs.frozen
+class Whole:
+    """All that must be as it was."""
+
+    fingerprint: str
+    points: tuple[str, ...]
+    curves: tuple[str, ...]
+    counts: tuple[int, ...]
+    revisions: tuple[dict[int, int], dict[int, int]]
+    history: tuple[str, ...]
+    undone: tuple[str, ...]
+    levels: bytes
+
+
+def whole(hull: ah.Hull) -> Whole:
+    """Take it down: bits, ids, tables, revisions, journal and look-ups."""
+    state, document = hull.state, hull.document
+    return Whole(
+        hull.fingerprint,
+        tuple(state.rows.key.data),
+        tuple(state.curves.key.data),
+        tuple(table.count for table in (state.rows, state.curves, state.lines, state.groups)),
+        (dict(state.revision_row), dict(state.revision_curve)),
+        tuple(step.name for step in document.history),
+        tuple(step.name for step in document.undone),
+        document.index.level.tobytes(),
+    )
+
+
+@contextmanager
+def failing_at(stage: str, node: int, error: BaseException = FAILED) -> Iterator[None]:
+    """Let one stage of the update fail where it comes to one node."""
+    with _STAGES[stage](node, error):
+        yield
+
+
+def _evaluate(node: int, error: BaseException) -> mock._patch[object]:
+    original = HullNetwork.evaluate
+
+    def fail(self: HullNetwork, nodes: IntArray, journal: Journal) -> Evaluation:
+        if node in nodes.tolist():
+            raise error
+        return original(self, nodes, journal)
+
+    return mock.patch.object(HullNetwork, "evaluate", fail)
+
+
+def _after(node: int, error: BaseException) -> mock._patch[object]:
+    """Fail when the node has been evaluated and its value written."""
+    original = HullNetwork.evaluate
+
+    def fail(self: HullNetwork, nodes: IntArray, journal: Journal) -> Evaluation:
+        found = original(self, nodes, journal)
+        if node in nodes.tolist():
+            raise error
+        return found
+
+    return mock.patch.object(HullNetwork, "evaluate", fail)
+
+
+def _in_network(name: str, argument: int) -> Callable[[int, BaseException], mock._patch[object]]:
+    """Fail in a function that the network calls with the curves of a batch."""
+
+    def patch(node: int, error: BaseException) -> mock._patch[object]:
+        original = getattr(network, name)
+
+        def fail(*given: object, **named: object) -> object:
+            curves = given[argument]
+            assert isinstance(curves, np.ndarray)
+            if node & 1 and node >> 1 in curves.tolist():
+                raise error
+            return original(*given, **named)
+
+        return mock.patch.object(network, name, fail)
+
+    return patch
+
+
+def _in_check(name: str) -> Callable[[int, BaseException], mock._patch[object]]:
+    """Fail in a check that looks at the curve of the node."""
+
+    def patch(node: int, error: BaseException) -> mock._patch[object]:
+        original = getattr(update, name)
+
+        def fail(state: HullState, curves: IntArray, *rest: object) -> object:
+            if node & 1 and node >> 1 in curves.tolist():
+                raise error
+            return original(state, curves, *rest)
+
+        return mock.patch.object(update, name, fail)
+
+    return patch
+
+
+def _publish(node: int, error: BaseException) -> mock._patch[object]:
+    original = Document._revise
+
+    def fail(self: Document, step: Step) -> None:
+        if node in step.changed.tolist():
+            raise error
+        original(self, step)
+
+    return mock.patch.object(Document, "_revise", fail)
+
+
+_STAGES = {
+    "evaluate": _evaluate,
+    "evaluated": _after,
+    "loft": _in_network("loft_curves", 1),
+    "intersection": _in_network("cut_curves", 2),
+    "gaps": _in_check("measure_gaps"),
+    "folds": _in_check("find_folds"),
+    "numbers": _in_check("find_unbounded"),
+    "publish": _publish,
+}
+_CURVE_STAGES = ("loft", "intersection", "gaps", "folds", "numbers")
+
+
+def smallest() -> ah.Hull:
+    """Give the smallest net of three families."""
+    net = wigley_sources(3, 2, 1)
+    loose = tuple(attrs.evolve(each, tolerance=0.03) for each in net.sources)
+    return ah.Hull(attrs.evolve(net, sources=loose).adopt())
+
+
+def nodes_of(hull: ah.Hull, change: Change) -> list[int]:
+    """Give the nodes an edit evaluates, points and curves, by carrying it out once."""
+    with hull.edit("reference", gaps="report") as edit:
+        change(edit)
+    step = hull.document.history[-1]
+    hull.undo()
+    hull.document.undone.clear()
+    return sorted({*step.cause.reader.tolist(), *step.changed.tolist()})
+
+
+def shared(hull: ah.Hull) -> list[ah.Point]:
+    """Give the shared crossings of sections and waterlines."""
+    points = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
+    return [p for p in points if p.free == ("y",) and not hull.state.rows.contact.data[p.row]]
+
+
+def pull_wide(hull: ah.Hull) -> Change:
+    """A pull that reaches most of a small net."""
+    point = shared(hull)[0]
+    return lambda edit: edit.pull(point, 0.004, (60.0, 10.0))
+
+
+def structural(hull: ah.Hull) -> Change:
+    """A new line, a point and a role in one edit."""
+    line = next(iter(hull.groups["waterlines"].lines.values())).curves[0]
+    point = shared(hull)[0]
+
+    def change(edit: Edit) -> None:
+        edit.add_line("waterlines", 0.37 * hull.particulars.draught)
+        edit.insert(line, line.at(0.43 * line.span))
+        edit.set_role(point, "watched")
+
+    return change
+
+
+def drag(hull: ah.Hull) -> Change:
+    """A pinned move."""
+    points = shared(hull)
+    point = points[len(points) // 2]
+    return lambda edit: edit.move(point, y=point.y + 0.004)
+
+
+CHANGES = {"drag": drag, "pull": pull_wide, "structure": structural}
+
+
+def refuse(
+    hull: ah.Hull,
+    change: Change,
+    stage: str,
+    node: int,
+    before: Whole,
+    error: BaseException = FAILED,
+) -> bool:
+    """Carry out an edit that fails at a node; whether the failure was met at all."""
+    try:
+        with failing_at(stage, node, error), hull.edit("failing", gaps="report") as edit:
+            change(edit)
+    except (AssocHullError, ArithmeticError, RuntimeError, KeyboardInterrupt):
+        assert whole(hull) == before, f"{stage} at {node}"
+        return True
+    hull.undo()
+    hull.document.undone.clear()
+    before.revisions[0].update(hull.state.revision_row)
+    before.revisions[1].update(hull.state.revision_curve)
+    return False
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_failure_at_any_node_leaves_the_hull_as_it_was(name: str) -> None:
+    """All or nothing: at every node, in every stage, on the smallest three-family net."""
+    hull = smallest()
+    change = CHANGES[name](hull)
+    nodes = nodes_of(hull, change)
+    met = dict.fromkeys(_STAGES, 0)
+    for stage in _STAGES:
+        before = whole(hull)
+        met[stage] = sum(refuse(hull, change, stage, node, before) for node in nodes)
+    curves = [node for node in nodes if node & 1]
+    assert met["evaluate"] == met["evaluated"] == len(nodes) - _set_only(nodes, met["evaluate"])
+    assert all(met[stage] >= 0.5 * len(curves) for stage in _CURVE_STAGES)
+    assert met["publish"] > 0
+    with hull.edit("after all", gaps="report") as edit:
+        change(edit)
+    assert hull.verify() == ()
+
+
+def _set_only(nodes: list[int], evaluated: int) -> int:
+    """How many points were set by the edit itself, and so are not evaluated."""
+    assert evaluated >= sum(node & 1 for node in nodes) / 2
+    return len(nodes) - evaluated
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        pytest.param(FloatingPointError("divide by zero"), id="arithmetic"),
+        pytest.param(RuntimeError("a defect"), id="defect"),
+        pytest.param(KeyboardInterrupt(), id="interrupt"),
+    ],
+)
+def test_any_kind_of_failure_is_taken_back(error: BaseException) -> None:
+    """A defect of the kernel or an interrupt too, at the first and the last node."""
+    hull = smallest()
+    for change in (drag(hull), structural(hull)):
+        nodes = [node for node in nodes_of(hull, change) if node & 1]
+        for node in (nodes[0], nodes[-1]):
+            before = whole(hull)
+            assert any([refuse(hull, change, each, node, before, error) for each in _STAGES])
+
+
+@pytest.mark.parametrize("name", ["drag", "pull"])
+def test_keep_going_blocks_readers_only(name: str) -> None:
+    """Each curve in turn cannot be lofted: it keeps its shape, its readers are blocked.
+
+    All else updates as without the failure, the next edit works, and undo restores all.
+    """
+    hull = smallest()
+    change = CHANGES[name](hull)
+    curves = [node for node in nodes_of(hull, change) if node & 1]
+    with hull.edit("reference", gaps="report") as edit:
+        change(edit)
+    reference = snapshot(hull)
+    hull.undo()
+    failed = [keeps_going(hull, change, node, reference.curves) for node in curves]
+    assert any(failed)
+
+
+def keeps_going(hull: ah.Hull, change: Change, node: int, wanted: dict[str, bytes]) -> bool:
+    """Carry out an edit while one curve fails, and look at all the others; mend it after."""
+    before, old = whole(hull), snapshot(hull).curves
+    with failing_at("loft", node), hull.edit("failing", "keep_going", "report") as edit:
+        change(edit)
+    report, state = edit.report, hull.state
+    assert report is not None
+    key = state.curves.key.data[node >> 1]
+    if not report.failed:
+        hull.undo()
+        return False
+    reach = readers_of(hull, node >> 1)
+    assert state.failed == (node >> 1,)
+    assert {name for name in report.blocked if name in old} == reach
+    for curve in state.live("curves").tolist():
+        name, handle = state.curves.key.data[curve], ah.Curve.of(state, curve)
+        assert handle.state == (
+            "failed" if name == key else "blocked" if name in reach else "clean"
+        )
+        kept = name == key or name in reach
+        assert curve_bits(state, curve) == (old if kept else wanted)[name]
+    assert {finding.kind for finding in hull.check()} >= {"failed"}
+    next_edits_work(hull, node >> 1)
+    hull.undo()
+    assert attrs.evolve(whole(hull), revisions=before.revisions, undone=()) == attrs.evolve(
+        before, undone=()
+    )
+    return True
+
+
+def readers_of(hull: ah.Hull, curve: int) -> set[str]:
+    """Walk the role table from the points computed from a curve."""
+    rows = hull.state.rows
+    driven = {
+        rows.key.data[row]
+        for row in hull.state.live("rows").tolist()
+        if rows.driver.data[row] == curve
+    }
+    return closure(hull, driven) - {hull.state.curves.key.data[curve]}
+
+
+def next_edits_work(hull: ah.Hull, failed: int) -> None:
+    """One that leaves the failed curve alone; one that mends it; both are taken back."""
+    far = [
+        point
+        for point in live_points(hull, "crossing")
+        if point.crossing_role == "shared"
+        and point.free == ("y",)
+        and failed not in hull.state.rows.curve.data[point.row].tolist()
+    ]
+    with hull.edit("elsewhere", "keep_going", "report") as edit:
+        edit.move(far[0], y=far[0].y + 0.001)
+    assert hull.state.failed == (failed,)
+    curve = ah.Curve.of(hull.state, failed)
+    with hull.edit("mend", gaps="report") as edit:
+        edit.set_end(curve, "start", tangent=curve.tangent(0.0))
+    assert hull.state.failed == ()
+    assert {finding.kind for finding in hull.check()} <= {"gap", "fold"}
+    assert hull.verify() == ()
+    hull.undo(2)
+    assert hull.state.failed == (failed,)
+
+
+def test_a_sample_of_200_nodes_of_series_60(series60_70: ah.Hull) -> None:
+    """Both policies, on a pull that reaches some 700 nodes."""
+    hull, rng = series60_70, random.Random(60)
+    row = places.places(hull, places.PAIRS[:1], 3, 11)[2]
+
+    def change(edit: Edit) -> None:
+        places.pull(hull, 0.02, (40.0, 12.0))(edit, row)
+
+    nodes, before = nodes_of(hull, change), whole(hull)
+    sample = rng.sample(nodes, 200)
+    stages = list(_STAGES)
+    met = [
+        refuse(hull, change, rng.choice(stages if node & 1 else stages[:2]), node, before)
+        for node in sample
+    ]
+    assert sum(met) > 60
+    curves = [node for node in sample if node & 1]
+    for node in curves[:12]:
+        with failing_at("loft", node), hull.edit("failing", "keep_going", "report") as edit:
+            change(edit)
+        blocked = {
+            hull.state.curves.key.data[c] for c in np.flatnonzero(hull.state.curves.state.data == 2)
+        }
+        assert blocked == (readers_of(hull, node >> 1) if hull.state.failed else set())
+        hull.undo()
+        assert hull.fingerprint == before.fingerprint
+    hull.document.undone.clear()
+
+
+def test_an_exception_in_the_block_takes_everything_back() -> None:
+    """Also what was written before it: lines, points, roles."""
+    hull = smallest()
+    before, change = whole(hull), structural(hull)
+    with pytest.raises(ZeroDivisionError), hull.edit("broken") as edit:
+        change(edit)
+        raise ZeroDivisionError
+    assert whole(hull) == before
+
+
+def test_a_failed_nested_edit_takes_the_outer_one_with_it() -> None:
+    """Also what is asked for after the failure was caught."""
+    hull = smallest()
+    before, change = whole(hull), structural(hull)
+    with pytest.raises(ah.RefusedEditError, match="nested"), hull.edit("outer"):
+        with pytest.raises(ZeroDivisionError), hull.edit("inner") as inner:
+            change(inner)
+            raise ZeroDivisionError
+        with hull.edit("again") as again:
+            change(again)
+    assert whole(hull) == before
+    with hull.edit("after") as edit:
+        change(edit)
+    assert hull.verify() == ()
