@@ -15,7 +15,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Self
 
 import assoc_hull.examples  # noqa: F401 - before the package binds this name to what is below
@@ -33,6 +32,7 @@ from assoc_hull.model.address import AddressBook
 from assoc_hull.model.breadth import half_breadth
 from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
+from assoc_hull.model.named import Named
 from assoc_hull.model.points import Points
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
@@ -93,13 +93,13 @@ class Hull:
         """The groups of lines by name, in the order of the ranks."""
         found = [Group.of(self.state, i) for i in self.state.live("groups").tolist()]
         found.sort(key=lambda each: (FAMILIES[each.family].rank, each.name))
-        return MappingProxyType({each.name: each for each in found})
+        return Named("group", {each.name: each for each in found})
 
     @property
     def lines(self) -> Mapping[str, Line]:
         """All lines by name; by group and name where two groups have one of the same name."""
         book, live = AddressBook(self.state), self.state.live("lines").tolist()
-        return MappingProxyType({book.line_name(i): Line.of(self.state, i) for i in live})
+        return Named("line", {book.line_name(i): Line.of(self.state, i) for i in live})
 
     @property
     def points(self) -> Points:
@@ -111,7 +111,7 @@ class Hull:
         """All crossings by address."""
         book, table = AddressBook(self.state), self.state.rows
         live = [row for row in self.state.live("rows").tolist() if table.curve.data[row, 1] >= 0]
-        return MappingProxyType({book.address(i): Crossing.of(self.state, i) for i in live})
+        return Named("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
 
     @property
     def history(self) -> tuple[EditReport, ...]:

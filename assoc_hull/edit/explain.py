@@ -18,6 +18,9 @@ from assoc_hull.model.state import HullState
 
 __all__ = ["Thing", "Why", "node_of", "why"]
 
+_TOLD = 4
+"""So many of the places where a change stopped are named in the text."""
+
 Thing = Group | Line | Curve | Point | Crossing
 
 _MADE = "as it was made: no edit has reached it"
@@ -83,7 +86,9 @@ class Why:
             return
         told.add(self.object)
         if self.stopped:
-            yield f"{indent}  stopped at {', '.join(self.stopped)}: same bits as before"
+            more = f" and {len(self.stopped) - _TOLD} more" if len(self.stopped) > _TOLD else ""
+            named = ", ".join(self.stopped[:_TOLD])
+            yield f"{indent}  stopped at {named}{more}: same bits as before"
         for cause in self.causes:
             yield from cause._lines(depth + 1, told)
 

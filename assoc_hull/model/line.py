@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import ClassVar
 
 import attrs
@@ -16,6 +15,7 @@ from assoc_hull.geometry.plane import Plane
 from assoc_hull.model.curve import Curve
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.handle import Handle
+from assoc_hull.model.named import Named
 from assoc_hull.model.point import Point
 
 __all__ = ["Group", "Line"]
@@ -122,4 +122,4 @@ class Group(Handle):
         mine = live[table.group.data[live] == self.row]
         place = np.where(table.planar.data, table.offset.data, np.inf).tolist()
         order = sorted(mine.tolist(), key=lambda i: (place[i], table.key.data[i]))
-        return MappingProxyType({table.name.data[i]: Line.of(self.tables, i) for i in order})
+        return Named("line", {table.name.data[i]: Line.of(self.tables, i) for i in order})

@@ -379,13 +379,28 @@ def test_a_sample_of_200_nodes_of_series_60(series60_70: ah.Hull) -> None:
     hull.document.undone.clear()
 
 
+def break_off(hull: ah.Hull, change: Change) -> None:
+    """Raise an error in the block, after the change was asked for."""
+    with hull.edit("broken") as edit:
+        change(edit)
+        raise ZeroDivisionError
+
+
+def catch_and_go_on(hull: ah.Hull, change: Change) -> None:
+    """Catch the error of a nested edit in the outer one, and ask for more."""
+    with hull.edit("outer"):
+        with pytest.raises(ZeroDivisionError):
+            break_off(hull, change)
+        with hull.edit("again") as again:
+            change(again)
+
+
 def test_an_exception_in_the_block_takes_everything_back() -> None:
     """Also what was written before it: lines, points, roles."""
     hull = smallest()
-    before, change = whole(hull), structural(hull)
-    with pytest.raises(ZeroDivisionError), hull.edit("broken") as edit:
-        change(edit)
-        raise ZeroDivisionError
+    before = whole(hull)
+    with pytest.raises(ZeroDivisionError):
+        break_off(hull, structural(hull))
     assert whole(hull) == before
 
 
@@ -393,12 +408,8 @@ def test_a_failed_nested_edit_takes_the_outer_one_with_it() -> None:
     """Also what is asked for after the failure was caught."""
     hull = smallest()
     before, change = whole(hull), structural(hull)
-    with pytest.raises(ah.RefusedEditError, match="nested"), hull.edit("outer"):
-        with pytest.raises(ZeroDivisionError), hull.edit("inner") as inner:
-            change(inner)
-            raise ZeroDivisionError
-        with hull.edit("again") as again:
-            change(again)
+    with pytest.raises(ah.RefusedEditError, match="nested"):
+        catch_and_go_on(hull, change)
     assert whole(hull) == before
     with hull.edit("after") as edit:
         change(edit)
