@@ -13,6 +13,7 @@ from typing import Self
 import numpy as np
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.quiet import Quiet
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.update import Pending, Settings, update
 from assoc_hull.errors import BadInputError, RefusedEditError
@@ -55,6 +56,7 @@ class Transaction:
         self.report: EditReport | None = None
         self._depth = 0
         self._broken = False
+        self._quiet = Quiet()
         self._over = False
 
     @property
@@ -100,6 +102,7 @@ class Transaction:
             if self.document.writer is not None:
                 raise BadInputError("another edit is open", where, "end that one first")
             self.document.writer = self
+            self._quiet.__enter__()
         self._depth += 1
         return self
 
@@ -116,8 +119,11 @@ class Transaction:
         if self._depth:
             return
         self._over, self.document.writer = True, None
-        if error is None:
-            self._finish()
+        try:
+            if error is None:
+                self._finish()
+        finally:
+            self._quiet.__exit__()
 
     def _finish(self) -> None:
         """Run the update and publish it; whatever goes wrong, the hull is as it was."""
