@@ -112,7 +112,7 @@ def _with_knuckle(source: LineSource, chine: FloatArray) -> LineSource:
 def _net(number: int) -> Net:
     """Give the net of a seed."""
     if number == 0:
-        return _loose(wigley_sources(5, 3, 2), 0.02)
+        return _loose(wigley_sources(5, 4, 1), 0.02)
     if number == 1:
         return knuckled(5, 4)
     rng = random.Random(number)

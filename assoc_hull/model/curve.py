@@ -57,7 +57,7 @@ class Curve(Handle):
     >>> from assoc_hull.model.handles import Line
     >>> line = Line.of(wigley(), 3)
     >>> line.curves[0].at(0.0)
-    array([5., 0., 0.])
+    array([10.,  0.,  0.])
     """
 
     _table: ClassVar[str] = "curves"

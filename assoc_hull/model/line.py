@@ -88,7 +88,7 @@ class Line(Handle):
         >>> from assoc_hull.examples.wigley import wigley
         >>> from assoc_hull.model.handles import Line
         >>> Line.of(wigley(), 3).meet(((0, 0, 1), 7.0)).round(3).tolist()
-        [[5.0, 0.95, 7.0]]
+        [[10.0, 1.8, 7.0]]
         """
         cut = plane if isinstance(plane, Plane) else Plane(np.asarray(plane[0], float), plane[1])
         offsets = np.array([cut.offset])

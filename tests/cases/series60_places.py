@@ -10,6 +10,7 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.handles import Curve, Point
 
@@ -45,7 +46,7 @@ def family(hull: ah.Hull, curve: int) -> str:
     return hull.state.family(hull.state.line_of(curve)).name
 
 
-def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> np.ndarray:
+def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     """Give the shared crossings of a pair of families that lie on no flat, by key."""
     rows, half = hull.state.rows, hull.particulars.breadth / 2.0
     live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
@@ -66,11 +67,12 @@ def places(hull: ah.Hull, pairs: tuple[tuple[str, str], ...], count: int, seed: 
     return [int(row) for pair in pairs for row in rng.permutation(shared_rows(hull, pair))[:each]]
 
 
-def normal_step(hull: ah.Hull, row: int) -> np.ndarray:
+def normal_step(hull: ah.Hull, row: int) -> FloatArray:
     """Give the unit direction of a crossing's freedom, outward."""
     rows = np.array([row])
     free = free_normals(hull.state, rows, hull_normals(hull.state)[rows])[0]
-    return free / np.linalg.norm(free)
+    found: FloatArray = free / np.linalg.norm(free)
+    return found
 
 
 def drag(hull: ah.Hull, amount: float) -> Act:

@@ -107,10 +107,12 @@ def test_a_buttock_over_the_valley_has_two_curves_and_one_below_it() -> None:
     assert len(hull.lines["BTK"].curves) == 2
     assert first in {curve.id for curve in hull.lines["BTK"].curves}
     born = {curve.id for curve in hull.lines["BTK"].curves} - {first}
+    assert edit.report is not None
     assert born <= set(edit.report.born)
     with hull.edit("back") as edit:
         edit.shift_line("BTK", LOW)
     assert [curve.id for curve in hull.lines["BTK"].curves] == [first]
+    assert edit.report is not None
     assert born <= set(edit.report.gone)
     with hull.edit("out again") as edit:
         edit.shift_line("BTK", HIGH)

@@ -51,7 +51,9 @@ def test_every_given_line_passes_its_offsets_within_1_mm(
     """With no smoothing, adoption keeps every offset of the table within a millimetre."""
     hull = adopted[cb]
     for line in hull.groups[group].lines.values():
-        points = _given(cb, group)[min(_given(cb, group), key=lambda k: abs(k - line.position))]
+        assert line.position is not None
+        position = float(line.position)
+        points = _given(cb, group)[min(_given(cb, group), key=lambda k: abs(k - position))]
         away = closest(line.curves[0].spline, 0, points)[2]
         assert away.max() <= 1e-3, f"{line.name}: {1e3 * away.max():.2f} mm"
 

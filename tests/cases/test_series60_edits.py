@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.normals import hull_normals
 from assoc_hull.model.handles import Point
 from tests.cases import series60_places as places
 
@@ -18,7 +19,7 @@ def _pairs(name: str) -> tuple[tuple[str, str], ...]:
 
 
 def _cases(hull: ah.Hull) -> list[tuple[str, places.Act, tuple[tuple[str, str], ...]]]:
-    cases = [
+    cases: list[tuple[str, places.Act, tuple[tuple[str, str], ...]]] = [
         ("drag 5 mm", places.drag(hull, 0.005), places.PAIRS),
         ("drag 20 mm", places.drag(hull, 0.020), places.PAIRS),
         ("pull 20 mm, 20 x 8 m", places.pull(hull, 0.020), places.PAIRS),
@@ -70,6 +71,7 @@ def test_a_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull) -> None:
     with series60_70.edit("drag") as edit:
         edit.move(point.friend_point or point, y=target)
     assert abs(point.y - target) < 1e-9
+    assert point.friend_point is not None
     assert np.array_equal(point.position, point.friend_point.position)
     series60_70.undo()
 
@@ -77,7 +79,7 @@ def test_a_drag_puts_its_point_where_it_was_asked(series60_70: ah.Hull) -> None:
 def test_a_pull_gives_its_normal_displacement_within_1_percent(series60_70: ah.Hull) -> None:
     """Measured along the outward normal at the pulled point."""
     for row in places.places(series60_70, places.PAIRS, 6, 3):
-        normal = places.hull_normals(series60_70.state)[row]
+        normal = hull_normals(series60_70.state)[row]
         before = series60_70.state.rows.xyz.data[row].copy()
         with series60_70.edit("pull") as edit:
             edit.pull(Point.of(series60_70.state, row), 0.02, (20.0, 8.0))
@@ -114,6 +116,7 @@ def test_dragging_a_driven_crossing_names_its_driver(series60_70: ah.Hull) -> No
     before = series60_70.fingerprint
     with pytest.raises(ah.PointRoleError) as caught, series60_70.edit("drag") as edit:
         edit.move(point, **{axis: 0.0 for axis in point.free})
+    assert point.driver is not None
     assert caught.value.driver == point.driver.line.name
     assert all(word in str(caught.value) for word in ("driver", "pull", "shared"))
     assert series60_70.fingerprint == before

@@ -20,7 +20,7 @@ def breadth_at(x: np.ndarray, z: np.ndarray) -> np.ndarray:
 def valley_hull(buttock: float = 2.0) -> ah.Hull:
     """Make the net: 19 sections, 5 waterlines, profile, deck edge, and one buttock."""
     x, z = np.linspace(0.0, LENGTH, 41), np.linspace(0.0, DEPTH, 9)
-    corners = [[0, 0, DEPTH], [0, 0, 0], [LENGTH, 0, 0], [LENGTH, 0, DEPTH]]
+    corners = np.array([[0, 0, DEPTH], [0, 0, 0], [LENGTH, 0, 0], [LENGTH, 0, DEPTH]])
     end, knuckle = ah.BoundaryKind.END, ah.PointKind.KNUCKLE
     level = np.full(len(x), DEPTH)
     deck = np.column_stack([x, breadth_at(x, level), level])

@@ -107,6 +107,7 @@ def test_a_preview_publishes_nothing(hull: ah.Hull) -> None:
     """The report is that of the edit, the hull as before."""
     before = hull.fingerprint
     report = hull.preview(lambda edit: shift(edit, hull.points[POINT], 0.01)).report
+    assert report is not None
     assert len(report.relofted) == 2
     assert (hull.fingerprint, len(hull.history)) == (before, 0)
     report = hull.preview([{"op": "move", "point": POINT, "y": 2.95}]).report

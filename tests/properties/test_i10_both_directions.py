@@ -1,0 +1,133 @@
+"""I10: the same shared values give the same bits, whichever way they were set."""
+
+from __future__ import annotations
+
+import random
+
+import attrs
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assoc_hull as ah
+from assoc_hull.model.handles import Point
+from tests.cases import series60_places as places
+from tests.net_strategies import POOL, fresh, live_points
+
+
+@attrs.frozen
+class Wish:
+    """A shared crossing, modulo their number, and how far it is to lie from where it was."""
+
+    which: int
+    amount: float
+
+
+wishes = st.lists(
+    st.builds(Wish, st.integers(0, 2**16), st.floats(-0.004, 0.004)), min_size=1, max_size=5
+)
+
+
+def targets(hull: ah.Hull, wanted: list[Wish]) -> dict[str, dict[str, float]]:
+    """Give the new coordinates of crossings by key."""
+    points = shared(hull)
+    chosen = {(point := points[wish.which % len(points)]).id: (point, wish) for wish in wanted}
+    return {
+        key: {axis: float(getattr(point, axis)) + wish.amount for axis in point.free}
+        for key, (point, wish) in chosen.items()
+    }
+
+
+def shared(hull: ah.Hull) -> list[Point]:
+    """Give the shared crossings that may be moved, by key."""
+    points = [p for p in live_points(hull, "crossing") if p.crossing_role == "shared"]
+    return [point for point in points if point.free]
+
+
+def move(hull: ah.Hull, to: dict[str, dict[str, float]], side: int = 0) -> bool:
+    """Set values in one edit, through the handles on one side; False if it was not quiet."""
+    try:
+        with hull.edit("move") as edit:
+            for key, value in to.items():
+                point = hull.find(key)
+                assert isinstance(point, Point)
+                handle = point if side == 0 else point.friend_point
+                assert handle is not None
+                edit.move(handle, **value)
+    except ah.RefusedEditError:
+        return False
+    report = edit.report
+    assert report is not None
+    return not (report.born or report.gone or report.mended)
+
+
+def one_by_one(hull: ah.Hull, to: dict[str, dict[str, float]], rng: random.Random) -> bool:
+    """Set values in edits of their own, in any order, through any handle, with detours."""
+    keys = sorted(to)
+    rng.shuffle(keys)
+    quiet = True
+    for key in keys:
+        for part in rng.sample((0.3, -0.7, 1.4), rng.randrange(3)):
+            away = {axis: value + 0.002 * part for axis, value in to[key].items()}
+            quiet &= move(hull, {key: away}, rng.randrange(2))
+        quiet &= move(hull, {key: to[key]}, rng.randrange(2))
+    return quiet
+
+
+@settings(max_examples=25)
+@given(st.integers(0, POOL - 1), wishes, st.randoms(use_true_random=False))
+def test_the_same_values_give_the_same_bits(
+    number: int, wanted: list[Wish], rng: random.Random
+) -> None:
+    """In one edit or several, through either handle, in any order, with other values between."""
+    hulls = [fresh(number) for _ in range(3)]
+    to = targets(hulls[0], wanted)
+    quiet = [move(hulls[0], to, 0), move(hulls[1], dict(reversed(to.items())), 1)]
+    assert hulls[0].fingerprint == hulls[1].fingerprint
+    quiet.append(one_by_one(hulls[2], to, rng))
+    if all(quiet):
+        assert hulls[2].fingerprint == hulls[0].fingerprint
+
+
+@settings(max_examples=15)
+@given(st.integers(0, POOL - 1), wishes, st.randoms(use_true_random=False))
+def test_there_and_back_is_exact(number: int, wanted: list[Wish], rng: random.Random) -> None:
+    """The values of the start bring the bits of the start back, without any undo."""
+    hull = fresh(number)
+    start = hull.fingerprint
+    to = targets(hull, wanted)
+    home = {key: {axis: getattr(hull.points[key], axis) for axis in to[key]} for key in to}
+    quiet = one_by_one(hull, to, rng)
+    quiet &= one_by_one(hull, home, rng)
+    if quiet:
+        assert hull.fingerprint == start
+
+
+def test_most_ways_are_quiet() -> None:
+    """So that the two properties above say something."""
+    rng, quiet = random.Random(10), 0
+    for number in range(POOL):
+        hull = fresh(number)
+        wanted = [Wish(rng.randrange(2**16), rng.uniform(-0.004, 0.004)) for _ in range(3)]
+        quiet += one_by_one(hull, targets(hull, wanted), rng)
+    assert quiet >= 0.75 * POOL
+
+
+def test_both_directions_on_series_60(series60_70: ah.Hull) -> None:
+    """Through the section and through the waterline; the way back is exact."""
+    hull = series60_70
+    rows = places.places(hull, places.PAIRS, 6, 4)
+    start, found = hull.fingerprint, set[str]()
+    keys = [hull.state.rows.key.data[row] for row in rows]
+    home = {
+        key: {axis: getattr(hull.points[key], axis) for axis in hull.points[key].free}
+        for key in keys
+    }
+    to = {key: {axis: value + 0.001 for axis, value in each.items()} for key, each in home.items()}
+    for turn in range(2):
+        for key in keys[:: 1 - 2 * turn]:
+            assert move(hull, {key: to[key]}, turn)
+        found.add(hull.fingerprint)
+        assert move(hull, home)
+        assert hull.fingerprint == start
+    assert len(found) == 1
+    hull.undo(len(hull.history))
