@@ -110,7 +110,7 @@ class UnknownNameError(AssocHullError, KeyError):
     known: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        near = difflib.get_close_matches(self.name, self.known, n=3, cutoff=0.4)
+        near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
         hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
         return f"there is no {self.kind} named {self.name!r}; {hint}"
 

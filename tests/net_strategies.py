@@ -7,6 +7,7 @@ process and read anew for every example.
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TypeVar
 
@@ -39,6 +40,7 @@ __all__ = [
     "knuckled",
     "live_points",
     "perform",
+    "refused",
     "tasks",
 ]
 
@@ -49,7 +51,10 @@ POOL = len(_SEEDS)
 """Number of nets kept ready."""
 
 SHAPES = ("move", "move", "move", "pull", "reshape", "insert", "delete", "set_end", "set_kind")
-STRUCTURE = ("add_line", "remove_line", "set_role", "set_role", "pin", "unpin")
+STRUCTURE = (
+    "add_line", "remove_line", "shift_line", "set_role", "set_role", "renew_roles", "pin", "unpin",
+    "associate",
+)  # fmt: skip
 Item = TypeVar("Item")
 _ROLES = ("shared", "drives a", "drives b", "watched")
 
@@ -112,7 +117,7 @@ def _with_knuckle(source: LineSource, chine: FloatArray) -> LineSource:
 def _net(number: int) -> Net:
     """Give the net of a seed."""
     if number == 0:
-        return _loose(wigley_sources(5, 4, 1), 0.02)
+        return _loose(wigley_sources(5, 4), 0.02)
     if number == 1:
         return knuckled(5, 4)
     rng = random.Random(number)
@@ -290,6 +295,29 @@ def _unpin(hull: ah.Hull, edit: Edit, act: Act) -> None:
         edit.unpin(point)
 
 
+def _shift_line(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    line = _pick(_lines(hull), act.which)
+    if line is not None:
+        edit.shift_line(line, float(hull.state.lines.offset.data[line.number]) + 5.0 * act.amount)
+
+
+def _renew_roles(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    line = _pick(_lines(hull), act.which)
+    if line is not None:
+        edit.renew_roles([line])
+
+
+def _associate(hull: ah.Hull, edit: Edit, act: Act) -> None:
+    links = [link for link in hull.state.associations if link.a != "boundary"]
+    link = _pick(links, act.which)
+    if link is None:
+        return
+    if act.other % 3 == 0:
+        edit.dissociate(link.a, link.b)
+    else:
+        edit.associate(link.a, link.b, two_way=act.other % 3 == 1)
+
+
 _OPERATIONS = {
     "move": _move,
     "pull": _pull,
@@ -303,4 +331,31 @@ _OPERATIONS = {
     "set_role": _set_role,
     "pin": _pin,
     "unpin": _unpin,
+    "shift_line": _shift_line,
+    "renew_roles": _renew_roles,
+    "associate": _associate,
 }
+
+
+def refused(
+    hull: ah.Hull,
+    act: Callable[[Edit], object],
+    error: type[AssocHullError],
+    gaps: GapsName = "refuse",
+) -> str:
+    """Carry out an edit that must fail; gives the message. The hull must be as it was."""
+    before, names = hull.fingerprint, [report.name for report in hull.history]
+    revisions = dict(hull.state.revision_row), dict(hull.state.revision_curve)
+    counts = [table.count for table in (hull.state.rows, hull.state.curves, hull.state.lines)]
+    try:
+        with hull.edit("bad", gaps=gaps) as edit:
+            act(edit)
+    except error as caught:
+        assert hull.fingerprint == before
+        assert [report.name for report in hull.history] == names
+        assert (hull.state.revision_row, hull.state.revision_curve) == revisions
+        assert counts == [
+            table.count for table in (hull.state.rows, hull.state.curves, hull.state.lines)
+        ]
+        return str(caught)
+    raise AssertionError(f"no {error.__name__} was raised")

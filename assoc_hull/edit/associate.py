@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.edit.arguments import word
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.remeet import meet_groups
 from assoc_hull.edit.set_role import change_role
@@ -28,13 +29,14 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     UnknownNameError
         A group that does not exist.
     BadInputError
-        A group with itself.
+        A group with itself, or with the boundary curves: contacts are made with the lines.
     RingError
         When the edit ends, if driven links would run in a ring.
     """
     state = edit.state
-    if a == b:
-        raise BadInputError(f"the group {a!r} with itself", "in associate", "name two groups")
+    _check_pair(edit, word(a, "group"), word(b, "group"))
+    if not isinstance(two_way, bool):
+        raise BadInputError(f"two_way is {two_way!r}", "in associate", "give True or False")
     known = any({link.a, link.b} == {a, b} for link in state.associations)
     edit.maker.associate(Association(a, b, two_way))
     edit.pending.structural = True
@@ -44,6 +46,20 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
         return
     for row in _crossings(state, a, b).tolist():
         _turn(edit, row, a)
+
+
+def _check_pair(edit: Transaction, a: str, b: str) -> None:
+    """Refuse a group with itself, and to change what lines end on."""
+    names = edit.state.groups.name.data
+    if a == b:
+        raise BadInputError(f"the group {a!r} with itself", "in associate", "name two groups")
+    for name in (a, b):
+        if name in names and edit.state.groups.family.data[names.index(name)] == "boundary":
+            raise BadInputError(
+                f"lines are made to end and turn on the curves of {name!r}",
+                "in an association of a hull that has lines",
+                "declare it when the hull is made, and leave it",
+            )
 
 
 def _turn(edit: Transaction, row: int, giver: str) -> None:
@@ -84,9 +100,10 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
     Raises
     ------
     BadInputError
-        The two groups are not associated.
+        The two groups are not associated, or one holds the boundary curves.
     """
     state = edit.state
+    _check_pair(edit, word(a, "group"), word(b, "group"))
     left = tuple(link for link in state.associations if {link.a, link.b} != {a, b})
     if len(left) == len(state.associations):
         raise BadInputError(

@@ -8,10 +8,24 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.order import folds
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.address import address
+from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import gap_at, watched_on
 from assoc_hull.model.state import HullState
 
-__all__ = ["Wide", "curve_title", "find_folds", "find_unbounded", "measure_gaps", "plane_normals"]
+__all__ = [
+    "Wide",
+    "curve_title",
+    "find_beyond",
+    "find_folds",
+    "find_unbounded",
+    "find_unmet",
+    "measure_gaps",
+    "plane_normals",
+]
+
+_CENTRE = 1e-6
+"""How far (m) a point may lie beyond the centre plane by rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -85,6 +99,43 @@ def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
         for curve in curves.tolist()
         if not np.isfinite(state.spline(curve).leave).all()
     )
+
+
+def find_beyond(state: HullState, curves: IntArray) -> tuple[str, ...]:
+    """Say which curves have points beyond the centre plane: only y >= 0 is stored."""
+    return tuple(
+        f"{curve_title(state, curve)} passes the centre plane by {-low:.3g} m: "
+        "make the move smaller"
+        for curve in curves.tolist()
+        if (low := float(state.spline(curve).xyz[:, 1].min())) < -_CENTRE
+    )
+
+
+def _held_at_contact(state: HullState, rows: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which contacts a boundary curve is made through.
+
+    Where it runs in the plane of the line, it need not pass that plane.
+    """
+    made = state.rows.reader.data[rows, 0] == state.rows.curve.data[rows, 0]
+    return np.asarray(state.rows.contact.data[rows] & made)
+
+
+def find_unmet(state: HullState, curves: IntArray) -> tuple[str, ...]:
+    """Say which crossings of curves have no meeting on a curve that they need one on."""
+    table = state.rows
+    rows = np.flatnonzero(table.alive.data & np.isin(table.curve.data, curves).any(axis=1))
+    rows = rows[table.sort.data[rows] == Sort.CROSSING]
+    findings: list[str] = []
+    for side in (0, 1):
+        owner = table.curve.data[rows, side]
+        held = table.contact.data[rows] if side else _held_at_contact(state, rows)
+        for row, curve in zip(rows[~held].tolist(), owner[~held].tolist(), strict=True):
+            if not (state.curves.meets.data[curve].row == row).any():
+                findings.append(
+                    f"{address(state, row)} is not reached by {curve_title(state, curve)}: "
+                    "choose another place for the line"
+                )
+    return tuple(findings)
 
 
 def measure_gaps(

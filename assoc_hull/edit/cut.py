@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from assoc_hull.edit.arguments import line_name
+from assoc_hull.edit.arguments import line_name, word
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
@@ -47,7 +47,7 @@ def new_plane(state: HullState, group: str, position: float) -> tuple[int, Float
         taken.
     """
     names = state.groups.name.data
-    if group not in names:
+    if word(group, "group") not in names:
         raise UnknownNameError("group", group, tuple(names))
     number = names.index(group)
     axis = FAMILIES[state.groups.family.data[number]].axis

@@ -5,6 +5,8 @@ Undo and redo run the journal of a step backward and forward; they never compute
 
 from __future__ import annotations
 
+import operator
+
 import attrs
 import numpy as np
 
@@ -76,7 +78,11 @@ class Document:
     def _enough(self, steps: list[Step], count: int, act: str) -> None:
         if self.writer is not None:
             raise BadInputError("an edit is open", f"in {act}", "end it first")
-        if not 1 <= count <= len(steps):
+        try:
+            wanted = operator.index(count)
+        except TypeError:
+            wanted = 0
+        if not 1 <= wanted <= len(steps):
             raise BadInputError(
                 f"{count} steps were asked and there are {len(steps)} to {act}",
                 f"in {act}",

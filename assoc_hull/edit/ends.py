@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.edit.arguments import direction_in
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind
@@ -48,12 +49,9 @@ def set_end(
         raise BadInputError("both a tangent and a curvature", where, "give one of the two")
     kind, vector = EndKind.FREE, np.zeros(3)
     if tangent is not None:
-        kind, vector = EndKind.TANGENT, np.array(tangent, np.float64)
+        kind, vector = EndKind.TANGENT, direction_in(edit.state, curve, tangent, "tangent")
     elif curvature is not None:
-        kind, vector = EndKind.CURVATURE, np.array(curvature, np.float64)
-    bad = vector.shape != (3,) or not np.isfinite(vector).all()
-    if bad or (kind is EndKind.TANGENT and not (vector != 0.0).any()):
-        raise BadInputError(f"the vector {vector.tolist()}", where, "give three finite numbers")
+        kind, vector = EndKind.CURVATURE, direction_in(edit.state, curve, curvature, "curvature")
     old: Ends = edit.state.curves.ends.data[curve]
     at = 0 if end == "start" else 1
     x, y, z = vector.tolist()

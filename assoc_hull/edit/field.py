@@ -19,6 +19,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.normals import free_normals, hull_normals
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.graph.journal import Journal
@@ -241,4 +242,14 @@ def sub_steps(state: HullState, shift: Shift) -> int:
     steps = 1
     while largest / steps > state.tolerances.substep:
         steps *= 2
+    if steps > _STEPS:
+        raise BadInputError(
+            f"a field that moves a point by {largest:.4g} m",
+            "in an edit",
+            f"move by less than {_STEPS * state.tolerances.substep:g} m at a time",
+        )
     return steps
+
+
+_STEPS = 64
+"""A field of more sub-steps than this is no fairing any more."""

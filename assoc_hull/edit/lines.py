@@ -60,6 +60,7 @@ def _rows_of(state: HullState, curves: IntArray) -> tuple[IntArray, IntArray]:
 def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> None:
     """Replace crossings by adopted points on the curves they define, but for those going."""
     state, touched = edit.state, dict[int, list[int]]()
+    edit.refuse_moved(crossings)
     for row in crossings.tolist():
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
             _make_latent(edit, curve, row)
@@ -150,6 +151,6 @@ def rename_line(edit: Transaction, line: int, name: str) -> None:
         for other in state.live("lines").tolist()
         if state.lines.group.data[other] == group and other != line
     }
-    if name in taken:
+    if name in taken | set(state.groups.name.data) | set(state.lines.key.data):
         raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
     edit.journal.set(state.lines.name, [line], [name])

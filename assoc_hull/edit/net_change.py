@@ -6,6 +6,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.network import bits_differ
 from assoc_hull.model.state import HullState, curve_node, row_node
 
@@ -35,10 +36,12 @@ def net_change(
     Returns
     -------
     nodes, moved : (n,) int, (n,) float, m
-        Each node once, points first. Points that the edit made are left out.
+        Each node once, points first; nan where the edit itself set the point. Points that
+        the edit made are left out, and watched ones, which have no value.
     """
     odd = (nodes & 1).astype(bool)
-    rows, away = _points(state, journal, np.unique(nodes[~odd]) >> 1)
+    rows, away = _points(state, journal)
+    away[~np.isin(row_node(rows), nodes)] = np.nan
     curves = [
         curve
         for curve in np.unique(nodes[odd] >> 1).tolist()
@@ -49,16 +52,15 @@ def net_change(
     return np.concatenate([row_node(rows), curve_node(numbers)]), np.concatenate([away, widest])
 
 
-def _points(state: HullState, journal: Journal, rows: IntArray) -> tuple[IntArray, FloatArray]:
+def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
     """Give the points that lie elsewhere than before, and how far."""
-    written, old = journal.before(state.rows.xyz)
-    marked, was_alive = journal.before(state.rows.alive)
-    made = marked[~was_alive.astype(bool)]
-    rows = rows[np.isin(rows, written) & ~np.isin(rows, made)]
-    place = old[np.searchsorted(written, rows)]
-    now = state.rows.xyz.data[rows]
-    differs = bits_differ(place, now)
-    step = now[differs] - place[differs]
+    table = state.rows
+    rows, old = journal.before(table.xyz)
+    marked, was_alive = journal.before(table.alive)
+    watched = (table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] == Role.WATCHED)
+    differs = table.alive.data[rows] & ~watched & bits_differ(old, table.xyz.data[rows])
+    differs &= ~np.isin(rows, marked[~was_alive.astype(bool)])
+    step = table.xyz.data[rows[differs]] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))
 
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.edit.arguments import direction_in, word
 from assoc_hull.edit.arguments import place as one_place
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import interval_of
@@ -167,7 +168,7 @@ def delete(edit: Transaction, row: int) -> None:
     Raises
     ------
     PointRoleError
-        The point is a crossing: it goes with its line or its association only.
+        The point is a crossing, which goes with its line or its association only, or an end.
     TooFewPointsError
         The curve would be left with fewer than two points.
     """
@@ -180,6 +181,10 @@ def delete(edit: Transaction, row: int) -> None:
     rows: IntArray = state.curves.rows.data[curve]
     if len(rows) < 3:
         raise TooFewPointsError(str(state.lines.name.data[state.line_of(curve)]), len(rows) - 1)
+    if row in rows[[0, -1]]:
+        raise PointRoleError(
+            address(state, row), "an end of its curve", None, "move it, or remove the line"
+        )
     edit.maker.define(curve, rows[rows != row])
     edit.maker.remove_rows([row])
     edit.pending.values.pop(row, None)
@@ -210,19 +215,16 @@ def set_kind(
     state = edit.state
     curve = int(state.rows.curve.data[row, side])
     where = f"at {address(state, row)}"
-    if kind not in {each.name.lower() for each in PointKind}:
+    if word(kind, "kind") not in {each.name.lower() for each in PointKind}:
         raise BadInputError(f"the kind {kind!r}", where, "use smooth, tangent or knuckle")
     rows: IntArray = state.curves.rows.data[curve]
     if row not in rows.tolist():
         raise BadInputError("the point does not define the curve", where, "set its role first")
     given = np.zeros(3)
     if kind == "tangent":
-        present = _direction(state, curve, state.rows.xyz.data[row])
-        given = np.array(present if direction is None else direction, np.float64)
-        if given.shape != (3,) or not np.isfinite(given).all() or not (given != 0.0).any():
-            raise BadInputError(
-                f"the direction {direction!r}", where, "give a vector with a length"
-            )
+        if direction is None:
+            direction = _direction(state, curve, state.rows.xyz.data[row])
+        given = direction_in(state, curve, direction, "direction")
     kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
     kinds[side], directions[side] = PointKind[kind.upper()], given
     edit.journal.put(state.rows.kind, [row], kinds[None])

@@ -193,6 +193,8 @@ class Edit:
 
     def renew_roles(self, lines: Sequence[Line | str]) -> int:
         """Apply the role rule again to all crossings of lines; gives how many changed."""
+        if isinstance(lines, (str, Line)) or not isinstance(lines, Sequence):
+            raise BadInputError(f"the lines {lines!r}", "in renew_roles", "give a list of lines")
         return _renew.renew_roles(self._transaction, [self._line(line) for line in lines])
 
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:

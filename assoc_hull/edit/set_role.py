@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.edit.arguments import word
 from assoc_hull.edit.lines import prune
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
@@ -45,7 +46,7 @@ def set_role(edit: Transaction, row: int, role: str | None) -> None:
     if state.rows.sort.data[row] != Sort.CROSSING:
         raise PointRoleError(address(state, row), "no crossing", None, "only crossings have roles")
     known = {each.text: each for each in Role}
-    if role is not None and role not in known:
+    if role is not None and word(role, "role") not in known:
         raise BadInputError(
             f"the role {role!r}", f"at {address(state, row)}", f"use one of {', '.join(known)}"
         )
@@ -72,6 +73,7 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
     old = Role(int(state.rows.role.data[row]))
     if new is old:
         return
+    edit.refuse_moved(np.array([row]))
     if old is Role.WATCHED:
         side = int(new is Role.DRIVES_A)
         edit.journal.put(state.rows.xyz, [row], state.rows.spot.data[row, side][None])
@@ -86,7 +88,8 @@ def change_role(edit: Transaction, row: int, new: Role) -> None:
         elif reader[side] != curve and inside:
             _leave_stand_in(edit, curve, row)
         ride_links(state, np.array([curve]), edit.journal)
-        edit.pending.curves.add(curve)
+        if (reader[side] == curve) != inside:
+            edit.pending.curves.add(curve)
     if new in (Role.DRIVES_A, Role.DRIVES_B):
         edit.pending.computed.add(row)
     if new is Role.WATCHED:

@@ -51,6 +51,7 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     mine = np.array(state.lines.curves.data[line], np.int64)
     crossings, placed = _rows(state, mine)
     known = _followed(state, line, crossings, position)
+    edit.refuse_moved(placed)
     edit.pending.structural = True
     leave_behind(edit, crossings, mine)
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))

@@ -9,7 +9,7 @@ from assoc_hull.edit.thread import thread
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.align import Alignment
-from assoc_hull.model.family import Role
+from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.make import CrossingSpec, Maker
 from assoc_hull.model.roles import Candidates, choose, role_of
@@ -226,7 +226,8 @@ def role_by_rule(state: HullState, row: int) -> Role:
     ]
     lines = state.line_of(a), state.line_of(b)
     if state.rows.contact.data[row]:
-        shared = _may_define(state, a, lines[1], places[0], row)
+        both_ways = generates(state, *lines)[1]
+        shared = both_ways and _may_define(state, a, lines[1], places[0], row)
         return Role.SHARED if shared else Role.DRIVES_B
     return _role(state, (a, b), lines, (places[0], places[1]), row)
 
@@ -235,7 +236,10 @@ def _may_define(state: HullState, curve: int, partner: int, at: float, row: int 
     """Apply the role rule to one crossing; what else defines the curve already stays."""
     knots, rows = state.spline(curve).knot, state.curves.rows.data[curve]
     if len(knots) == len(rows):
-        knots = knots[rows != row]
+        # A point adopted where the crossing is stands in for it, and goes when it defines.
+        adopted = state.rows.sort.data[rows] == Sort.ADOPTED
+        stands_in = adopted & (np.abs(knots - at) < 1e-3) & (row >= 0)
+        knots = knots[(rows != row) & ~stands_in]
     if float(np.abs(knots - at).min()) < 1e-3:
         return False
     position = int(np.searchsorted(knots, at))

@@ -94,6 +94,22 @@ class Transaction:
                 )
             self.pending.values[row] = value
 
+    def refuse_moved(self, rows: IntArray) -> None:
+        """Refuse to change what points are, that this transaction has moved already.
+
+        Raises
+        ------
+        BadInputError
+            Naming the first such point.
+        """
+        for row in rows.tolist():
+            if row in self.pending.values:
+                raise BadInputError(
+                    "a point is moved and its line or role is changed in one transaction",
+                    str(self.state.rows.key.data[row]),
+                    "use two transactions",
+                )
+
     def __enter__(self) -> Self:
         if not self._depth:
             where = f"in the edit {self.name!r}"

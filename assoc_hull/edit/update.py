@@ -11,7 +11,15 @@ import time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.check import Wide, find_folds, find_unbounded, measure_gaps, plane_normals
+from assoc_hull.edit.check import (
+    Wide,
+    find_beyond,
+    find_folds,
+    find_unbounded,
+    find_unmet,
+    measure_gaps,
+    plane_normals,
+)
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
@@ -195,6 +203,8 @@ def update(
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
             _settle(work)
+        for curve in pending.fresh:
+            network.before.pop(curve, None)
         ran = time.perf_counter()
         findings = _check(work)
     except RingError:
@@ -301,6 +311,9 @@ def _check(work: _Work) -> tuple[str, ...]:
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     findings = find_unbounded(work.state, clean)
     findings += find_folds(work.state, clean, work.network.before)
+    findings += find_beyond(work.state, clean)
+    if work.pending.structural:
+        findings += find_unmet(work.state, clean)
     if work.settings.refuse_gaps:
         findings += tuple(_gap_text(work, i) for i in range(len(wide.rows)))
     return findings
@@ -327,7 +340,7 @@ def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
         changed.append(part.changed[told])
         moved.append(part.moved[told])
     nodes, distance = np.concatenate(changed), np.concatenate(moved)
-    if len(parts) > 1:
+    if len(parts) > 1 or work.pending.structural:
         every = np.concatenate([nodes, *(part.changed for part in parts)])
         known = np.concatenate([distance, *(part.moved for part in parts)])
         nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)

@@ -66,7 +66,7 @@ def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
     An edit that says again what is so already, or takes back what it did, may loft a curve
     whose inputs come out as they were.
     """
-    again = {"set_end", "set_kind", "set_role", "insert", "delete"}
+    again = {"set_end", "set_kind", "insert", "delete", "reshape"}
     if {act.op for act in task.acts} & again:
         return set()
     return set(report.relofted) - wanted
