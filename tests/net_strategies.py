@@ -220,7 +220,8 @@ def _pull(hull: ah.Hull, edit: Edit, act: Act) -> None:
 
 def _free_way(curve: Curve) -> FloatArray:
     """Give the direction of the plane of a curve in which it may bulge."""
-    return np.eye(3)[2 if curve.line.group.family == "buttocks" else 1]
+    axes: FloatArray = np.eye(3)
+    return np.asarray(axes[2 if curve.line.group.family == "buttocks" else 1])
 
 
 def _reshape(hull: ah.Hull, edit: Edit, act: Act) -> None:

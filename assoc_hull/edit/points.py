@@ -250,6 +250,7 @@ def pin(edit: Transaction, row: int) -> None:
 
 def unpin(edit: Transaction, row: int) -> None:
     """Make a placed point an adopted one: it belongs to the shape and goes with fields."""
+    edit.refuse_moved(np.array([row]))
     _resort(edit, row, Sort.PLACED, Sort.ADOPTED)
 
 

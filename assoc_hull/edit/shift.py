@@ -16,8 +16,10 @@ from assoc_hull.edit.marks import find_marks, spread
 from assoc_hull.edit.pieces import match_pieces
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
+from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState, Meets
@@ -63,6 +65,7 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
         make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
+    _bring_along(edit, line, known)
     enter_line(edit, line)
     _carry(edit, np.array([curve for curve, _ in pieces]), placed)
     _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))
@@ -115,6 +118,15 @@ def _followed(
     return known
 
 
+def _bring_along(edit: Transaction, line: int, known: dict[tuple[int, int], int]) -> None:
+    """Note where followed crossings have come to, so that both curves find them there."""
+    state = edit.state
+    plane = state.lines.normal.data[line], state.lines.offset.data[[line]]
+    for (other, root), row in sorted(known.items()):
+        place = meet_planes(state.spline(other), *plane).xyz[root]
+        edit.journal.put(state.rows.spot, [row], [[place, place]])
+
+
 def _carry(edit: Transaction, curves: IntArray, placed: IntArray) -> None:
     """Carry placed points along the hull into the new plane, each to the nearest piece."""
     state = edit.state
@@ -140,4 +152,7 @@ def _drop_lost(edit: Transaction, mine: IntArray, kept: IntArray) -> None:
     met = [state.curves.meets.data[curve].row for curve in mine.tolist()]
     made = [state.curves.rows.data[curve] for curve in mine.tolist()]
     lost = np.setdiff1d(kept, np.concatenate([*met, *made]))
+    for row in lost.tolist():
+        for curve in state.rows.curve.data[row].tolist():
+            unmeet(edit.maker, curve, row)
     edit.maker.remove_rows(lost)

@@ -102,8 +102,12 @@ class Transaction:
         BadInputError
             Naming the first such point.
         """
+        moved = set(self.pending.values)
+        for field in self.pending.fields:
+            set_by, place = field.exact()
+            moved |= set(set_by[(place != self.state.rows.xyz.data[set_by]).any(axis=1)].tolist())
         for row in rows.tolist():
-            if row in self.pending.values:
+            if row in moved:
                 raise BadInputError(
                     "a point is moved and its line or role is changed in one transaction",
                     str(self.state.rows.key.data[row]),

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 import assoc_hull as ah
 from assoc_hull.edit import update
 from assoc_hull.edit.report import EditReport
+from assoc_hull.graph import run as engine
 from assoc_hull.graph.run import Pass
 from tests.cases import series60_places as places
 from tests.independent import closure, relofted, snapshot
@@ -30,7 +31,7 @@ from tests.net_strategies import (
 def passes() -> Iterator[list[Pass]]:
     """Listen to the passes of the engine."""
     heard: list[Pass] = []
-    run = update.run
+    run = engine.run
 
     def listen(*given: object, **named: object) -> Pass:
         heard.append(run(*given, **named))  # type: ignore[arg-type]
@@ -66,8 +67,7 @@ def needless(report: EditReport, wanted: set[str], task: Task) -> set[str]:
     An edit that says again what is so already, or takes back what it did, may loft a curve
     whose inputs come out as they were.
     """
-    again = {"set_end", "set_kind", "insert", "delete", "reshape"}
-    if {act.op for act in task.acts} & again:
+    if {act.op for act in task.acts} & {"set_end", "set_kind", "insert", "delete", "set_role"}:
         return set()
     return set(report.relofted) - wanted
 

@@ -155,10 +155,8 @@ def _roles(hull: ah.Hull) -> dict[str, Role]:
 def test_placed_points_stay_to_the_last_bit_where_the_hull_is_pulled() -> None:
     """A dent is allowed; the point does not move."""
     hull = fresh(0)
-    curve = hull.find(
-        "WL 2.083" if "WL 2.083" in hull.lines else next(iter(hull.groups["waterlines"].lines))
-    )
-    curve = getattr(curve, "curves", (curve,))[0]
+    lines = hull.groups["waterlines"].lines
+    curve = lines["WL 2.083" if "WL 2.083" in lines else next(iter(lines))].curves[0]
     with hull.edit("insert") as edit:
         placed = edit.insert(curve, curve.at(0.4 * curve.span))
     before = placed.position.tobytes()

@@ -343,7 +343,7 @@ def next_edits_work(hull: ah.Hull, failed: int) -> None:
     curve = ah.Curve.of(hull.state, failed)
     with hull.edit("mend", gaps="report") as edit:
         edit.set_end(curve, "start", tangent=curve.tangent(0.0))
-    assert hull.state.failed == ()
+    assert len(hull.state.failed) == 0
     assert {finding.kind for finding in hull.check()} <= {"gap", "fold"}
     assert hull.verify() == ()
     hull.undo(2)

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 import assoc_hull as ah
+from assoc_hull.edit.report import EditReport
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState
 from tests.independent import lost_meetings, roots, trouble
@@ -24,7 +25,7 @@ def crossings(hull: ah.Hull) -> set[str]:
     return {rows.key.data[row] for row in live if rows.sort.data[row] == Sort.CROSSING}
 
 
-def assert_reported(before: set[str], ever: set[str], hull: ah.Hull, report: ah.EditReport) -> None:
+def assert_reported(before: set[str], ever: set[str], hull: ah.Hull, report: EditReport) -> None:
     """The report tells all that came and went; what comes was never there before."""
     after = crossings(hull)
     assert set(report.born) - set(report.gone) == after - before
@@ -99,7 +100,7 @@ def test_births_and_deaths_are_reported_and_ids_never_come_back(
 PAIR = "waterlines:2.304980 x buttocks:3.845946"
 
 
-def swell(hull: ah.Hull, amount: float) -> ah.EditReport:
+def swell(hull: ah.Hull, amount: float) -> EditReport:
     """Pull the hull where a waterline just misses a buttock amidships."""
     with hull.edit("swell", gaps="report") as edit:
         edit.pull("WL 2.305 x ST 4", amount, (25.0, 6.0))

@@ -66,9 +66,9 @@ def test_both_ends_are_kept_apart(hull: ah.Hull) -> None:
     [
         pytest.param({"end": "middle"}, "middle", id="no end"),
         pytest.param({"tangent": (0, 1, 1), "curvature": (0, 1, 1)}, "both", id="both"),
-        pytest.param({"tangent": (0, 0, 0)}, "0", id="no length"),
-        pytest.param({"tangent": (0, 1)}, "three", id="two numbers"),
-        pytest.param({"curvature": (0, np.nan, 1)}, "nan", id="not a number"),
+        pytest.param({"tangent": (0, 0, 0)}, "length", id="no length"),
+        pytest.param({"tangent": (0, 1)}, "(x, y, z)", id="two numbers"),
+        pytest.param({"curvature": (0, np.nan, 1)}, "not finite", id="not a number"),
     ],
 )
 def test_bad_ends(hull: ah.Hull, given: dict[str, object], word: str) -> None:

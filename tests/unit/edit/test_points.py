@@ -16,12 +16,10 @@ from assoc_hull.errors import (
     FreedomError,
     PointRoleError,
     RefusedEditError,
-    TooFewPointsError,
     UnknownNameError,
 )
 from assoc_hull.model.handles import Curve, Point
 from tests.net_strategies import fresh, refused
-from tests.strategies import wigley_sources
 
 SHARED = "WL 3.343 x ST 3"
 DRIVEN = "BTK 3.423 x WL 6.685"
@@ -268,19 +266,10 @@ def test_a_fold_is_refused_with_place_and_number(hull: ah.Hull) -> None:
     assert "WL 3.343" in text or "waterlines:3.342" in text
 
 
-def test_a_curve_keeps_two_points() -> None:
-    """The last but one cannot be deleted."""
-    deck = [[0.0, 0.0, 4.0], [20.0, 3.0, 4.0], [40.0, 0.0, 4.0]]
-    line = ah.LineSource.make("waterlines", "WL 4", deck, placed=True)
-    hull = ah.Hull.from_lines(
-        [line, *wigley_sources(3, 2).sources],
-        particulars=ah.Particulars("few", 40.0, 6.0, 4.0, 3.0),
-        associations=[],
-    )
-    with hull.edit("delete") as edit:
-        edit.delete("WL 4 @ placed 1")
-    text = refused(hull, lambda edit: edit.delete("WL 4 @ placed 1"), TooFewPointsError)
-    assert "WL 4 has 1" in text
+def test_an_end_is_not_deleted(hull: ah.Hull) -> None:
+    """A curve without its end would be another curve; and it keeps two points at least."""
+    text = refused(hull, lambda edit: edit.delete("deck edge @ adopted 1"), PointRoleError)
+    assert "an end of its curve" in text
 
 
 def test_handles_of_another_hull_are_foreign(hull: ah.Hull) -> None:

@@ -98,7 +98,8 @@ def test_a_watched_crossing_has_a_limit_and_a_shared_one_has_none(hull: ah.Hull)
     assert crossing.gap is not None
     assert crossing.gap <= crossing.limit
     set_role(hull, SHARED, "shared")
-    assert (crossing.gap, crossing.limit) == (None, None)
+    left: list[float | None] = [crossing.gap, crossing.limit]
+    assert left == [None, None]
 
 
 @pytest.mark.parametrize(

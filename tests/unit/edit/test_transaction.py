@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 import assoc_hull as ah
@@ -37,7 +40,7 @@ def test_modifications_read_the_state_before_the_edit(hull: ah.Hull) -> None:
 def test_the_order_of_modifications_says_nothing(hull: ah.Hull) -> None:
     """Where they touch different points, fields and points included."""
     other = fresh(2)
-    acts = [
+    acts: list[Callable[[Any, ah.Hull], object]] = [
         lambda edit, on: up(edit, on),
         lambda edit, on: up(edit, on, OTHER),
         lambda edit, on: edit.set_role("BTK 3.423 x ST 3", "drives b"),
@@ -56,9 +59,10 @@ def test_nested_edits_join_into_one_step(hull: ah.Hull) -> None:
     with hull.edit("outer") as outer:
         with hull.edit("inner") as inner:
             up(inner, hull)
-        assert hull.history == ()
+        assert not len(hull.history)
         up(outer, hull, OTHER)
-    assert [report.name for report in hull.history] == ["outer"]
+    names: list[str] = [step.name for step in hull.document.history]
+    assert names == ["outer"]
 
 
 def test_a_new_edit_forgets_what_was_undone(hull: ah.Hull) -> None:
@@ -70,7 +74,7 @@ def test_a_new_edit_forgets_what_was_undone(hull: ah.Hull) -> None:
     assert len(hull.undone) == 1
     with hull.edit("second") as edit:
         up(edit, hull, OTHER)
-    assert hull.undone == ()
+    assert len(hull.undone) == 0
     with pytest.raises(BadInputError, match="nothing to redo"):
         hull.redo()
 

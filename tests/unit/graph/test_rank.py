@@ -17,7 +17,8 @@ Edges = list[tuple[int, int]]
 
 def rank(count: int, edges: Edges) -> list[int]:
     """Call `levels` with pairs of source and reader."""
-    return levels(count, [a for a, _ in edges], [b for _, b in edges], "n{}".format).tolist()
+    found = levels(count, [a for a, _ in edges], [b for _, b in edges], "n{}".format)
+    return [int(level) for level in found]
 
 
 @st.composite

@@ -202,7 +202,7 @@ def test_going_on_blocks_readers_only(sheet: Sheet, broken: set[int]) -> None:
 
 def fan(width: int) -> Sheet:
     """Many cells that read one, and each of these has a reader."""
-    first = {cell: (0,) for cell in range(1, width + 1)}
+    first: dict[int, tuple[int, ...]] = {cell: (0,) for cell in range(1, width + 1)}
     return Sheet(first | {width + cell: (cell,) for cell in first}, 2 * width + 1)
 
 
