@@ -39,6 +39,7 @@ __all__ = [
     "hulls",
     "knuckled",
     "live_points",
+    "loose",
     "perform",
     "refused",
     "tasks",
@@ -117,7 +118,7 @@ def _with_knuckle(source: LineSource, chine: FloatArray) -> LineSource:
 def _net(number: int) -> Net:
     """Give the net of a seed."""
     if number == 0:
-        return _loose(wigley_sources(5, 4), 0.02)
+        return loose(wigley_sources(5, 4), 0.02)
     if number == 1:
         return knuckled(5, 4)
     rng = random.Random(number)
@@ -130,10 +131,10 @@ def _net(number: int) -> Net:
     two_way = (number % 4 != 3, rng.random() < 0.7, rng.random() < 0.7)
     buttocks = rng.randint(2, 3) if number % 3 else 0
     net = net_of(form, rng.randint(5, 7), rng.randint(3, 5), buttocks, points, two_way)
-    return _loose(net, 0.03)
+    return loose(net, 0.03)
 
 
-def _loose(net: Net, tolerance: float) -> Net:
+def loose(net: Net, tolerance: float) -> Net:
     """Let the lines pass their points farther off, so that crossings rule and points are few."""
     return attrs.evolve(
         net, sources=tuple(attrs.evolve(each, tolerance=tolerance) for each in net.sources)
