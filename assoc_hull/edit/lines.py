@@ -12,6 +12,7 @@ from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.keep import drift
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.ride import ride_links
+from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import NameTakenError, TooFewPointsError
 from assoc_hull.geometry.closest import closest
@@ -63,7 +64,7 @@ def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> Non
     edit.refuse_moved(crossings)
     for row in crossings.tolist():
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
-            _make_latent(edit, curve, row)
+            unmeet(edit.maker, curve, row)
             if state.rows.reader.data[row, side] != curve or curve in going:
                 continue
             point = PointSpec(
@@ -78,17 +79,6 @@ def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> Non
         prune(edit, curve, np.array(touched[curve]))
         ride_links(state, np.array([curve]), edit.journal)
         edit.pending.curves.add(curve)
-
-
-def _make_latent(edit: Transaction, curve: int, row: int) -> None:
-    state = edit.state
-    meets = state.curves.meets.data[curve]
-    if (meets.row == row).any():
-        left = np.where(meets.row == row, -1, meets.row)
-        new = type(meets)(
-            meets.line.copy(), meets.sign.copy(), left, meets.parameter.copy(), meets.xyz.copy()
-        )
-        edit.journal.set(state.curves.meets, [curve], [new])
 
 
 def prune(edit: Transaction, curve: int, points: IntArray) -> None:
