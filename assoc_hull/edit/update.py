@@ -20,6 +20,7 @@ from assoc_hull.edit.check import (
     measure_gaps,
     plane_normals,
 )
+from assoc_hull.edit.check_sense import find_turned
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
@@ -311,7 +312,7 @@ def _check(work: _Work) -> tuple[str, ...]:
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     findings = find_unbounded(work.state, clean)
     findings += find_folds(work.state, clean, work.network.before)
-    findings += find_beyond(work.state, clean)
+    findings += find_turned(work.state, clean) + find_beyond(work.state, clean)
     if work.pending.structural:
         findings += find_unmet(work.state, clean)
     if work.settings.refuse_gaps:

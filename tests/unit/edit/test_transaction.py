@@ -194,7 +194,13 @@ def test_a_preview_of_a_refused_edit_is_refused(hull: ah.Hull) -> None:
     """It tells the same reasons, and nothing is published."""
     before = hull.fingerprint
     found = hull.preview([{"op": "move", "point": ONE, "y": 30.0}])
-    assert (found.report, len(found.refused)) == (None, 3)
+    with pytest.raises(ah.RefusedEditError) as caught, hull.edit("far") as edit:
+        edit.move(ONE, y=30.0)
+    assert found.report is None
+    assert found.refused == caught.value.findings
+    assert any("folds back on itself" in reason for reason in found.refused)
+    assert any("mm apart" in reason for reason in found.refused)
+    assert any("passes in the sense of this crossing" in reason for reason in found.refused)
     assert (hull.fingerprint, len(hull.history)) == (before, 0)
     with hull.edit("after") as edit:
         up(edit, hull)
