@@ -13,8 +13,8 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assoc_hull.edit.adopt import adopt
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import BoundaryKind, Role, Sort

@@ -237,12 +237,12 @@ def test_a_dead_id_never_comes_back() -> None:
     hull, seen = fresh(4), set[str]()
     start = hull.fingerprint
     for _ in range(3):
-        born = set(swell(hull, 0.4).born)
+        born = set(swell(hull, 0.2).born)
         assert born == of_pair(hull)
         assert len(born) == 2
         assert not born & seen
         seen |= born
-        assert set(swell(hull, -0.4).gone) == born
+        assert set(swell(hull, -0.2).gone) == born
         assert of_pair(hull) == set()
     hull.undo(6)
     assert hull.fingerprint == start
