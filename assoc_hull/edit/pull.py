@@ -73,10 +73,11 @@ def pull(
             None,
             "move the border curve, or pull with across_flats=True",
         )
+    if amount == 0.0:
+        return
     fade, normal = min(reach[1], border), ground.normal[row].copy()
     edit.pending.fields.append(Pull(row, place, amount, normal, reach, fade, across_flats))
-    if amount != 0.0:
-        _hold(edit, row)
+    _hold(edit, row)
 
 
 def _hold(edit: Transaction, row: int) -> None:

@@ -68,7 +68,7 @@ class Pull:
 
     def left(self, state: HullState, done: float) -> float:
         """Give the part of the pull that the point lacks, whatever part was `done`."""
-        if self.amount == 0.0 or not state.rows.alive.data[self.row]:
+        if not state.rows.alive.data[self.row]:
             return 1.0 - done
         return 1.0 - self.reached(state) / self.amount
 
@@ -90,7 +90,7 @@ def unreached(state: HullState, fields: Sequence[Field], pinned: Collection[int]
     Several fields in one edit add, so none of their points goes where one of them pulls.
     """
     pull = fields[0] if len(fields) == 1 else None
-    if not isinstance(pull, Pull) or pull.row in pinned or pull.amount == 0.0:
+    if not isinstance(pull, Pull) or pull.row in pinned:
         return
     where = address(state, pull.row)
     if not state.rows.alive.data[pull.row]:
