@@ -27,6 +27,7 @@ from assoc_hull.edit.mend import mend
 from assoc_hull.edit.net_change import net_change
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
+from assoc_hull.edit.rejoin import rejoin
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.topology import latent_meetings, settle
@@ -241,10 +242,11 @@ def _settle(work: _Work) -> None:
     """Let crossings come and go until every meeting has its place."""
     for _ in range(_ROUNDS):
         alignments, work.network.realigned = work.network.realigned, []
+        maker = Maker(work.state, work.journal)
+        rejoin(maker, alignments)
         latent = latent_meetings(work.state, work.touched())
         if not alignments and not latent:
             return
-        maker = Maker(work.state, work.journal)
         change = settle(maker, alignments, latent, work.pending.moved_curves)
         work.born += change.born
         work.gone += change.gone

@@ -248,6 +248,77 @@ def test_a_dead_id_never_comes_back() -> None:
     assert hull.fingerprint == start
 
 
+DENTED = ("WL 2.232", "BTK 1.886")
+
+
+def dent(hull: ah.Hull, amount: float) -> EditReport:
+    """Pull the hull in or out between the two crossings of a waterline with a buttock."""
+    with hull.edit("dent", gaps="report") as edit:
+        edit.pull("WL 2.232 x ST 4", amount, (12.0, 4.0))
+    assert edit.report is not None
+    return edit.report
+
+
+def along(hull: ah.Hull) -> dict[str, float]:
+    """Where the crossings of the dented pair lie along the waterline, m, from aft."""
+    rows = hull.state.rows
+    found = {
+        each.id: float(place_on(hull.state, each.row, each.a.row)[0])
+        for each in hull.crossings.values()
+        if (each.a.line.name, each.b.line.name) == DENTED
+    }
+    assert all(rows.alive.data[rows.key.data.index(key)] for key in found)
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+def test_a_dent_bears_a_pair_between_two_crossings_and_takes_it_back() -> None:
+    """The outer crossings stay who they are and where they are, the inner ones come and go.
+
+    By ordinal the forward one would become an inner one as the dent comes, and an inner one
+    the forward one as it goes; counted from the other end, the aft one.
+    """
+    hull = fresh(7)
+    start, born = along(hull), senses(hull)
+    aft, forward = start
+    seen = set(start)
+    for amount, count in ((-0.345, 4), (-0.05, 4), (0.03, 4), (0.4, 2), (-0.42, 4), (0.44, 2)):
+        before = along(hull)
+        report = dent(hull, amount)
+        now = along(hull)
+        assert (len(now), min(now, key=now.__getitem__), list(now)[-1]) == (count, aft, forward)
+        assert now[aft] == pytest.approx(start[aft], abs=4.0)
+        assert now[forward] == pytest.approx(start[forward], abs=4.0)
+        inner = list(now)[1:-1]
+        assert [key.split()[-1][0] for key in now] == list("+-+-"[:count])
+        if len(before) == count:
+            assert inner == list(before)[1:-1]
+        else:
+            assert not set(inner) & seen
+            assert set(report.born) >= set(inner)
+            assert set(report.gone) >= set(before) - {aft, forward} - set(inner)
+        seen |= set(now)
+        assert_branches(hull)
+        assert_senses_kept(hull, born)
+        assert list(trouble(hull, kept=True)) == []
+    hull.undo(6)
+    assert along(hull) == start
+
+
+def test_a_crossing_is_one_place_on_both_curves_when_two_pairs_come_at_once() -> None:
+    """Aligned by themselves the waterline kept it forward and the buttock took it amidships.
+
+    A gap of 597 mm would be told there, where the two curves pass 7 mm apart.
+    """
+    hull = fresh(7)
+    acts = Act("reshape", 0, 69, 0.5), Act("insert", 47083, 1761, 0.5)
+    report = carry_out(hull, Task(acts, "report"))
+    assert report is not None
+    assert report.largest_gap < 0.01
+    assert sorted(key[-2] for key in report.born) == ["+", "-"]
+    assert_branches(hull)
+    assert list(lost_meetings(hull)) == []
+
+
 def test_a_handle_on_a_dead_crossing_knows_it() -> None:
     """It is an error that says so, and the hull stays as it was."""
     hull = fresh(4)
