@@ -257,7 +257,7 @@ def movable(state: HullState) -> list[int]:
 
 
 def apply_edit(document: Document, edit: PinnedEdit) -> bool:
-    """Carry an edit out; False if it was refused."""
+    """Carry an edit out; False if nothing changed: it was refused, or moved by nothing."""
     state, rows = document.state, movable(document.state)
     wanted = {rows[move.which % len(rows)]: move.distance for move in edit.moves}
     values = state.rows.xyz.data[list(wanted)].copy()
@@ -268,4 +268,4 @@ def apply_edit(document: Document, edit: PinnedEdit) -> bool:
             transaction.write(np.array(list(wanted)), values, "move")
     except RefusedEditError:
         return False
-    return True
+    return transaction.report is not None and transaction.report.changed
