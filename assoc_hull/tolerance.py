@@ -45,7 +45,7 @@ class Tolerances:
     turn_spacing_part : float
         Or this part of the median spacing, whichever is more.
     adopted_spacing : float
-        No point is added to an interval shorter than this (m) on adoption.
+        No point is added on adoption closer than this (m) to one that defines the curve.
     field_normal : float
         A row whose freedom makes a smaller cosine with the hull normal is left alone.
     substep : float

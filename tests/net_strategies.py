@@ -157,7 +157,7 @@ def hulls() -> SearchStrategy[ah.Hull]:
 
 
 def carry_out(hull: ah.Hull, task: Task) -> EditReport | None:
-    """Carry an edit out; None if it was refused or made no sense: then nothing has changed."""
+    """Carry an edit out; None if nothing has changed: it was refused, or asked for what was so."""
     before, done = hull.fingerprint, len(hull.history)
     try:
         with hull.edit("task", task.policy, task.gaps) as edit:
@@ -166,6 +166,11 @@ def carry_out(hull: ah.Hull, task: Task) -> EditReport | None:
     except AssocHullError:
         assert hull.fingerprint == before
         assert len(hull.history) == done
+        return None
+    assert edit.report is not None
+    if not edit.report.changed:
+        assert (hull.fingerprint, len(hull.history)) == (before, done)
+        assert edit.report.relofted == ()
         return None
     return edit.report
 

@@ -13,8 +13,8 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assoc_hull.edit.adopt import adopt
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import BoundaryKind, Role, Sort
@@ -257,7 +257,7 @@ def movable(state: HullState) -> list[int]:
 
 
 def apply_edit(document: Document, edit: PinnedEdit) -> bool:
-    """Carry an edit out; False if it was refused."""
+    """Carry an edit out; False if nothing changed: it was refused, or moved by nothing."""
     state, rows = document.state, movable(document.state)
     wanted = {rows[move.which % len(rows)]: move.distance for move in edit.moves}
     values = state.rows.xyz.data[list(wanted)].copy()
@@ -268,4 +268,4 @@ def apply_edit(document: Document, edit: PinnedEdit) -> bool:
             transaction.write(np.array(list(wanted)), values, "move")
     except RefusedEditError:
         return False
-    return True
+    return transaction.report is not None and transaction.report.changed

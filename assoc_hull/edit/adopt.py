@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
-from assoc_hull.edit.thin import Net, Thinned, thin
+from assoc_hull.edit.thin import Left, Net, Thinned, thin
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, SplineBatch
@@ -157,7 +157,7 @@ def _matches(
 
 
 def _write(maker: Maker, net: Net, thinned: Thinned) -> list[str]:
-    """Write the chosen crossings and points into the tables."""
+    """Write the chosen crossings and points into the tables; say what was left out."""
     specs = [
         CrossingSpec(
             contact.boundary, contact.curve, contact.xyz, role, contact.sign, None, True,
@@ -185,7 +185,19 @@ def _write(maker: Maker, net: Net, thinned: Thinned) -> list[str]:
     numbers = np.concatenate([rows, own])
     for curve, order in enumerate(thinned.order):
         maker.define(curve, numbers[np.array(order, np.int64)])
-    return []
+    return [_left_note(net, each) for each in thinned.left]
+
+
+def _left_note(net: Net, left: Left) -> str:
+    x, y, z = net.sources[left.curve].points[left.point].tolist()
+    name = net.state.lines.name.data[net.state.line_of(left.curve)]
+    return (
+        f"{name} passes the given point ({x:.3f}, {y:.3f}, {z:.3f}) m {1e3 * left.away:.1f} mm "
+        f"off, over its tolerance of {1e3 * net.sources[left.curve].tolerance:g} mm: it lies "
+        f"{1e3 * left.beside:.1f} mm beside a point of the curve, closer than "
+        f"{net.state.tolerances.adopted_spacing:g} m; the lines disagree there, mend the one "
+        "that is wrong"
+    )
 
 
 def _loft(maker: Maker) -> list[str]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.edit.check_links import find_links
 from assoc_hull.edit.check_roles import find_roles
+from assoc_hull.edit.check_sense import find_sense
 from assoc_hull.edit.check_shape import find_shape
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.finding import Finding, row_finding
@@ -103,6 +104,7 @@ def _rings(state: HullState, _: AddressBook) -> Iterator[Finding]:
 _LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
     _broken,
     find_shape,
+    find_sense,
     _gaps,
     find_links,
     _rings,

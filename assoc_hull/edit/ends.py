@@ -9,6 +9,7 @@ from assoc_hull.edit.arguments import direction_in
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind
+from assoc_hull.model.family import State
 from assoc_hull.model.state import Ends
 
 __all__ = ["set_end"]
@@ -23,6 +24,8 @@ def set_end(
     curvature: ArrayLike | None = None,
 ) -> None:
     """Give a curve a direction or a curvature at an end, or leave that end free.
+
+    What is so already is not done again, but for a curve that has failed.
 
     Parameters
     ----------
@@ -59,6 +62,8 @@ def set_end(
     kept = (old.kind[1 - at], old.vector[1 - at])
     first, last = (given, kept) if at == 0 else (kept, given)
     new = Ends((first[0], last[0]), (first[1], last[1]))
+    if new == old and edit.state.curves.state.data[curve] == State.CLEAN:
+        return
     edit.journal.set(edit.state.curves.ends, [curve], [new])
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)

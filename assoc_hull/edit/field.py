@@ -118,6 +118,9 @@ class Field(Protocol):
     def exact(self) -> tuple[IntArray, FloatArray]:
         """Give points that must land in given places, to the bit, and the places."""
 
+    def left(self, state: HullState, done: float) -> float:
+        """Give the part (of 1) that the hull still lacks, when a part was asked for as `done`."""
+
 
 def context(state: HullState, *, across_flats: bool = False) -> FieldContext:
     """Find the points that fields may move."""

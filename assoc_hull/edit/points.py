@@ -193,7 +193,7 @@ def delete(edit: Transaction, row: int) -> None:
 def set_kind(
     edit: Transaction, row: int, side: int, kind: str, direction: ArrayLike | None = None
 ) -> None:
-    """Make a point smooth, tangent or a knuckle on one of its curves.
+    """Make a point smooth, tangent or a knuckle on one of its curves, unless it is so already.
 
     Parameters
     ----------
@@ -220,10 +220,15 @@ def set_kind(
     if row not in rows.tolist():
         raise BadInputError("the point does not define the curve", where, "set its role first")
     given = np.zeros(3)
+    old = PointKind(int(state.rows.kind.data[row, side]))
     if kind == "tangent":
-        if direction is None:
+        if direction is None and old is PointKind.TANGENT:
+            direction = state.rows.direction.data[row, side]
+        elif direction is None:
             direction = _direction(state, curve, state.rows.xyz.data[row])
         given = direction_in(state, curve, direction, "direction")
+    if old is PointKind[kind.upper()] and (given == state.rows.direction.data[row, side]).all():
+        return
     kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
     kinds[side], directions[side] = PointKind[kind.upper()], given
     edit.journal.put(state.rows.kind, [row], kinds[None])

@@ -8,9 +8,9 @@ import attrs
 
 from assoc_hull.analysis.volume import Displaced, displaced
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import BadInputError, RefusedEditError
 
 __all__ = ["Preview", "preview"]

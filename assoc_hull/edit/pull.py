@@ -1,65 +1,30 @@
-"""The soft pull: one point is drawn along the hull's normal, its surroundings follow."""
+"""The soft pull: one point is drawn along the hull's normal, its surroundings follow.
+
+A driven crossing goes where its driver goes, and a driver is often made through no point near
+by: the field then moved the neighbours of the crossing and hardly the crossing. So the driver is
+given an adopted point at the place that is pulled, and what the point lacks after a sub-step is
+made good by the next ones.
+"""
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
 from assoc_hull.edit.arguments import pair
-from assoc_hull.edit.field import FieldContext, Shift, bell, context, move_normal, row_spacing
+from assoc_hull.edit.field import FieldContext, context, flat_distance, row_spacing
+from assoc_hull.edit.pull_field import Pull
+from assoc_hull.edit.thread import thread
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import PointRoleError
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.address import address
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.make import PointSpec
 
-__all__ = ["Pull", "pull"]
+__all__ = ["pull"]
 
-
-@attrs.frozen(eq=False)
-class Pull:
-    """The field d(P) = d b(|x - x0| / r_x) b(rho / r_g).
-
-    Attributes
-    ----------
-    row : int
-        The point that is pulled.
-    place : (3,), m
-        Where it lay before.
-    amount : float, m
-        d, outward positive.
-    radius : (float, float), m
-        r_x along the length, r_g seen along x.
-    flat_fade : float, m
-        Towards the border of a flat the field fades to nil within this distance.
-    across_flats : bool
-        Whether flats are moved too.
-    strict : bool
-        Never: what lies around follows.
-    """
-
-    row: int
-    place: FloatArray
-    amount: float
-    radius: tuple[float, float]
-    flat_fade: float
-    across_flats: bool
-    strict: bool = False
-
-    def shift(self, ground: FieldContext, part: float) -> Shift:
-        """Give the displacements for a part of the whole pull."""
-        xyz = ground.state.rows.xyz.data[ground.free]
-        step = xyz - self.place
-        girth = np.sqrt(step[:, 1] * step[:, 1] + step[:, 2] * step[:, 2])
-        amount = (
-            part * self.amount * bell(step[:, 0] / self.radius[0]) * bell(girth / self.radius[1])
-        )
-        if not self.across_flats and np.isfinite(self.flat_fade):
-            amount = amount * (1.0 - bell(ground.flat_distance / self.flat_fade))
-        reach = amount != 0.0
-        return move_normal(ground, ground.free[reach], amount[reach])
-
-    def exact(self) -> tuple[IntArray, FloatArray]:
-        """Nothing: every point moves by what the field says."""
-        return np.zeros(0, np.int64), np.zeros((0, 3))
+_NEAR = 0.15
+"""A curve with a point as near as this (m) is given no other to be pulled at."""
 
 
 def pull(
@@ -107,20 +72,40 @@ def pull(
             None,
             "move the border curve, or pull with across_flats=True",
         )
-    fade = min(reach[1], border)
-    edit.pending.fields.append(Pull(row, place, amount, reach, fade, across_flats))
+    if amount == 0.0:
+        return
+    fade, normal = min(reach[1], border), ground.normal[row].copy()
+    edit.pending.fields.append(Pull(row, place, amount, normal, reach, fade, across_flats))
+    _hold(edit, row)
+
+
+def _hold(edit: Transaction, row: int) -> None:
+    """Give the curves that carry a driven or watched crossing a point of their own there."""
+    state = edit.state
+    if state.rows.sort.data[row] != Sort.CROSSING:
+        return
+    for side, curve in enumerate(state.rows.curve.data[row].tolist()):
+        carries = state.rows.role.data[row] == Role.WATCHED or state.rows.driver.data[row] == curve
+        place = state.rows.spot.data[row, side].copy()
+        rows: IntArray = state.curves.rows.data[curve]
+        step = state.rows.xyz.data[rows] - place
+        if not carries or float(np.sqrt((step * step).sum(axis=1)).min()) < _NEAR:
+            continue
+        point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
+        thread(edit.maker, curve, point)
+        edit.pending.structural = True
+        edit.pending.curves.add(curve)
+        edit.pending.notes.append(
+            f"{address(state, row)}: {address(state, point)} was adopted, to be pulled there"
+        )
 
 
 def _border_distance(ground: FieldContext, row: int) -> float | None:
     """Give the distance of a point from the next flat; None if it cannot be pulled."""
     if not (ground.normal[row] != 0.0).any():
         return None
-    at = np.flatnonzero(ground.free == row)
-    if len(at):
-        return float(ground.flat_distance[at[0]])
-    xyz = ground.state.rows.xyz.data
-    if ground.state.rows.driver.data[row] < 0 and not np.isfinite(ground.state.rows.gap.data[row]):
+    state = ground.state
+    computed = state.rows.driver.data[row] >= 0 or np.isfinite(state.rows.gap.data[row])
+    if not computed and not (ground.free == row).any():
         return None
-    step = xyz[ground.free] - xyz[row]
-    nearest = int(np.argmin((step * step).sum(axis=1)))
-    return float(ground.flat_distance[nearest])
+    return float(flat_distance(state, state.rows.xyz.data[[row]])[0])

@@ -76,6 +76,8 @@ class EditReport:
     ----------
     name : str
         Name of the edit.
+    changed : bool
+        Whether the edit changed anything; if not, it added no step to the history.
     planned : int
         Curves that could at most be lofted in the main pass: the closure of what was set.
     relofted : tuple of str
@@ -114,6 +116,7 @@ class EditReport:
     notes: tuple[str, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
     fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
+    changed: bool = True
 
     @property
     def inflections(self) -> tuple[tuple[str, int], ...]:
@@ -121,6 +124,8 @@ class EditReport:
         return () if self.fairness is None else self.fairness.added()
 
     def __str__(self) -> str:
+        if not self.changed:
+            return f"{self.name}: nothing changed, no step was added"
         parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
         if self.largest is not None:
             x, y, z = self.largest.place

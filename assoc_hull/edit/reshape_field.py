@@ -15,6 +15,7 @@ from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import evaluate
+from assoc_hull.model.state import HullState
 
 __all__ = ["Reshape"]
 
@@ -88,6 +89,10 @@ class Reshape:
     def exact(self) -> tuple[IntArray, FloatArray]:
         """Give the curve's own points, which land on the designer's curve."""
         return self.rows, self.places
+
+    def left(self, state: HullState, done: float) -> float:
+        """Give the part of the change that is still to come, when a part is `done`."""
+        return 1.0 - done
 
     def _amount(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the faded normal change at points, and the parameter it comes from, (k,), m."""

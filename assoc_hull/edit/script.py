@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.graph.run import Policy
 

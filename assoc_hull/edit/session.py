@@ -24,9 +24,9 @@ from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
 from assoc_hull.edit.arguments import number
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
 from assoc_hull.model.address import resolve
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point

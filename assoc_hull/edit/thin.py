@@ -1,7 +1,8 @@
 """Which crossings define which curves of an adopted net, and where points must be added.
 
 The role rule chooses; then, as long as a given point lies farther from its curve than the
-tolerance, the thinned crossing there is taken back in, or else the point itself is adopted.
+tolerance, the thinned crossing there is taken back in, or else the point itself is adopted,
+unless it would stand so close beside another point that the curve had to turn between them.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import HullState
 
-__all__ = ["Net", "PointItem", "Thinned", "thin"]
+__all__ = ["Left", "Net", "PointItem", "Thinned", "thin"]
 
 
 @attrs.frozen(eq=False)
@@ -50,13 +51,28 @@ class PointItem:
 class Thinned:
     """The outcome: roles in the order of contacts and meetings, points, and curve orders.
 
-    `order` lists, per curve, indices into contacts, then meetings, then points.
+    `order` lists, per curve, indices into contacts, then meetings, then points. `left` tells
+    the given points that a curve passes too far off and that could not be adopted.
     """
 
     contact_role: tuple[Role, ...]
     meeting_role: tuple[Role, ...]
     points: tuple[PointItem, ...]
     order: tuple[tuple[int, ...], ...]
+    left: tuple[Left, ...]
+
+
+@attrs.frozen
+class Left:
+    """A given point left out: it lies `beside` (m) a point its curve is made through.
+
+    The curve passes it `away` (m), which is more than the tolerance of the line.
+    """
+
+    curve: int
+    point: int
+    away: float
+    beside: float
 
 
 _SAME = 1e-4
@@ -94,15 +110,17 @@ def thin(net: Net) -> Thinned:
     for _ in range(200):
         roles = _roles(work)
         orders = _orders(work, roles)
-        worst = _worst(net, orders, work, roles)
+        worst, left = _worst(net, orders, work)
         if not worst:
             break
         for curve, point in worst:
             _take_in(work, curve, point)
-    return _outcome(work, roles, orders)
+    return _outcome(work, roles, orders, left)
 
 
-def _outcome(work: _Thinning, roles: list[Role], orders: list[list[_Item]]) -> Thinned:
+def _outcome(
+    work: _Thinning, roles: list[Role], orders: list[list[_Item]], left: list[Left]
+) -> Thinned:
     """Put the outcome together, with numbers for the points that are used only."""
     contacts, first = len(work.net.contacts), work.fixed_count
     used = sorted({item.number for order in orders for item in order if item.number >= first})
@@ -112,6 +130,7 @@ def _outcome(work: _Thinning, roles: list[Role], orders: list[list[_Item]]) -> T
         tuple(roles[contacts:]),
         tuple(work.points[index - first] for index in used),
         tuple(tuple(number.get(item.number, item.number) for item in order) for order in orders),
+        tuple(left),
     )
 
 
@@ -283,28 +302,47 @@ def _kind(work: _Thinning, curve: int, index: int) -> tuple[int, FloatArray]:
 
 
 def _worst(
-    net: Net, orders: list[list[_Item]], work: _Thinning, roles: list[Role]
-) -> list[tuple[int, int]]:
-    """Give, per curve that passes a given point too far off, the worst such point."""
+    net: Net, orders: list[list[_Item]], work: _Thinning
+) -> tuple[list[tuple[int, int]], list[Left]]:
+    """Give, per curve that passes given points too far off, the worst one to be taken in.
+
+    Also given are the points that cannot be: beside a point that defines the curve already a
+    second one would only make it turn.
+    """
     splines = _loft_orders(net, orders, work)
     found: list[tuple[int, int]] = []
+    left: list[Left] = []
     for curve, source in enumerate(net.sources):
         known = np.array([_xyz(work, item.number) for item in orders[curve]])
         away = closest(splines, curve, source.points)[2]
-        apart = np.abs(source.points[:, None, :] - known[None, :, :]).max(axis=2).min(axis=1)
-        away = np.where(apart > _SAME, away, 0.0)
-        point = int(away.argmax())
-        if away[point] > source.tolerance:
-            found.append((curve, point))
-    return found
+        step = source.points[:, None, :] - known[None, :, :]
+        away = np.where(np.abs(step).max(axis=2).min(axis=1) > _SAME, away, 0.0)
+        beside = np.sqrt((step * step).sum(axis=2)).min(axis=1)
+        for point in np.flatnonzero(away > source.tolerance).tolist():
+            close = beside[point] < net.state.tolerances.adopted_spacing
+            if close and _thinned(work, curve, point) is None:
+                left.append(Left(curve, point, float(away[point]), float(beside[point])))
+                away[point] = 0.0
+        worst = int(away.argmax())
+        if away[worst] > source.tolerance:
+            found.append((curve, worst))
+    return found, left
 
 
-def _take_in(work: _Thinning, curve: int, point: int) -> None:
-    """Take the thinned crossing at a given point back in, or adopt the point."""
+def _thinned(work: _Thinning, curve: int, point: int) -> int | None:
+    """Give the number of the crossing at a given point that does not define the curve."""
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
         near = item.number < work.fixed_count and item.number not in work.chosen[curve]
         if near and float(np.abs(_xyz(work, item.number) - place).max()) < _SAME:
-            work.chosen[curve].add(item.number)
-            return
-    _add_point(work, curve, point)
+            return item.number
+    return None
+
+
+def _take_in(work: _Thinning, curve: int, point: int) -> None:
+    """Take the thinned crossing at a given point back in, or adopt the point."""
+    crossing = _thinned(work, curve, point)
+    if crossing is None:
+        _add_point(work, curve, point)
+    else:
+        work.chosen[curve].add(crossing)

@@ -16,10 +16,11 @@ from assoc_hull.model.roles import Candidates, choose, role_of
 from assoc_hull.model.state import HullState, Meets
 
 __all__ = [
-    "Change", "bear", "generates", "latent_meetings", "role_by_rule", "settle", "unmeet",
+    "ONE_PLACE", "Change", "bear", "generates", "latent_meetings", "meeting_gap", "role_by_rule",
+    "settle", "unmeet",
 ]  # fmt: skip
 
-_ONE_PLACE = 2.0
+ONE_PLACE = 2.0
 """Meetings farther apart than this (m) are not one place, whatever the gap between them."""
 
 
@@ -135,8 +136,8 @@ def bear(
         theirs: Meets = state.curves.meets.data[other]
         free = np.flatnonzero((theirs.line == state.line_of(curve)) & (theirs.row < 0))
         for there in free.tolist():
-            gap, apart = _gap(state, (curve, spot), (other, there))
-            near = gap <= 2.0 * state.tolerances.adoption and apart <= _ONE_PLACE
+            gap, apart = meeting_gap(state, (curve, spot), (other, there))
+            near = gap <= 2.0 * state.tolerances.adoption and apart <= ONE_PLACE
             if near and (best is None or gap + 0.01 * apart < best[0]):
                 best, least = (gap + 0.01 * apart, other, there), gap
     if best is None:
@@ -144,7 +145,9 @@ def bear(
     return _make(maker, (curve, spot), (best[1], best[2]), least, edited, watch)
 
 
-def _gap(state: HullState, one: tuple[int, int], other: tuple[int, int]) -> tuple[float, float]:
+def meeting_gap(
+    state: HullState, one: tuple[int, int], other: tuple[int, int]
+) -> tuple[float, float]:
     """Give the gap along the hull's normal, and how far the places lie apart, m."""
     places, slopes = [], []
     for curve, spot in (one, other):

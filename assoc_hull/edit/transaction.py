@@ -13,9 +13,10 @@ from typing import Self
 import numpy as np
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.quiet import Quiet
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.update import Pending, Settings, update
+from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
@@ -23,6 +24,8 @@ from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState
 
 __all__ = ["Transaction"]
+
+_IDLE = "nothing was changed: all that was asked for is so already; there is no step to undo"
 
 
 class Transaction:
@@ -151,18 +154,38 @@ class Transaction:
             if self._broken:
                 reason = "an edit nested in it failed, so all of it was taken back"
                 raise RefusedEditError(self.name, (reason,))
-            step = update(self.document, self.name, self.journal, self.pending, self.settings)
-            if self.look is None:
-                self.document.commit(step)
+            if self._idle():
+                self.report = EditReport(
+                    self.name, changed=False, notes=(*self.pending.notes, _IDLE)
+                )
+                self._restore()
+            else:
+                self.report = self._publish()
         except BaseException:
             self._restore()
             raise
-        self.report = step.report
         if self.look is not None:
             try:
                 self.look()
             finally:
                 self._restore()
+
+    def _idle(self) -> bool:
+        """Tell whether all that was asked for is so already: then there is nothing to undo."""
+        pending, xyz = self.pending, self.state.rows.xyz.data
+        if pending.fields or pending.curves or pending.computed:
+            return False
+        asked = [
+            xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()
+        ]
+        return all(asked) and self.journal.idle()
+
+    def _publish(self) -> EditReport:
+        """Run the update, and take its step into the history unless it is only looked at."""
+        step = update(self.document, self.name, self.journal, self.pending, self.settings)
+        if self.look is None:
+            self.document.commit(step)
+        return step.report
 
     def _restore(self) -> None:
         structural, self.pending = self.pending.structural, Pending()

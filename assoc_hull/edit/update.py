@@ -20,10 +20,14 @@ from assoc_hull.edit.check import (
     measure_gaps,
     plane_normals,
 )
+from assoc_hull.edit.check_sense import find_turned
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
+from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
 from assoc_hull.edit.net_change import net_change
+from assoc_hull.edit.pending import Pending, Settings
+from assoc_hull.edit.pull_field import unreached
+from assoc_hull.edit.rejoin import rejoin
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.topology import latent_meetings, settle
@@ -33,76 +37,21 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Readers
 from assoc_hull.graph.plan import closure
-from assoc_hull.graph.run import Pass, Policy, run
+from assoc_hull.graph.run import Pass, run
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
 from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
 from assoc_hull.model.state import HullState, curve_node, row_node
 
-__all__ = ["Pending", "Settings", "update"]
+__all__ = ["update"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 _ROUNDS = 6
 """Crossings that come make others come, seldom more than twice."""
 
-
-@attrs.frozen
-class Settings:
-    """How an edit is carried out.
-
-    Attributes
-    ----------
-    policy : Policy
-        What becomes of an edit when a curve cannot be made.
-    refuse_gaps : bool
-        Whether a watched gap that stays over its limit refuses the edit; else it is kept
-        as a defect that a check names.
-    """
-
-    policy: Policy = Policy.ALL_OR_NOTHING
-    refuse_gaps: bool = True
-
-
-@attrs.define(eq=False)
-class Pending:
-    """What the modifications of a transaction ask for.
-
-    Attributes
-    ----------
-    values : dict of int to (3,), m
-        New places of points.
-    curves : set of int
-        Curves whose recipe changed.
-    computed : set of int
-        Crossings that have come to be computed from another curve than before, or from one.
-    held : set of int
-        Adopted points that a field moves: they do not ride in this update.
-    structural : bool
-        Whether lines, points, roles or associations came or went.
-    moved_curves : set of int
-        Curves that the designer edited: births take their value from these.
-    fields : list of Field
-        Displacements of the hull; several add.
-    born, gone : list of str
-        Keys of curves and crossings that the modifications made or unmade.
-    fresh : list of int
-        Curves that were made in this transaction.
-    notes : list of str
-        What was left alone, and why.
-    """
-
-    values: dict[int, FloatArray] = attrs.field(factory=dict)
-    curves: set[int] = attrs.field(factory=set)
-    computed: set[int] = attrs.field(factory=set)
-    held: set[int] = attrs.field(factory=set)
-    structural: bool = False
-    moved_curves: set[int] = attrs.field(factory=set)
-    fields: list[Field] = attrs.field(factory=list)
-    born: list[str] = attrs.field(factory=list)
-    gone: list[str] = attrs.field(factory=list)
-    fresh: list[int] = attrs.field(factory=list)
-    notes: list[str] = attrs.field(factory=list)
+_MORE, _CLOSE = 4, 2e-3
+"""Sub-steps a field may have in addition, and the part it may lack without needing one."""
 
 
 @attrs.define(eq=False)
@@ -253,10 +202,13 @@ def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArr
     steps = sub_steps(state, shift)
     curves = np.array(sorted(work.pending.curves), np.int64)
     touched: set[int] = set(rows.tolist())
-    for step in range(steps):
+    for step in range(steps + _MORE):
+        part = _part(work, step, steps)
+        if part == 0.0:
+            break
         if step:
             ground = context(state, across_flats=across)
-        shift = add_shifts([field.shift(ground, 1.0 / steps) for field in fields], pinned)
+        shift = add_shifts([field.shift(ground, part) for field in fields], pinned)
         before = state.rows.xyz.data.copy()
         work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
         if step == steps - 1:
@@ -281,14 +233,27 @@ def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArr
     return every, np.sqrt((moved * moved).sum(axis=1))
 
 
+def _part(work: _Work, step: int, steps: int) -> float:
+    """Give the part of the fields to run in a sub-step; nil when they are where they should be.
+
+    A field that knows what it lacks spreads that over the sub-steps left, and has a few more.
+    """
+    fields, done = work.pending.fields, min(step, steps) / steps
+    left = fields[0].left(work.state, done) if len(fields) == 1 else 1.0 - done
+    if step >= steps and abs(left) <= _CLOSE:
+        return 0.0
+    return float(np.clip(left / max(steps - step, 1), -1.0 / steps, 1.0 / steps))
+
+
 def _settle(work: _Work) -> None:
     """Let crossings come and go until every meeting has its place."""
     for _ in range(_ROUNDS):
         alignments, work.network.realigned = work.network.realigned, []
+        maker = Maker(work.state, work.journal)
+        rejoin(maker, alignments)
         latent = latent_meetings(work.state, work.touched())
         if not alignments and not latent:
             return
-        maker = Maker(work.state, work.journal)
         change = settle(maker, alignments, latent, work.pending.moved_curves)
         work.born += change.born
         work.gone += change.gone
@@ -318,7 +283,8 @@ def _check(work: _Work) -> tuple[str, ...]:
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     findings = find_unbounded(work.state, clean)
     findings += find_folds(work.state, clean, work.network.before)
-    findings += find_beyond(work.state, clean)
+    findings += find_turned(work.state, clean) + find_beyond(work.state, clean)
+    findings += tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
     if work.pending.structural:
         findings += find_unmet(work.state, clean)
     if work.settings.refuse_gaps:

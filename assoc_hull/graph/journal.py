@@ -34,6 +34,8 @@ class _Entry(Protocol):
 
     def redo(self) -> None: ...
 
+    def idle(self) -> bool: ...
+
 
 class ArrayColumn:
     """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use."""
@@ -114,6 +116,9 @@ class _ArrayEntry:
     def redo(self) -> None:
         self.column.store[self.index] = self.new
 
+    def idle(self) -> bool:
+        return self.old.tobytes() == self.new.tobytes()
+
 
 @attrs.define(eq=False)
 class Picked:
@@ -156,6 +161,9 @@ class _PartEntry:
     def redo(self) -> None:
         _scatter(self.column.parts(), self.part, self.new.values())
 
+    def idle(self) -> bool:
+        return self.old.values().tobytes() == self.new.values().tobytes()
+
 
 @attrs.frozen(eq=False)
 class _ListEntry:
@@ -172,6 +180,9 @@ class _ListEntry:
         for index, value in zip(self.index, self.new, strict=True):
             self.column.data[index] = value
 
+    def idle(self) -> bool:
+        return all(_equal(old, new) for old, new in zip(self.old, self.new, strict=True))
+
 
 @attrs.frozen(eq=False)
 class _GrowEntry:
@@ -184,6 +195,16 @@ class _GrowEntry:
 
     def redo(self) -> None:
         self.table.resize(self.new)
+
+    def idle(self) -> bool:
+        return self.old == self.new
+
+
+def _equal(old: object, new: object) -> bool:
+    """Tell whether two values of a list column are the same, arrays by what they hold."""
+    if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
+        return np.array_equal(old, new)
+    return old is new or bool(old == new)
 
 
 def _scatter(parts: NDArray[Any], part: NDArray[np.int64], values: NDArray[Any]) -> None:
@@ -261,6 +282,20 @@ class Journal:
         old = np.concatenate([column.store[:0], *(entry.old for entry in mine)])
         rows, first = np.unique(index, return_index=True)
         return rows, old[first]
+
+    def idle(self) -> bool:
+        """Tell whether every write put what stood there already.
+
+        Examples
+        --------
+        >>> from assoc_hull.graph.journal import Journal, Table
+        >>> table, journal = Table(height=(float, (), 2.0)), Journal()
+        >>> table.resize(1)
+        >>> journal.put(table.height, [0], [2.0])
+        >>> journal.idle()
+        True
+        """
+        return all(entry.idle() for entry in self.entries)
 
     def undo(self, keep: int = 0) -> None:
         """Take back every entry after the first `keep`, and forget it."""

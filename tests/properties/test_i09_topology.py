@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,8 +13,19 @@ import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState
-from tests.independent import lost_meetings, roots, trouble
-from tests.net_strategies import Act, Task, carry_out, fresh, hulls, tasks
+from tests.independent import Root, lost_meetings, roots, trouble
+from tests.net_strategies import (
+    SHAPES,
+    STRUCTURE,
+    Act,
+    Task,
+    carry_out,
+    fresh,
+    hulls,
+    perform,
+    refused,
+    tasks,
+)
 
 ROUGH = ("move", "pull", "reshape", "insert", "set_end")
 
@@ -49,12 +61,54 @@ def assert_branches(hull: ah.Hull) -> None:
 
 def sign_at(state: HullState, row: int, curve: int, other: int) -> int:
     """In which sense a curve passes the plane of another at a crossing."""
+    nearest, normal = root_at(state, row, curve, other)
+    return 1 if float(nearest.tangent @ normal) > 0.0 else -1
+
+
+def root_at(
+    state: HullState, row: int, curve: int, other: int
+) -> tuple[Root, np.typing.NDArray[np.float64]]:
+    """Where a curve meets the plane of another at a crossing, and the normal of the plane."""
     line = state.line_of(other)
     normal = state.lines.normal.data[line]
     found = roots(state.spline(curve), normal, float(state.lines.offset.data[line]))
     place = place_on(state, row, curve)
     nearest = min(found, key=lambda each: float(np.abs(each.place - place).max()))
-    return 1 if float(nearest.tangent @ normal) > 0.0 else -1
+    assert float(np.abs(nearest.place - place).max()) < 1e-6, state.rows.key.data[row]
+    return nearest, normal
+
+
+def senses(hull: ah.Hull) -> dict[tuple[str, str], int]:
+    """In which sense each curve passes its partner at each crossing, found from the splines.
+
+    Left out is what has no sense: where a line ends, turns or leaves a flat, and where a curve
+    makes less than 1e-3 with the plane, so that rounding would decide.
+    """
+    state, rows, found = hull.state, hull.state.rows, dict[tuple[str, str], int]()
+    for row in state.live("rows").tolist():
+        if rows.sort.data[row] != Sort.CROSSING or rows.contact.data[row]:
+            continue
+        a, b = rows.curve.data[row].tolist()
+        for curve, other in ((a, b), (b, a)):
+            root, normal = root_at(state, row, curve, other)
+            sine = float(root.tangent @ normal)
+            if abs(sine) > 1e-3:
+                found[rows.key.data[row], state.curves.key.data[curve]] = 1 if sine > 0 else -1
+    return found
+
+
+def assert_senses_kept(hull: ah.Hull, born: dict[tuple[str, str], int]) -> None:
+    """Each crossing is passed as at its birth, and as its key and its meetings say."""
+    state = hull.state
+    number = {key: row for row, key in enumerate(state.rows.key.data)}
+    curves = {key: curve for curve, key in enumerate(state.curves.key.data)}
+    for (key, name), sense in senses(hull).items():
+        row, curve = number[key], curves[name]
+        assert born.setdefault((key, name), sense) == sense, f"{key} is passed by {name} as {sense}"
+        meets = state.curves.meets.data[curve]
+        assert meets.sign[meets.row == row].tolist() == [sense], f"{key} on {name}"
+        if state.rows.curve.data[row, 0] == curve:
+            assert state.rows.sign.data[row] == sense, f"{key} on {name}"
 
 
 def place_on(state: HullState, row: int, curve: int) -> np.typing.NDArray[np.float64]:
@@ -97,6 +151,54 @@ def test_births_and_deaths_are_reported_and_ids_never_come_back(
         assert hull.fingerprint == fingerprint
 
 
+@settings(max_examples=40)
+@given(hulls(), tasks((*SHAPES, *ROUGH), largest=0.8, most=4))
+def test_a_crossing_is_passed_in_one_sense_all_its_life(hull: ah.Hull, edits: list[Task]) -> None:
+    """By both of its curves, over rough edits of every kind: the sense is part of its id."""
+    born = senses(hull)
+    for task in edits:
+        if carry_out(hull, task) is not None:
+            assert_senses_kept(hull, born)
+
+
+@settings(max_examples=25)
+@given(hulls(), tasks((*SHAPES, *STRUCTURE), largest=0.2, most=4))
+def test_lines_that_come_and_go_turn_no_crossing_round(hull: ah.Hull, edits: list[Task]) -> None:
+    """Nor do roles that change; adopted nets are passed as their keys say."""
+    born = dict[tuple[str, str], int]()
+    assert_senses_kept(hull, born)
+    for task in edits:
+        if carry_out(hull, task) is not None:
+            assert_senses_kept(hull, born)
+
+
+def test_a_curve_bent_through_its_own_crossing_the_other_way_is_refused() -> None:
+    """A point far beside a shared crossing makes a section enter where it left: a fold.
+
+    The message names crossing, curve, place, angle and how far off the old sense is.
+    """
+    hull = fresh(10)
+    act = Act("insert", 4, 33376, 0.75)
+    text = refused(hull, lambda edit: perform(hull, edit, act), ah.RefusedEditError)
+    assert "WL 3.234 x ST 2: ST 2 folds through the plane of WL 3.234" in text
+    assert "makes -33.7 degrees with it there" in text
+    assert "0.725 m away" in text
+    refused(hull, lambda edit: perform(hull, edit, act), ah.RefusedEditError, "report")
+
+
+def test_check_finds_a_crossing_that_is_passed_the_other_way() -> None:
+    """In a hull that came to it otherwise, for instance from a file."""
+    hull = fresh(10)
+    assert hull.check() == ()
+    meets = hull.lines["ST 2"].curves[0]
+    table = hull.state.curves.meets.data
+    old = table[meets.row]
+    place = old.xyz.copy()
+    place[old.row == hull.crossings["WL 3.234 x ST 2"].row, 1] += 0.5
+    table[meets.row] = attrs.evolve(old, xyz=place)
+    assert [(each.kind, each.object) for each in hull.check()] == [("sense", "WL 3.234 x ST 2")]
+
+
 PAIR = "waterlines:2.304980 x buttocks:3.845946"
 
 
@@ -135,15 +237,86 @@ def test_a_dead_id_never_comes_back() -> None:
     hull, seen = fresh(4), set[str]()
     start = hull.fingerprint
     for _ in range(3):
-        born = set(swell(hull, 0.4).born)
+        born = set(swell(hull, 0.2).born)
         assert born == of_pair(hull)
         assert len(born) == 2
         assert not born & seen
         seen |= born
-        assert set(swell(hull, -0.4).gone) == born
+        assert set(swell(hull, -0.2).gone) == born
         assert of_pair(hull) == set()
     hull.undo(6)
     assert hull.fingerprint == start
+
+
+DENTED = ("WL 2.232", "BTK 1.886")
+
+
+def dent(hull: ah.Hull, amount: float) -> EditReport:
+    """Pull the hull in or out between the two crossings of a waterline with a buttock."""
+    with hull.edit("dent", gaps="report") as edit:
+        edit.pull("WL 2.232 x ST 4", amount, (12.0, 4.0))
+    assert edit.report is not None
+    return edit.report
+
+
+def along(hull: ah.Hull) -> dict[str, float]:
+    """Where the crossings of the dented pair lie along the waterline, m, from aft."""
+    rows = hull.state.rows
+    found = {
+        each.id: float(place_on(hull.state, each.row, each.a.row)[0])
+        for each in hull.crossings.values()
+        if (each.a.line.name, each.b.line.name) == DENTED
+    }
+    assert all(rows.alive.data[rows.key.data.index(key)] for key in found)
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+def test_a_dent_bears_a_pair_between_two_crossings_and_takes_it_back() -> None:
+    """The outer crossings stay who they are and where they are, the inner ones come and go.
+
+    By ordinal the forward one would become an inner one as the dent comes, and an inner one
+    the forward one as it goes; counted from the other end, the aft one.
+    """
+    hull = fresh(7)
+    start, born = along(hull), senses(hull)
+    aft, forward = start
+    seen = set(start)
+    for amount, count in ((-0.345, 4), (-0.05, 4), (0.03, 4), (0.4, 2), (-0.42, 4), (0.44, 2)):
+        before = along(hull)
+        report = dent(hull, amount)
+        now = along(hull)
+        assert (len(now), min(now, key=now.__getitem__), list(now)[-1]) == (count, aft, forward)
+        assert now[aft] == pytest.approx(start[aft], abs=4.0)
+        assert now[forward] == pytest.approx(start[forward], abs=4.0)
+        inner = list(now)[1:-1]
+        assert [key.split()[-1][0] for key in now] == list("+-+-"[:count])
+        if len(before) == count:
+            assert inner == list(before)[1:-1]
+        else:
+            assert not set(inner) & seen
+            assert set(report.born) >= set(inner)
+            assert set(report.gone) >= set(before) - {aft, forward} - set(inner)
+        seen |= set(now)
+        assert_branches(hull)
+        assert_senses_kept(hull, born)
+        assert list(trouble(hull, kept=True)) == []
+    hull.undo(6)
+    assert along(hull) == start
+
+
+def test_a_crossing_is_one_place_on_both_curves_when_two_pairs_come_at_once() -> None:
+    """Aligned by themselves the waterline kept it forward and the buttock took it amidships.
+
+    A gap of 597 mm would be told there, where the two curves pass 7 mm apart.
+    """
+    hull = fresh(7)
+    acts = Act("reshape", 0, 69, 0.5), Act("insert", 47083, 1761, 0.5)
+    report = carry_out(hull, Task(acts, "report"))
+    assert report is not None
+    assert report.largest_gap < 0.01
+    assert sorted(key[-2] for key in report.born) == ["+", "-"]
+    assert_branches(hull)
+    assert list(lost_meetings(hull)) == []
 
 
 def test_a_handle_on_a_dead_crossing_knows_it() -> None:

@@ -17,8 +17,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.node import Readers

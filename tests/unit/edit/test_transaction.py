@@ -194,7 +194,86 @@ def test_a_preview_of_a_refused_edit_is_refused(hull: ah.Hull) -> None:
     """It tells the same reasons, and nothing is published."""
     before = hull.fingerprint
     found = hull.preview([{"op": "move", "point": ONE, "y": 30.0}])
-    assert (found.report, len(found.refused)) == (None, 3)
+    with pytest.raises(ah.RefusedEditError) as caught, hull.edit("far") as edit:
+        edit.move(ONE, y=30.0)
+    assert found.report is None
+    assert found.refused == caught.value.findings
+    assert any("folds back on itself" in reason for reason in found.refused)
+    assert any("mm apart" in reason for reason in found.refused)
+    assert any("passes in the sense of this crossing" in reason for reason in found.refused)
     assert (hull.fingerprint, len(hull.history)) == (before, 0)
     with hull.edit("after") as edit:
         up(edit, hull)
+
+
+def _say_again(hull: ah.Hull) -> dict[str, Callable[[Edit], object]]:
+    """Give modifications that ask for what is so."""
+    point, line = hull.points[ONE], hull.lines["ST 2"]
+    curve, place = line.curves[0], {axis: getattr(point, axis) for axis in point.free}
+    link = next(each for each in hull.state.associations if each.a != "boundary")
+    return {
+        "nothing": lambda edit: None,
+        "move": lambda edit: edit.move(point, **place),
+        "pull": lambda edit: edit.pull(point, 0.0),
+        "set_end": lambda edit: edit.set_end(curve, "start"),
+        "set_kind": lambda edit: edit.set_kind(point, "smooth"),
+        "set_role": lambda edit: edit.set_role(point, None),
+        "rename": lambda edit: edit.rename(line, line.name),
+        "associate": lambda edit: edit.associate(link.a, link.b, two_way=link.two_way),
+        "all": lambda edit: (
+            edit.move(point, **place),
+            edit.set_end(curve, "finish"),
+            edit.set_kind(point, "smooth"),
+        ),
+    }
+
+
+SAID = ("nothing", "move", "pull", "set_end", "set_kind", "set_role", "rename", "associate", "all")
+
+
+@pytest.mark.parametrize("name", SAID)
+def test_an_edit_that_changes_nothing_adds_no_step(hull: ah.Hull, name: str) -> None:
+    """It lofts nothing and says so; what can be undone and made again stays as it is."""
+    with hull.edit("first") as edit:
+        up(edit, hull)
+    with hull.edit("second") as edit:
+        edit.set_end(hull.lines["ST 3"].curves[0], "start", tangent=(0.0, 1.0, 0.5))
+    hull.undo()
+    before = hull.fingerprint, hull.history, hull.undone, dict(hull.state.revision_curve)
+    with hull.edit("again") as edit:
+        _say_again(hull)[name](edit)
+    after = hull.fingerprint, hull.history, hull.undone, dict(hull.state.revision_curve)
+    assert after == before
+    assert edit.report is not None
+    assert (edit.report.changed, edit.report.relofted) == (False, ())
+    assert str(edit.report) == "again: nothing changed, no step was added"
+    assert "nothing was changed" in edit.report.notes[-1]
+    hull.redo()
+    hull.undo(2)
+
+
+def test_what_is_said_again_is_not_done_again(hull: ah.Hull) -> None:
+    """Ends and kinds: the second time the same vector, or no direction where one was given."""
+    curve, point = hull.lines["ST 3"].curves[0], hull.points[ONE]
+    changes: list[Callable[[Edit], object]] = [
+        lambda edit: edit.set_end(curve, "start", tangent=(0.0, 1.0, 0.5)),
+        lambda edit: edit.set_end(curve, "finish", curvature=(0.0, 0.01, 0.0)),
+        lambda edit: edit.set_kind(point, "tangent"),
+        lambda edit: edit.set_kind(point, "knuckle"),
+    ]
+    for change in changes:
+        for changed in (True, False):
+            with hull.edit("say", gaps="report") as edit:
+                change(edit)
+            assert edit.report is not None
+            assert edit.report.changed is changed
+            assert bool(edit.report.relofted) is changed
+    assert len(hull.history) == 4
+
+
+def test_a_preview_of_nothing_says_so(hull: ah.Hull) -> None:
+    """No change of volume, no step."""
+    found = hull.preview([{"op": "set_end", "curve": "ST 2", "end": "start"}])
+    assert found.report is not None
+    assert not found.report.changed
+    assert (found.volume_change, len(hull.history)) == (0.0, 0)

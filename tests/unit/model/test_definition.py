@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.update import Settings
 from assoc_hull.errors import BadInputError, CoincidentPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal

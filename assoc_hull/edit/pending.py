@@ -1,0 +1,69 @@
+"""What an edit asks for, and how it is to be carried out: noted first, updated once."""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.edit.field import Field
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.graph.run import Policy
+
+__all__ = ["Pending", "Settings"]
+
+
+@attrs.frozen
+class Settings:
+    """How an edit is carried out.
+
+    Attributes
+    ----------
+    policy : Policy
+        What becomes of an edit when a curve cannot be made.
+    refuse_gaps : bool
+        Whether a watched gap that stays over its limit refuses the edit; else it is kept
+        as a defect that a check names.
+    """
+
+    policy: Policy = Policy.ALL_OR_NOTHING
+    refuse_gaps: bool = True
+
+
+@attrs.define(eq=False)
+class Pending:
+    """What the modifications of a transaction ask for.
+
+    Attributes
+    ----------
+    values : dict of int to (3,), m
+        New places of points.
+    curves : set of int
+        Curves whose recipe changed.
+    computed : set of int
+        Crossings that have come to be computed from another curve than before, or from one.
+    held : set of int
+        Adopted points that a field moves: they do not ride in this update.
+    structural : bool
+        Whether lines, points, roles or associations came or went.
+    moved_curves : set of int
+        Curves that the designer edited: births take their value from these.
+    fields : list of Field
+        Displacements of the hull; several add.
+    born, gone : list of str
+        Keys of curves and crossings that the modifications made or unmade.
+    fresh : list of int
+        Curves that were made in this transaction.
+    notes : list of str
+        What was left alone, and why.
+    """
+
+    values: dict[int, FloatArray] = attrs.field(factory=dict)
+    curves: set[int] = attrs.field(factory=set)
+    computed: set[int] = attrs.field(factory=set)
+    held: set[int] = attrs.field(factory=set)
+    structural: bool = False
+    moved_curves: set[int] = attrs.field(factory=set)
+    fields: list[Field] = attrs.field(factory=list)
+    born: list[str] = attrs.field(factory=list)
+    gone: list[str] = attrs.field(factory=list)
+    fresh: list[int] = attrs.field(factory=list)
+    notes: list[str] = attrs.field(factory=list)

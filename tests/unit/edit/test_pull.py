@@ -1,0 +1,125 @@
+"""A pull puts its point where it was asked, or says by how much it failed to."""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assoc_hull as ah
+from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.report import EditReport
+from assoc_hull.geometry.curves import FloatArray
+from tests.independent import trouble
+from tests.net_strategies import POOL, fresh, live_points, refused
+
+RADIUS = (25.0, 6.0)
+
+
+def place_of(hull: ah.Hull, point: ah.Point) -> FloatArray:
+    """Where a point lies; a watched crossing where its first curve passes."""
+    rows = hull.state.rows
+    watched = point.crossing_role == "watched"
+    return np.array(rows.spot.data[point.row, 0] if watched else rows.xyz.data[point.row])
+
+
+def pulled(
+    hull: ah.Hull, point: ah.Point, amount: float, radius: tuple[float, float] | None = RADIUS
+) -> tuple[EditReport, float]:
+    """Pull a point; gives the report, and how far it came along the normal of before, m."""
+    normal, before = hull_normals(hull.state)[point.row], place_of(hull, point)
+    with hull.edit("pull", gaps="report") as edit:
+        edit.pull(point, amount, radius)
+    assert edit.report is not None
+    return edit.report, float((place_of(hull, point) - before) @ normal)
+
+
+@pytest.mark.parametrize("amount", [0.02, 0.1, 0.4, -0.4])
+@pytest.mark.parametrize("name", ["WL 2.305 x ST 3", "WL 2.305 x ST 4"])
+def test_a_driven_crossing_comes_where_it_is_pulled(name: str, amount: float) -> None:
+    """Its driver, a section without a point for 2 m, came a quarter of the way only.
+
+    It is given an adopted point there, and says so.
+    """
+    hull = fresh(4)
+    point = hull.points[name]
+    assert point.crossing_role == "drives b"
+    report, reached = pulled(hull, point, amount)
+    assert reached == pytest.approx(amount, rel=0.01)
+    assert any("was adopted, to be pulled there" in note for note in report.notes)
+    assert list(trouble(hull, kept=True)) == []
+    assert hull.verify() == ()
+
+
+def test_a_second_pull_adopts_no_second_point() -> None:
+    """The point that is there is pulled."""
+    hull = fresh(4)
+    point = hull.points["WL 2.305 x ST 3"]
+    pulled(hull, point, 0.05)
+    count = len(live_points(hull, "adopted"))
+    assert pulled(hull, point, 0.05)[1] == pytest.approx(0.05, rel=0.01)
+    assert len(live_points(hull, "adopted")) == count
+    hull.undo(2)
+    assert len(live_points(hull, "adopted")) == count - 1
+
+
+@settings(max_examples=40)
+@given(
+    st.integers(0, POOL - 1),
+    st.integers(0, 2**16),
+    st.sampled_from([-0.3, -0.05, 0.004, 0.05, 0.3]),
+    st.sampled_from([None, RADIUS, (8.0, 2.0)]),
+)
+def test_an_accepted_pull_reaches_what_it_asked(
+    number: int, which: int, amount: float, radius: tuple[float, float] | None
+) -> None:
+    """Along the normal, within 1 %, at shared, driven and watched crossings."""
+    hull = fresh(number)
+    points = live_points(hull, "crossing")
+    try:
+        reached = pulled(hull, points[which % len(points)], amount, radius)[1]
+    except ah.AssocHullError:
+        return
+    assert reached == pytest.approx(amount, rel=0.01)
+
+
+def test_a_pull_that_cannot_reach_is_refused_with_both_numbers() -> None:
+    """A point that the designer placed on the driver holds it."""
+    hull = fresh(4)
+    point = hull.points["WL 2.305 x ST 3"]
+    with hull.edit("hold") as edit:
+        edit.insert(hull.lines["ST 3"].curves[0], point.position)
+    message = refused(
+        hull, lambda edit: edit.pull(point, 0.05, RADIUS), ah.RefusedEditError, "report"
+    )
+    assert "WL 2.305 x ST 3 came 0.0 mm along the normal where 50.0 mm were asked" in message
+    assert "ST 3 drives it" in message
+
+
+def test_pulls_of_several_points_add() -> None:
+    """Where two fields overlap neither point is asked to be where one of them alone pulls."""
+    hull = fresh(4)
+    points = [hull.points[name] for name in ("WL 2.305 x ST 3", "WL 2.305 x ST 4")]
+    before = [point.y for point in points]
+    with hull.edit("both", gaps="report") as edit:
+        for point in points:
+            edit.pull(point, 0.02, RADIUS)
+    assert all(point.y > old + 0.02 for point, old in zip(points, before, strict=True))
+
+
+def test_driven_crossings_of_series_60_come_where_they_are_pulled(series60_70: ah.Hull) -> None:
+    """With the radius that is chosen for them; before, half of them came 60 % of the way."""
+    hull, done, rng = series60_70, 0, random.Random(7)
+    points = [p for p in live_points(hull, "crossing") if p.crossing_role == "drives b"]
+    for point in rng.sample(points, 30):
+        try:
+            reached = pulled(hull, point, 0.02, None)[1]
+        except (ah.RefusedEditError, ah.PointRoleError):
+            continue
+        assert reached == pytest.approx(0.02, rel=0.01)
+        hull.undo()
+        done += 1
+    assert done >= 15
