@@ -9,9 +9,26 @@ Examples
 
 from __future__ import annotations
 
+from typing import Any
+
 import attrs
 
+from assoc_hull.arguments import number
+from assoc_hull.errors import BadInputError
+
 __all__ = ["Tolerances"]
+
+
+def _not_negative(value: object) -> float:
+    found = number(value, "a tolerance", "in Tolerances")
+    if found < 0.0:
+        raise BadInputError(f"a tolerance is {found:g}", "in Tolerances", "give 0 or more")
+    return found
+
+
+def _least(default: float) -> Any:
+    """Give a field of a number not below 0, with its default."""
+    return attrs.field(default=default, converter=_not_negative)
 
 
 @attrs.frozen
@@ -52,17 +69,17 @@ class Tolerances:
         Largest displacement (m) in one sub-step of a field.
     """
 
-    coincident: float = 1e-6
-    consistent: float = 1e-9
-    adoption: float = 5e-3
-    prune: float = 1e-3
-    keep: float = 1e-4
-    gap_floor: float = 1e-3
-    transversal_deg: float = 15.0
-    spacing: float = 0.25
-    turn_deg: float = 3.0
-    turn_spacing: float = 0.15
-    turn_spacing_part: float = 0.02
-    adopted_spacing: float = 0.2
-    field_normal: float = 0.15
-    substep: float = 0.1
+    coincident: float = _least(1e-6)
+    consistent: float = _least(1e-9)
+    adoption: float = _least(5e-3)
+    prune: float = _least(1e-3)
+    keep: float = _least(1e-4)
+    gap_floor: float = _least(1e-3)
+    transversal_deg: float = _least(15.0)
+    spacing: float = _least(0.25)
+    turn_deg: float = _least(3.0)
+    turn_spacing: float = _least(0.15)
+    turn_spacing_part: float = _least(0.02)
+    adopted_spacing: float = _least(0.2)
+    field_normal: float = _least(0.15)
+    substep: float = _least(0.1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.arguments import word
+from assoc_hull.edit.arguments import flag, word
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.remeet import meet_groups
 from assoc_hull.edit.set_role import change_role
@@ -35,8 +35,7 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     """
     state = edit.state
     _check_pair(edit, word(a, "group"), word(b, "group"))
-    if not isinstance(two_way, bool):
-        raise BadInputError(f"two_way is {two_way!r}", "in associate", "give True or False")
+    flag(two_way, "two_way", "in associate")
     known = any({link.a, link.b} == {a, b} for link in state.associations)
     edit.maker.associate(Association(a, b, two_way))
     edit.pending.structural = True

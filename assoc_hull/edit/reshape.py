@@ -120,6 +120,7 @@ def reshape(
     axis = 2 if section else 0
     span = pair(span, "span", positive=False)
     shape = _checked(state, curve, points, span, axis)
+    radius = _radius(state, fade, shape)
     old = state.spline(curve)
     if not np.array_equal(old.xyz, state.rows.xyz.data[state.curves.rows.data[curve]]):
         where = f"in reshape of {state.lines.name.data[state.line_of(curve)]}"
@@ -136,7 +137,7 @@ def reshape(
     made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
         Reshape(
-            curve, old, new, normals, rows, goals, start, _radius(state, fade, shape), section,
+            curve, old, new, normals, rows, goals, start, radius, section,
             (float(design.at[0]), float(design.at[-1])), flat, across_flats,
         )
     )  # fmt: skip

@@ -22,12 +22,12 @@ from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
-from assoc_hull.edit.arguments import number
+from assoc_hull.edit.arguments import flag, number, shown
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.update import Settings
-from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
+from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import resolve
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.state import HullState
@@ -35,6 +35,7 @@ from assoc_hull.model.state import HullState
 __all__ = ["Edit"]
 
 _USE = "use it in a with statement"
+_HANDLE = "give a handle or an address"
 
 
 class Edit:
@@ -153,6 +154,7 @@ class Edit:
     ) -> None:
         """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
         row, _ = self._point(point)
+        flag(across_flats, "across_flats", "in pull")
         _pull.pull(self._transaction, row, number(d, "d"), radius, across_flats=across_flats)
 
     def reshape(
@@ -168,6 +170,7 @@ class Edit:
 
         Returns the placed points that were made.
         """
+        flag(across_flats, "across_flats", "in reshape")
         made = _reshape.reshape(
             self._transaction, self._curve(curve), points, span, fade, across_flats=across_flats
         )
@@ -194,7 +197,8 @@ class Edit:
     def renew_roles(self, lines: Sequence[Line | str]) -> int:
         """Apply the role rule again to all crossings of lines; gives how many changed."""
         if isinstance(lines, (str, Line)) or not isinstance(lines, Sequence):
-            raise BadInputError(f"the lines {lines!r}", "in renew_roles", "give a list of lines")
+            what = f"the lines are {shown(lines)}"
+            raise WrongTypeError(what, "in renew_roles", "give a list of lines")
         return _renew.renew_roles(self._transaction, [self._line(line) for line in lines])
 
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
@@ -230,7 +234,7 @@ class Edit:
             self._check_own(point)
             return point.row, point.side
         if not isinstance(point, str):
-            raise BadInputError(f"the point {point!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the point is {shown(point)}", "in an edit", _HANDLE)
         found = resolve(self._tables, point)
         if found.row < 0:
             raise UnknownNameError("point", point)
@@ -241,7 +245,7 @@ class Edit:
             self._check_own(curve)
             return curve.row
         if not isinstance(curve, str):
-            raise BadInputError(f"the curve {curve!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the curve is {shown(curve)}", "in an edit", _HANDLE)
         found = resolve(self._tables, curve)
         if found.curve >= 0:
             return found.curve
@@ -257,7 +261,7 @@ class Edit:
             self._check_own(line)
             return line.row
         if not isinstance(line, str):
-            raise BadInputError(f"the line {line!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the line is {shown(line)}", "in an edit", _HANDLE)
         found = resolve(self._tables, line)
         if found.line < 0:
             raise UnknownNameError("line", line)

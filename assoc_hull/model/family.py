@@ -13,8 +13,11 @@ Examples
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import NoReturn
 
 import attrs
+
+from assoc_hull.arguments import no_member
 
 __all__ = ["FAMILIES", "BoundaryKind", "Family", "Role", "Sort", "State"]
 
@@ -55,6 +58,10 @@ class BoundaryKind(IntEnum):
     END = 0
     FLAT = 1
     KNUCKLE = 2
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise no_member(cls, value)
 
 
 @attrs.frozen

@@ -16,7 +16,9 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.arguments import checked, flag, integer, places, positive, shown, word
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Table
 from assoc_hull.model.family import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
@@ -38,30 +40,43 @@ class Particulars:
         Moulded; the draught is the design draught.
     """
 
-    name: str
-    length: float
-    breadth: float
-    depth: float
-    draught: float
+    name: str = attrs.field(validator=checked(word, "in the particulars"))
+    length: float = attrs.field(validator=checked(positive, "in the particulars"))
+    breadth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    depth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    draught: float = attrs.field(validator=checked(positive, "in the particulars"))
 
 
 @attrs.frozen
 class Association:
     """Lines of group `a` generate points on those of group `b`, and back if `two_way`."""
 
-    a: str
-    b: str
-    two_way: bool = True
+    a: str = attrs.field(validator=checked(word, "in an association"))
+    b: str = attrs.field(validator=checked(word, "in an association"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+def _end_kinds(_: object, __: object, value: object) -> None:
+    if not isinstance(value, tuple) or len(value) != 2:
+        remedy = "give an EndKind for the start and one for the finish"
+        raise BadInputError(f"kind is {shown(value)}", "in Ends", remedy)
+    for each in value:
+        EndKind(integer(each, "kind", "in Ends", least=0, most=len(EndKind) - 1))
+
+
+def _two_places(value: object, name: str, where: str) -> None:
+    if not isinstance(value, tuple) or len(places(value, name, where)) != 2:
+        remedy = "give a vector for the start and one for the finish"
+        raise BadInputError(f"{name} is {shown(value)}", where, remedy)
 
 
 @attrs.frozen
 class Ends:
     """End conditions of a curve: an `EndKind` and a vector at the start and at the finish."""
 
-    kind: tuple[int, int] = (0, 0)
-    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = (
-        (0.0, 0.0, 0.0),
-        (0.0, 0.0, 0.0),
+    kind: tuple[int, int] = attrs.field(default=(0, 0), validator=_end_kinds)
+    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = attrs.field(
+        default=((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), validator=checked(_two_places, "in Ends")
     )
 
 

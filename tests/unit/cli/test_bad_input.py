@@ -128,7 +128,7 @@ def test_a_changed_hull_file_is_found(hull: Path, capsys: pytest.CaptureFixture[
             [{"op": "move", "point": "WL 2.5 x ST 7", "y": "wide"}], "'wide'", id="no number"
         ),
         pytest.param(
-            [{"op": "move", "point": 7, "y": 1}], "the point 7", id="point is a number"
+            [{"op": "move", "point": 7, "y": 1}], "the point is 7", id="point is a number"
         ),
         pytest.param([{"op": "move", "punkt": "WL 2.5"}], "punkt", id="unknown argument"),
         pytest.param(
