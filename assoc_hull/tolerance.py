@@ -16,7 +16,14 @@ import attrs
 from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
 
-__all__ = ["Tolerances"]
+__all__ = ["IN_PLANE", "SAME_PLANE", "Tolerances"]
+
+IN_PLANE = 1e-6
+"""A place handed in as near as this (m) to the plane of its line is meant to lie in it, and is
+put there: coordinates are written with micrometres at best."""
+
+SAME_PLANE = 1e-6
+"""Planes of one family nearer than this (m) are one plane, by the same reason."""
 
 
 def _not_negative(value: object) -> float:

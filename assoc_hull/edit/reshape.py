@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.edit.arguments import pair, places
 from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
 from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.planes import into_planes
 from assoc_hull.edit.points import pin
 from assoc_hull.edit.reshape_field import Reshape
 from assoc_hull.edit.ride import ride_links
@@ -158,17 +159,7 @@ def _checked(
             f"in reshape of {name}",
             "widen the span or leave the point out",
         )
-    line = state.line_of(curve)
-    if state.lines.planar.data[line]:
-        normal = state.lines.normal.data[line]
-        away = np.abs((shape * normal).sum(axis=1) - state.lines.offset.data[line])
-        if away.max() > 1e-9:
-            raise BadInputError(
-                f"a point lies {away.max():.3g} m off the plane of the line",
-                f"in reshape of {name}",
-                "put it in the plane",
-            )
-    return shape
+    return into_planes(state, [state.line_of(curve)], shape, f"in reshape of {name}")
 
 
 def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:

@@ -215,14 +215,23 @@ class Edit:
         """Give a line another name."""
         _lines.rename_line(self._transaction, self._line(line), name)
 
-    def add_line(self, group: Group | str, position: float, name: str | None = None) -> Line:
-        """Cut a new line at a position (m) along its family's axis."""
+    def add_line(
+        self, group: Group | str, position: float | tuple[float, float], name: str | None = None
+    ) -> Line:
+        """Cut a new line at a position (m) along its family's axis.
+
+        A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
+        how many degrees it falls outward from the horizontal.
+        """
         title = group.name if isinstance(group, Group) else group
-        line = _cut.add_line(self._transaction, title, number(position, "position"), name)
+        line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 
     def shift_line(self, line: Line | str, position: float) -> None:
-        """Shift a line to another position (m); the hull keeps its shape."""
+        """Shift a line to another position (m); the hull keeps its shape.
+
+        A diagonal keeps its angle; its position is the height at the centre plane.
+        """
         _shift.shift_line(self._transaction, self._line(line), number(position, "position"))
 
     def remove_line(self, line: Line | str) -> None:

@@ -93,7 +93,7 @@ FAMILIES = {
         Family("sections", "ST", 1, 0),
         Family("waterlines", "WL", 2, 2),
         Family("buttocks", "BTK", 3, 1),
-        Family("diagonals", "DIAG", 4, None),
+        Family("diagonals", "DIA", 4, None),
         Family("frames", "FR", 5, 0),
     )
 }
