@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.arguments import flag, number, pair, place, places, shown, word
+from assoc_hull.arguments import flag, number, pair, place, places, shown, shown_name, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
@@ -18,6 +18,7 @@ __all__ = [
     "place",
     "places",
     "shown",
+    "shown_name",
     "word",
 ]
 

@@ -189,6 +189,15 @@ def _lines() -> Table:
     )
 
 
+def _settings() -> Table:
+    return Table(
+        associations=(object, ()),
+        births=(object, None),
+        failed=(object, ()),
+        particulars=(object, None),
+    )
+
+
 @attrs.define(eq=False)
 class HullState:
     """The tables of one hull.
@@ -203,12 +212,13 @@ class HullState:
         The objects.
     settings : Table
         One row: the associations (`associations`) and how many crossings of each pair of
-        lines were ever born (`births`), so that a dead id never comes back.
+        lines were ever born (`births`), so that a dead id never comes back; the name may
+        change, so the particulars lie here too.
     revision_row, revision_curve : list of int
         Revisions; outside the journal, as they never run backward.
     """
 
-    particulars: Particulars
+    _given: Particulars = attrs.field(alias="particulars")
     tolerances: Tolerances = attrs.field(factory=Tolerances)
     rows: Any = attrs.field(factory=_rows)
     curves: Any = attrs.field(factory=_curves)
@@ -216,9 +226,7 @@ class HullState:
     groups: Any = attrs.field(
         factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
     )
-    settings: Any = attrs.field(
-        factory=lambda: Table(associations=(object, ()), births=(object, None), failed=(object, ()))
-    )
+    settings: Any = attrs.field(factory=_settings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
 
@@ -226,6 +234,13 @@ class HullState:
         if not self.settings.count:
             self.settings.resize(1)
             self.settings.births.data[0] = {}
+            self.settings.particulars.data[0] = self._given
+
+    @property
+    def particulars(self) -> Particulars:
+        """Name and principal dimensions, m."""
+        found: Particulars = self.settings.particulars.data[0]
+        return found
 
     @property
     def associations(self) -> tuple[Association, ...]:
