@@ -32,6 +32,7 @@ __all__ = [
     "instance",
     "integer",
     "no_member",
+    "not_negative",
     "number",
     "numbers",
     "pair",
@@ -107,6 +108,20 @@ def positive(value: object, name: str, where: str = _CALL) -> float:
     found = number(value, name, where)
     if not found > 0.0:
         raise BadInputError(f"{name} is {shown(value)}", where, "give a number above 0")
+    return found
+
+
+def not_negative(value: object, name: str, where: str = _CALL) -> float:
+    """Take a finite number of 0 or more.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    found = number(value, name, where)
+    if found < 0.0:
+        raise BadInputError(f"{name} is {shown(value)}", where, "give 0 or more")
     return found
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 import assoc_hull.examples  # noqa: F401 - before the package binds this name to what is below
-from assoc_hull.arguments import file_path, flag, instance, integer, number, text
+from assoc_hull.arguments import file_path, flag, instance, integer, not_negative, number, text
 from assoc_hull.edit.adopt import AdoptionReport, adopt
 from assoc_hull.edit.check_hull import Finding, check
 from assoc_hull.edit.document import Document
@@ -203,7 +203,7 @@ class Hull:
         """Rebuild the hull beside the published one and give every difference."""
         from assoc_hull.model.verify import verify
 
-        return tuple(verify(self.state, number(relative, "relative", "in verify")))
+        return tuple(verify(self.state, not_negative(relative, "relative", "in verify")))
 
     @property
     def fingerprint(self) -> str:

@@ -13,8 +13,7 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.arguments import number
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import not_negative
 
 __all__ = ["IN_PLANE", "SAME_PLANE", "Tolerances"]
 
@@ -27,10 +26,7 @@ SAME_PLANE = 1e-6
 
 
 def _not_negative(value: object) -> float:
-    found = number(value, "a tolerance", "in Tolerances")
-    if found < 0.0:
-        raise BadInputError(f"a tolerance is {found:g}", "in Tolerances", "give 0 or more")
-    return found
+    return not_negative(value, "a tolerance", "in Tolerances")
 
 
 def _least(default: float) -> Any:

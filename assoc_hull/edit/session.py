@@ -214,21 +214,21 @@ class Edit:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._group(a), self._group(b))
 
-    def rename(self, thing: object, name: str) -> None:
+    def rename(self, obj: object, name: str) -> None:
         """Give a line, a point or the hull itself another name; keys stay.
 
         Parameters
         ----------
-        thing : Line, Point, Crossing, Curve, address, or the hull
+        obj : Line, Point, Crossing, Curve, address, or the hull
             A curve is renamed with its line, whose only one it must be. Groups keep their
             names.
         name : str
             The name.
         """
-        if getattr(thing, "document", None) is self._held.document:
+        if getattr(obj, "document", None) is self._held.document:
             _rename.rename_hull(self._transaction, name)
             return
-        _rename.rename(self._transaction, self._place(thing), name)
+        _rename.rename(self._transaction, self._place(obj), name)
 
     def _place(self, thing: object) -> Place:
         """Find what a handle or an address leads to."""

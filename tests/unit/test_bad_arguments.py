@@ -80,7 +80,7 @@ EDIT: dict[str, Given] = {
     "renew_roles": {"lines": [LINE]},
     "associate": {"a": "sections", "b": "waterlines", "two_way": True},
     "dissociate": {"a": "sections", "b": "waterlines"},
-    "rename": {"thing": LINE, "name": "low"},
+    "rename": {"obj": LINE, "name": "low"},
     "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
     "shift_line": {"line": LINE, "position": 2.4},
     "remove_line": {"line": LINE},
