@@ -72,6 +72,14 @@ def shown_name(value: object) -> str:
     return value if isinstance(value, str) and len(value) < 100 else shown(value)
 
 
+def _array(values: object) -> Floats:
+    """Give numbers as an array; one nan where they are none."""
+    try:
+        return np.array(values, np.float64)
+    except _FAILS:
+        return np.full(1, np.nan)
+
+
 def number(value: object, name: str, where: str = _CALL) -> float:
     """Take a finite number of at most 1e6 m, or say which argument is none.
 
@@ -150,10 +158,7 @@ def numbers(values: object, name: str, where: str = _CALL) -> Floats:
     BadInputError
         Anything else.
     """
-    try:
-        found = np.array(values, np.float64)
-    except _FAILS:
-        found = np.full(1, np.nan)
+    found = _array(values)
     if found.ndim > 1 or not (np.abs(found) <= _LARGEST).all():
         raise BadInputError(
             f"{name} is {shown(values)}",
@@ -171,10 +176,7 @@ def places(values: object, name: str, where: str = _CALL) -> Floats:
     BadInputError
         Another shape, no place at all, or a number that is not finite or too large.
     """
-    try:
-        found = np.atleast_2d(np.array(values, np.float64)) + 0.0
-    except _FAILS:
-        found = np.zeros((0, 0))
+    found = np.atleast_2d(_array(values)) + 0.0
     if found.ndim != 2 or found.shape[1:] != (3,) or not len(found):
         raise BadInputError(f"{name} is no list of places", where, "give (x, y, z) each, m")
     if not (np.abs(found) <= _LARGEST).all():
@@ -210,10 +212,7 @@ def pair(values: object, name: str, where: str = _CALL, *, positive: bool) -> tu
     (20.0, 8.0)
     """
     given = f"{name} is {shown(values)}"
-    try:
-        found = np.array(values, np.float64)
-    except _FAILS:
-        found = np.zeros(0)
+    found = _array(values)
     if found.shape != (2,) or not (np.abs(found) <= _LARGEST).all():
         raise BadInputError(given, where, "give two finite numbers, m")
     first, second = found.tolist()

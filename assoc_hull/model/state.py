@@ -108,6 +108,16 @@ class Meets:
     def __attrs_post_init__(self) -> None:
         freeze(self.line, self.sign, self.row, self.parameter, self.xyz)
 
+    def take(self, chosen: IntArray | np.typing.NDArray[np.bool_]) -> Meets:
+        """Give some of the meetings, by index or mask, in that order."""
+        return Meets(
+            self.line[chosen],
+            self.sign[chosen],
+            self.row[chosen],
+            self.parameter[chosen],
+            self.xyz[chosen],
+        )
+
     @classmethod
     def none(cls) -> Meets:
         """Give no meetings."""
