@@ -118,7 +118,11 @@ class Edit:
         """
         asked = {"x": x, "y": y, "z": z}
         row, _ = self._point(point)
-        given = {axis: number(value, axis) for axis, value in asked.items() if value is not None}
+        given = {
+            axis: number(value, axis, "in move")
+            for axis, value in asked.items()
+            if value is not None
+        }
         _points.move(self._transaction, row, given)
 
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
@@ -156,7 +160,9 @@ class Edit:
         """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
         row, _ = self._point(point)
         flag(across_flats, "across_flats", "in pull")
-        _pull.pull(self._transaction, row, number(d, "d"), radius, across_flats=across_flats)
+        _pull.pull(
+            self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats
+        )
 
     def reshape(
         self,
