@@ -33,6 +33,7 @@ __all__ = [
     "RingError",
     "TooFewPointsError",
     "UnknownNameError",
+    "WrongTypeError",
 ]
 
 
@@ -60,6 +61,11 @@ class BadInputError(AssocHullError, ValueError):
 
     def __str__(self) -> str:
         return f"{self.what}, {self.where}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class WrongTypeError(BadInputError, TypeError):
+    """A value of another type than can be used."""
 
 
 @attrs.define(slots=False, eq=False)

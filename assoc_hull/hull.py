@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 import assoc_hull.examples  # noqa: F401 - before the package binds this name to what is below
+from assoc_hull.arguments import file_path, flag, instance, integer, not_negative, number, text
 from assoc_hull.edit.adopt import AdoptionReport, adopt
 from assoc_hull.edit.check_hull import Finding, check
 from assoc_hull.edit.document import Document
@@ -55,7 +56,7 @@ class Hull:
     """
 
     def __init__(self, state: HullState) -> None:
-        self.document = Document(state)
+        self.document = Document(instance(state, HullState, "state", "in Hull"))
         self.adoption: AdoptionReport | None = None
         self._open: Edit | None = None
 
@@ -134,6 +135,7 @@ class Hull:
             An unknown policy, or an unknown treatment of gaps.
         """
         settings = settings_of(policy, gaps)
+        text(name, "the name", "in edit")
         if self._open is None or not self._open.active:
             self._open = Edit(self.document, name, settings)
         return self._open
@@ -159,8 +161,14 @@ class Hull:
             self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
         )
 
-    def apply(self, name: str, edits: Changes) -> EditReport | None:
-        """Carry out edits given as for `preview`; None if they joined one that is still open."""
+    def apply(self, name: str, edits: Changes | None = None) -> EditReport | None:
+        """Carry out edits given as for `preview`; None if they joined one that is still open.
+
+        Raises
+        ------
+        BadInputError
+            No name, no edits, or one that no method of `Edit` fits.
+        """
         with self.edit(name) as edit:
             carry_out(edit, edits)
         return edit.report
@@ -178,18 +186,24 @@ class Hull:
         return handle(self.state, address)
 
     def why(self, thing: Thing | str) -> Why:
-        """Explain the last change of a point or curve, or of the first curve of a line."""
+        """Explain the last change of a point or curve, or of the first curve of a line.
+
+        Raises
+        ------
+        UnknownNameError, ForeignPointError, BadInputError
+            Nothing that this hull has, or a group.
+        """
         return why(self.document, node_of(self.state, thing))
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
-        return check(self.document, notes)
+        return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
         """Rebuild the hull beside the published one and give every difference."""
         from assoc_hull.model.verify import verify
 
-        return tuple(verify(self.state, relative))
+        return tuple(verify(self.state, not_negative(relative, "relative", "in verify")))
 
     @property
     def fingerprint(self) -> str:
@@ -208,17 +222,19 @@ class Hull:
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
-        return graph_of(self.document, around, (up, down), two_way, edit)
+        hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
+        return graph_of(self.document, around, hops, flag(two_way, "two_way", "in graph"), edit)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
         """Give who drives whom now; see `assoc_hull.model.view.dependencies`."""
         from assoc_hull.model.view import dependencies
 
-        return dependencies(self.state, points)
+        return dependencies(self.state, flag(points, "points", "in dependencies"))
 
     def half_breadth(self, x: float, z: float) -> float:
         """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.breadth`."""
-        return half_breadth(self.state, x, z)
+        where = "in half_breadth"
+        return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the canonical text form; the name of the file ends in ``.hull.json``.
@@ -230,7 +246,7 @@ class Hull:
         """
         from assoc_hull.io.hull_json import write_hull_json
 
-        if not os.fspath(path).endswith(_ENDING):
+        if not file_path(path, "in save").endswith(_ENDING):
             raise BadInputError("the form is unknown", f"at {path}", f"end the name in {_ENDING}")
         write_hull_json(self.state, path)
 
@@ -275,6 +291,8 @@ def open(path: str | os.PathLike[str]) -> Hull:
     """
     from assoc_hull.io.hull_json import read_hull_json
 
+    if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
+        file_path(path, "in open")
     return Hull(read_hull_json(path))
 
 
@@ -297,7 +315,7 @@ def read(
     from assoc_hull.examples.completion import net_from_table
     from assoc_hull.io.offsets import read_offsets
 
-    file = Path(path)
+    file = Path(file_path(path, "in read"))
     if file.is_file() and file.read_bytes()[:200].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
         return open(file)
     table, _ = read_offsets(file, length=length, breadth=breadth, draught=draught)

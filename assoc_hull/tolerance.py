@@ -9,9 +9,29 @@ Examples
 
 from __future__ import annotations
 
+from typing import Any
+
 import attrs
 
-__all__ = ["Tolerances"]
+from assoc_hull.arguments import not_negative
+
+__all__ = ["IN_PLANE", "SAME_PLANE", "Tolerances"]
+
+IN_PLANE = 1e-6
+"""A place handed in as near as this (m) to the plane of its line is meant to lie in it, and is
+put there: coordinates are written with micrometres at best."""
+
+SAME_PLANE = 1e-6
+"""Planes of one family nearer than this (m) are one plane, by the same reason."""
+
+
+def _not_negative(value: object) -> float:
+    return not_negative(value, "a tolerance", "in Tolerances")
+
+
+def _least(default: float) -> Any:
+    """Give a field of a number not below 0, with its default."""
+    return attrs.field(default=default, converter=_not_negative)
 
 
 @attrs.frozen
@@ -52,17 +72,17 @@ class Tolerances:
         Largest displacement (m) in one sub-step of a field.
     """
 
-    coincident: float = 1e-6
-    consistent: float = 1e-9
-    adoption: float = 5e-3
-    prune: float = 1e-3
-    keep: float = 1e-4
-    gap_floor: float = 1e-3
-    transversal_deg: float = 15.0
-    spacing: float = 0.25
-    turn_deg: float = 3.0
-    turn_spacing: float = 0.15
-    turn_spacing_part: float = 0.02
-    adopted_spacing: float = 0.2
-    field_normal: float = 0.15
-    substep: float = 0.1
+    coincident: float = _least(1e-6)
+    consistent: float = _least(1e-9)
+    adoption: float = _least(5e-3)
+    prune: float = _least(1e-3)
+    keep: float = _least(1e-4)
+    gap_floor: float = _least(1e-3)
+    transversal_deg: float = _least(15.0)
+    spacing: float = _least(0.25)
+    turn_deg: float = _least(3.0)
+    turn_spacing: float = _least(0.15)
+    turn_spacing_part: float = _least(0.02)
+    adopted_spacing: float = _least(0.2)
+    field_normal: float = _least(0.15)
+    substep: float = _least(0.1)

@@ -36,6 +36,9 @@ _SAME = 1e-6
 _PLACE = 0.5
 """Two roots farther apart than this (m) are not the same place of a hull."""
 
+_ROUNDED = 1e-12
+"""So far (m) from an inclined plane the rounding of coordinates alone may leave a place."""
+
 
 @attrs.frozen(eq=False)
 class Root:
@@ -124,7 +127,8 @@ def _on_curves(state: HullState, row: int, curves: list[int]) -> Iterator[str]:
     place, key = state.rows.xyz.data[row], state.rows.key.data[row]
     for curve, other in (curves, curves[::-1]):
         plane = _plane(state, curve)
-        if plane is not None and float(place @ plane[0]) != plane[1]:
+        exact = plane is not None and np.abs(plane[0]).max() == 1.0
+        if plane and abs(float(place @ plane[0]) - plane[1]) > (0.0 if exact else _ROUNDED):
             yield f"{key} lies out of the plane of {state.curves.key.data[curve]}"
         near = [np.linalg.norm(each.place - place) for each in _meet(state, curve, other)]
         away = min(near, default=np.inf)

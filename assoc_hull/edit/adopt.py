@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import all_of, instance
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import Left, Net, Thinned, thin
@@ -90,6 +91,11 @@ def adopt(
     RingError
         One-way associations that run in a ring.
     """
+    sources = all_of(sources, LineSource, "lines", "in a net of lines")
+    instance(particulars, Particulars, "particulars", "in a net of lines")
+    associations = all_of(associations, Association, "associations", "in a net of lines")
+    if tolerances is not None:
+        instance(tolerances, Tolerances, "tolerances", "in a net of lines")
     if not sources:
         raise BadInputError("no lines were given", particulars.name, "give two lines or more")
     state = HullState(particulars, tolerances or Tolerances())

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.arguments import word
+from assoc_hull.edit.arguments import flag, word
 from assoc_hull.edit.lines import leave_behind
-from assoc_hull.edit.remeet import meet_groups
+from assoc_hull.edit.remeet import meet_groups, strike_planes
 from assoc_hull.edit.set_role import change_role
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -35,8 +35,7 @@ def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> Non
     """
     state = edit.state
     _check_pair(edit, word(a, "group"), word(b, "group"))
-    if not isinstance(two_way, bool):
-        raise BadInputError(f"two_way is {two_way!r}", "in associate", "give True or False")
+    flag(two_way, "two_way", "in associate")
     known = any({link.a, link.b} == {a, b} for link in state.associations)
     edit.maker.associate(Association(a, b, two_way))
     edit.pending.structural = True
@@ -120,15 +119,8 @@ def dissociate(edit: Transaction, a: str, b: str) -> None:
 
 def _strike(edit: Transaction, group: str, other: str) -> None:
     """Take the planes of one group out of the meetings of another's curves."""
-    state = edit.state
-    names = state.groups.name.data
+    state, names = edit.state, edit.state.groups.name.data
     planes = np.flatnonzero(state.lines.group.data == names.index(other))
-    for curve in state.live("curves").tolist():
-        meets = state.curves.meets.data[curve]
-        keep = ~np.isin(meets.line, planes)
-        if _group(state, curve) == group and not keep.all():
-            new = type(meets)(
-                meets.line[keep], meets.sign[keep], meets.row[keep], meets.parameter[keep],
-                meets.xyz[keep],
-            )  # fmt: skip
-            edit.journal.set(state.curves.meets, [curve], [new])
+    curves = state.live("curves")
+    owner = state.lines.group.data[state.curves.line.data[curves]]
+    strike_planes(edit, planes, curves[owner == names.index(group)])

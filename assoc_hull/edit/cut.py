@@ -10,16 +10,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from assoc_hull.edit.arguments import line_name, word
+from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
+from assoc_hull.edit.planes import new_plane, ready_group
 from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
@@ -28,47 +29,16 @@ from assoc_hull.model.make import CrossingSpec, PointSpec
 from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import Ends, HullState
 
-__all__ = ["add_line", "make_piece", "new_plane", "pieces_of"]
+__all__ = ["add_line", "make_piece", "pieces_of"]
 
 _SLIDE = 0.1
 """Room (m) for a crossing whose driver passes the new plane squarely; more if obliquely."""
 
 
-def new_plane(state: HullState, group: str, position: float) -> tuple[int, FloatArray]:
-    """Check a group and position for a new line; give the group's number and the normal.
-
-    Raises
-    ------
-    UnknownNameError
-        No such group.
-    BadInputError
-        A family without parallel planes, a number that is not finite, or a plane that is
-        taken.
-    """
-    names = state.groups.name.data
-    if word(group, "group") not in names:
-        raise UnknownNameError("group", group, tuple(names))
-    number = names.index(group)
-    axis = FAMILIES[state.groups.family.data[number]].axis
-    if axis is None:
-        raise BadInputError(
-            f"the lines of {group} have no common direction", "in add_line", "give a plane family"
-        )
-    if not np.isfinite(position):
-        raise BadInputError(f"the position is {position}", f"for a line of {group}", "give metres")
-    mine = state.lines.alive.data & (state.lines.group.data == number) & state.lines.planar.data
-    near = np.abs(state.lines.offset.data[mine] - position)
-    if len(near) and near.min() < 1e-6:
-        raise BadInputError(
-            f"there is a line at {position:g} m already", f"in {group}", "choose another position"
-        )
-    return number, np.eye(3)[axis]
-
-
 def add_line(
     edit: Transaction,
     group: str,
-    position: float,
+    position: ArrayLike,
     name: str | None = None,
     keep: float | None = None,
 ) -> int:
@@ -80,8 +50,9 @@ def add_line(
         The edit.
     group : str
         The group it joins.
-    position : float, m
-        Place of its plane along the family's axis.
+    position : float, m, or (float, float), m and degrees
+        Place of its plane along the family's axis; of a diagonal the height at the centre
+        plane and the angle by which it falls outward from the horizontal.
     name : str or None
         Prefix and position if None.
     keep : float or None, m
@@ -90,20 +61,22 @@ def add_line(
 
     Raises
     ------
+    UnknownNameError
+        No such group.
+    BadInputError
+        No position of a line of that family, a plane that is taken, or no name.
     NoMeetingError
         If the plane meets fewer than two places.
     """
     state = edit.state
-    number, normal = new_plane(state, group, position)
-    marks = find_marks(state, number, normal, position)
+    title = None if name is None else line_name(name)
+    cut = new_plane(state, ready_group(edit, group, position), position)
+    marks = find_marks(state, cut.group, cut.normal, cut.offset)
     edit.pending.structural = True
-    family = FAMILIES[state.groups.family.data[number]]
-    title = (
-        line_name(name)
-        if name is not None
-        else _free_name(state, number, f"{family.prefix} {position:g}")
-    )
-    line = edit.maker.line(number, title, (normal, position))
+    family = FAMILIES[state.groups.family.data[cut.group]]
+    if title is None:
+        title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
+    line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
     for piece in pieces_of(state, line, marks):
         make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
     enter_line(edit, line)

@@ -10,6 +10,7 @@ import operator
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import shown
 from assoc_hull.edit.report import Step
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.index import Index, build_index
@@ -84,7 +85,7 @@ class Document:
             wanted = 0
         if not 1 <= wanted <= len(steps):
             raise BadInputError(
-                f"{count} steps were asked and there are {len(steps)} to {act}",
+                f"{shown(count)} steps were asked and there are {len(steps)} to {act}",
                 f"in {act}",
                 f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}",
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import choice
 from assoc_hull.edit.arguments import direction_in
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -45,9 +46,8 @@ def set_end(
     BadInputError
         An unknown end, both conditions, or a vector that is not three finite numbers.
     """
-    where = f"at the {end} of {edit.state.curves.key.data[curve]}"
-    if end not in ("start", "finish"):
-        raise BadInputError(f"the end {end!r}", where, "use 'start' or 'finish'")
+    where = f"in set_end of {edit.state.curves.key.data[curve]}"
+    choice(end, "end", ("start", "finish"), where)
     if tangent is not None and curvature is not None:
         raise BadInputError("both a tangent and a curvature", where, "give one of the two")
     kind, vector = EndKind.FREE, np.zeros(3)

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import shown
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import Step
-from assoc_hull.errors import BadInputError, ForeignPointError
+from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort, State
@@ -153,6 +154,9 @@ def node_of(state: HullState, thing: Thing | str) -> int:
     1
     """
     found = handle(state, thing) if isinstance(thing, str) else thing
+    if not isinstance(found, Thing):
+        what = f"the object is {shown(found)}"
+        raise WrongTypeError(what, "in why", "give a handle or an address")
     if found.tables is not state:
         raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
     number = found.row

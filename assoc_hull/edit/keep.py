@@ -7,7 +7,8 @@ import numpy as np
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.evaluation import derivative, evaluate, sample, segments
+from assoc_hull.geometry.evaluation import derivative, evaluate, sample
+from assoc_hull.geometry.segments import segment_start
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
@@ -48,7 +49,7 @@ def drift(old: SplineBatch, new: SplineBatch, at: FloatArray) -> FloatArray:
         Between places of the same part of a segment, across the old curve: what is left
         out is of second order.
     """
-    first = segments(new)
+    first = segment_start(new)
     curve = np.searchsorted(new.start, first, side="right") - 1
     part = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     many = np.repeat(curve, _SAMPLES)

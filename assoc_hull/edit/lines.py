@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.keep import drift
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import NameTakenError, TooFewPointsError
+from assoc_hull.errors import TooFewPointsError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, IntArray
 from assoc_hull.geometry.spline import loft
@@ -22,7 +21,7 @@ from assoc_hull.model.make import PointSpec
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
-__all__ = ["leave_behind", "prune", "remove_line", "rename_line"]
+__all__ = ["leave_behind", "prune", "remove_line"]
 
 
 def remove_line(edit: Transaction, line: int) -> None:
@@ -120,25 +119,3 @@ def prune(edit: Transaction, curve: int, points: IntArray) -> None:
             kept: IntArray = state.curves.rows.data[curve]
             edit.maker.define(curve, kept[kept != row])
             edit.maker.remove_rows([row])
-
-
-def rename_line(edit: Transaction, line: int, name: str) -> None:
-    """Give a line another name; its id stays.
-
-    Raises
-    ------
-    NameTakenError
-        Another line of the group has that name.
-    BadInputError
-        It is no name.
-    """
-    state, name = edit.state, line_name(name)
-    group = state.lines.group.data[line]
-    taken = {
-        state.lines.name.data[other]
-        for other in state.live("lines").tolist()
-        if state.lines.group.data[other] == group and other != line
-    }
-    if name in taken | set(state.groups.name.data) | set(state.lines.key.data):
-        raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
-    edit.journal.set(state.lines.name, [line], [name])

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.edit.arguments import direction_in, word
 from assoc_hull.edit.arguments import place as one_place
+from assoc_hull.edit.planes import along_planes, into_planes
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.edit.transaction import Transaction
@@ -57,21 +58,19 @@ def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
     FreedomError
         Other coordinates were given than those it is free in.
     BadInputError
-        A number that is not finite, or, on an oblique line, off that line.
+        A number that is not finite.
     """
     state = edit.state
     _refuse_computed(state, row)
     free = free_axes(state, row)
     if set(to) != set(free):
         raise FreedomError(address(state, row), tuple(to), free)
-    place = state.rows.xyz.data[row].copy()
-    for axis, value in to.items():
-        place[_AXES[axis]] = value
-    edit.write(
-        np.array([row]), _on_planes(state, row, place)[None], f"move of {address(state, row)}"
-    )
-    curves = state.rows.curve.data[row]
-    edit.pending.moved_curves |= {int(curve) for curve in curves if curve >= 0}
+    curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+    lines, what = [state.line_of(curve) for curve in curves], f"move of {address(state, row)}"
+    given = {_AXES[axis]: value for axis, value in to.items()}
+    place = along_planes(state, lines, state.rows.xyz.data[row], given)
+    edit.write(np.array([row]), into_planes(state, lines, place, f"in a {what}")[None], what)
+    edit.pending.moved_curves |= set(curves)
     if state.rows.sort.data[row] == Sort.ADOPTED:
         pin(edit, row)
 
@@ -86,26 +85,6 @@ def _refuse_computed(state: HullState, row: int) -> None:
     title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
     kind = "watched" if role is Role.WATCHED else "driven"
     raise PointRoleError(address(state, row), kind, title, _WAYS_OUT)
-
-
-def _on_planes(state: HullState, row: int, place: FloatArray) -> FloatArray:
-    """Check that a place lies in the planes of the point's lines; put it there exactly."""
-    out = np.array(place, np.float64)
-    for curve in state.rows.curve.data[row].tolist():
-        line = state.line_of(curve) if curve >= 0 else -1
-        if line < 0 or not state.lines.planar.data[line]:
-            continue
-        normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-        away = float(out @ normal) - offset
-        if abs(away) > 1e-6:
-            raise BadInputError(
-                f"the place lies {away:.3g} m off the plane of {state.lines.name.data[line]}",
-                f"in a move of {address(state, row)}",
-                "give a place in that plane",
-            )
-        exact = normal == 1.0
-        out[exact] = offset
-    return out
 
 
 def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
@@ -125,7 +104,8 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     """
     state = edit.state
     name = str(state.lines.name.data[state.line_of(curve)])
-    xyz = _in_line(state, curve, one_place(place, f"the place of a point of {name}"))
+    given = one_place(place, f"the place of a point of {name}")
+    xyz = into_planes(state, [state.line_of(curve)], given, "in insert")
     rows: IntArray = state.curves.rows.data[curve]
     away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
     if away.min() < state.tolerances.coincident:
@@ -136,22 +116,6 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     edit.maker.define(curve, np.insert(rows, index, row))
     _changed(edit, curve)
     return row
-
-
-def _in_line(state: HullState, curve: int, xyz: FloatArray) -> FloatArray:
-    line = state.line_of(curve)
-    if not state.lines.planar.data[line]:
-        return xyz
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
-    away = float(xyz @ normal) - offset
-    if abs(away) > 1e-6:
-        raise BadInputError(
-            f"the place lies {away:.3g} m off the plane of {state.lines.name.data[line]}",
-            "in insert",
-            "give a place in that plane",
-        )
-    xyz[normal == 1.0] = offset
-    return xyz
 
 
 def _changed(edit: Transaction, curve: int) -> None:

@@ -15,7 +15,7 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import HullState, Meets, curve_node
 
-__all__ = ["enter_line", "meet_groups", "partner_curves", "strike_line"]
+__all__ = ["enter_line", "meet_groups", "partner_curves", "strike_line", "strike_planes"]
 
 _ROUNDS = 4
 
@@ -136,28 +136,19 @@ def _sorted(state: HullState, index: Index, curve: int, meets: Meets) -> Meets:
         )
     }
     rank = np.array([place[line] for line in meets.line.tolist()], np.int64)
-    order = np.lexsort((meets.parameter, rank))
-    return Meets(
-        meets.line[order],
-        meets.sign[order],
-        meets.row[order],
-        meets.parameter[order],
-        meets.xyz[order],
-    )
+    return meets.take(np.lexsort((meets.parameter, rank)))
+
+
+def strike_planes(edit: Transaction, planes: IntArray, curves: IntArray) -> None:
+    """Take the planes of lines out of the meetings of curves."""
+    column = edit.state.curves.meets
+    for curve in curves.tolist():
+        meets: Meets = column.data[curve]
+        keep = ~np.isin(meets.line, planes)
+        if not keep.all():
+            edit.journal.set(column, [curve], [meets.take(keep)])
 
 
 def strike_line(edit: Transaction, line: int) -> None:
     """Take the plane of a line out of the meetings of all curves."""
-    state = edit.state
-    for curve in state.live("curves").tolist():
-        meets: Meets = state.curves.meets.data[curve]
-        keep = meets.line != line
-        if not keep.all():
-            left = Meets(
-                meets.line[keep],
-                meets.sign[keep],
-                meets.row[keep],
-                meets.parameter[keep],
-                meets.xyz[keep],
-            )
-            edit.journal.set(state.curves.meets, [curve], [left])
+    strike_planes(edit, np.array([line]), edit.state.live("curves"))

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.edit.arguments import pair, places
 from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
 from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.planes import into_planes
 from assoc_hull.edit.points import pin
 from assoc_hull.edit.reshape_field import Reshape
 from assoc_hull.edit.thread import interval_of
@@ -120,6 +121,7 @@ def reshape(
     axis = 2 if section else 0
     span = pair(span, "span", positive=False)
     shape = _checked(state, curve, points, span, axis)
+    radius = _radius(state, fade, shape)
     old = state.spline(curve)
     if not np.array_equal(old.xyz, state.rows.xyz.data[state.curves.rows.data[curve]]):
         where = f"in reshape of {state.lines.name.data[state.line_of(curve)]}"
@@ -136,7 +138,7 @@ def reshape(
     made = _place(edit, curve, design.shape, rows, goals)
     edit.pending.fields.append(
         Reshape(
-            curve, old, new, normals, rows, goals, start, _radius(state, fade, shape), section,
+            curve, old, new, normals, rows, goals, start, radius, section,
             (float(design.at[0]), float(design.at[-1])), flat, across_flats,
         )
     )  # fmt: skip
@@ -157,17 +159,7 @@ def _checked(
             f"in reshape of {name}",
             "widen the span or leave the point out",
         )
-    line = state.line_of(curve)
-    if state.lines.planar.data[line]:
-        normal = state.lines.normal.data[line]
-        away = np.abs((shape * normal).sum(axis=1) - state.lines.offset.data[line])
-        if away.max() > 1e-9:
-            raise BadInputError(
-                f"a point lies {away.max():.3g} m off the plane of the line",
-                f"in reshape of {name}",
-                "put it in the plane",
-            )
-    return shape
+    return into_planes(state, [state.line_of(curve)], shape, f"in reshape of {name}")
 
 
 def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
+from assoc_hull.arguments import choice, shown, shown_name
 from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.session import Edit
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.graph.run import Policy
 
 __all__ = ["Changes", "GapsName", "PolicyName", "carry_out", "settings_of"]
@@ -35,12 +37,11 @@ def settings_of(policy: str, gaps: str) -> Settings:
         ("policy", policy, [each.value for each in Policy]),
         ("gaps", gaps, ["refuse", "report"]),
     ):
-        if given not in known:
-            raise BadInputError(f"{what}={given!r}", "in an edit", f"use {' or '.join(known)}")
+        choice(given, what, known, "in an edit")
     return Settings(Policy(policy), gaps == "refuse")
 
 
-def carry_out(edit: Edit, changes: Changes) -> None:
+def carry_out(edit: Edit, changes: Changes | None) -> None:
     """Put modifications into an edit.
 
     Parameters
@@ -61,15 +62,32 @@ def carry_out(edit: Edit, changes: Changes) -> None:
     if callable(changes):
         changes(edit)
         return
+    if not isinstance(changes, Sequence) or isinstance(changes, str | bytes):
+        what = f"the edits are {shown(changes)}"
+        raise WrongTypeError(what, "in an edit", 'give a function, or [{"op": "move", ...}, ...]')
     for number, change in enumerate(changes, start=1):
-        arguments = dict(change)
-        name = str(arguments.pop("op", ""))
-        if name not in (known := _operations(edit)):
-            raise UnknownNameError("modification", name, known)
-        try:
-            getattr(edit, name)(**arguments)
-        except TypeError as error:
-            raise BadInputError(str(error), f"in modification {number}", "mend it") from error
+        _modify(edit, change, f"in modification {number}")
+
+
+def _modify(edit: Edit, change: object, where: str) -> None:
+    """Put one modification into an edit: a method and its arguments by name."""
+    if not isinstance(change, Mapping) or not all(isinstance(key, str) for key in change):
+        raise WrongTypeError(f"it is {shown(change)}", where, 'give {"op": "move", "point": ...}')
+    arguments = dict(change)
+    name, known = arguments.pop("op", ""), _operations(edit)
+    if not isinstance(name, str) or name not in known:
+        raise UnknownNameError("modification", shown_name(name), known)
+    method = getattr(edit, name)
+    takes = inspect.signature(method)
+    for given in arguments:
+        if given not in takes.parameters:
+            remedy = f"it takes {', '.join(takes.parameters)}"
+            raise BadInputError(f"{name} takes no {given!r}", where, remedy)
+    try:
+        takes.bind(**arguments)
+    except TypeError as error:
+        raise BadInputError(f"{name}: {error}", where, "add it") from error
+    method(**arguments)
 
 
 def _operations(edit: Edit) -> tuple[str, ...]:

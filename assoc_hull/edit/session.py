@@ -18,23 +18,25 @@ from assoc_hull.edit import ends as _ends
 from assoc_hull.edit import lines as _lines
 from assoc_hull.edit import points as _points
 from assoc_hull.edit import pull as _pull
+from assoc_hull.edit import rename as _rename
 from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
-from assoc_hull.edit.arguments import number
+from assoc_hull.edit.arguments import flag, number, shown, shown_name
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
-from assoc_hull.model.address import resolve
-from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
+from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
+from assoc_hull.model.address import Place, resolve
+from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, place_of
 from assoc_hull.model.state import HullState
 
 __all__ = ["Edit"]
 
 _USE = "use it in a with statement"
+_HANDLE = "give a handle or an address"
 
 
 class Edit:
@@ -116,7 +118,11 @@ class Edit:
         """
         asked = {"x": x, "y": y, "z": z}
         row, _ = self._point(point)
-        given = {axis: number(value, axis) for axis, value in asked.items() if value is not None}
+        given = {
+            axis: number(value, axis, "in move")
+            for axis, value in asked.items()
+            if value is not None
+        }
         _points.move(self._transaction, row, given)
 
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
@@ -153,7 +159,10 @@ class Edit:
     ) -> None:
         """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
         row, _ = self._point(point)
-        _pull.pull(self._transaction, row, number(d, "d"), radius, across_flats=across_flats)
+        flag(across_flats, "across_flats", "in pull")
+        _pull.pull(
+            self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats
+        )
 
     def reshape(
         self,
@@ -168,6 +177,7 @@ class Edit:
 
         Returns the placed points that were made.
         """
+        flag(across_flats, "across_flats", "in reshape")
         made = _reshape.reshape(
             self._transaction, self._curve(curve), points, span, fade, across_flats=across_flats
         )
@@ -188,49 +198,99 @@ class Edit:
 
     def set_role(self, crossing: Point | Crossing | str, role: str | None) -> None:
         """Override what a crossing defines; None gives it back to the rule."""
-        row = crossing.row if isinstance(crossing, Crossing) else self._point(crossing)[0]
+        if isinstance(crossing, Crossing):
+            row = self._place(crossing).row
+        else:
+            row, _ = self._point(crossing)
         _set_role.set_role(self._transaction, row, role)
 
     def renew_roles(self, lines: Sequence[Line | str]) -> int:
         """Apply the role rule again to all crossings of lines; gives how many changed."""
         if isinstance(lines, (str, Line)) or not isinstance(lines, Sequence):
-            raise BadInputError(f"the lines {lines!r}", "in renew_roles", "give a list of lines")
+            what = f"the lines are {shown(lines)}"
+            raise WrongTypeError(what, "in renew_roles", "give a list of lines")
         return _renew.renew_roles(self._transaction, [self._line(line) for line in lines])
 
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
         """Declare that a generates points on b, and b on a if two-way."""
-        names = [each.name if isinstance(each, Group) else each for each in (a, b)]
-        _associate.associate(self._transaction, names[0], names[1], two_way=two_way)
+        first, second = self._group(a), self._group(b)
+        _associate.associate(self._transaction, first, second, two_way=two_way)
 
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
-        names = [each.name if isinstance(each, Group) else each for each in (a, b)]
-        _associate.dissociate(self._transaction, names[0], names[1])
+        _associate.dissociate(self._transaction, self._group(a), self._group(b))
 
-    def rename(self, line: Line | str, name: str) -> None:
-        """Give a line another name."""
-        _lines.rename_line(self._transaction, self._line(line), name)
+    def rename(self, obj: object, name: str) -> None:
+        """Give a line, a point or the hull itself another name; keys stay.
 
-    def add_line(self, group: Group | str, position: float, name: str | None = None) -> Line:
-        """Cut a new line at a position (m) along its family's axis."""
-        title = group.name if isinstance(group, Group) else group
-        line = _cut.add_line(self._transaction, title, number(position, "position"), name)
+        Parameters
+        ----------
+        obj : Line, Point, Crossing, Curve, address, or the hull
+            A curve is renamed with its line, whose only one it must be. Groups keep their
+            names.
+        name : str
+            The name.
+        """
+        if getattr(obj, "document", None) is self._held.document:
+            _rename.rename_hull(self._transaction, name)
+            return
+        _rename.rename(self._transaction, self._place(obj), name)
+
+    def _place(self, thing: object) -> Place:
+        """Find what a handle or an address leads to."""
+        if isinstance(thing, str):
+            return resolve(self._tables, thing)
+        if isinstance(thing, Group | Line | Curve | Point | Crossing):
+            self._check_own(thing)
+            return place_of(thing)
+        raise WrongTypeError(f"the object is {shown(thing)}", "in an edit", _HANDLE)
+
+    def add_line(
+        self, group: Group | str, position: float | tuple[float, float], name: str | None = None
+    ) -> Line:
+        """Cut a new line at a position (m) along its family's axis.
+
+        A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
+        how many degrees it falls outward from the horizontal.
+        """
+        title = group if isinstance(group, str) else self._group(group)
+        line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 
     def shift_line(self, line: Line | str, position: float) -> None:
-        """Shift a line to another position (m); the hull keeps its shape."""
+        """Shift a line to another position (m); the hull keeps its shape.
+
+        A diagonal keeps its angle; its position is the height at the centre plane.
+        """
         _shift.shift_line(self._transaction, self._line(line), number(position, "position"))
 
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
         _lines.remove_line(self._transaction, self._line(line))
 
+    def _group(self, group: Group | str) -> str:
+        """Take the name of a group; lines are associated by their groups only."""
+        if isinstance(group, str) and group in self._tables.groups.name.data:
+            return group
+        try:
+            place = self._place(group)
+        except UnknownNameError:
+            return str(group)
+        name = str(self._tables.groups.name.data[place.group])
+        if place.line >= 0:
+            raise BadInputError(
+                f"{shown_name(getattr(group, 'name', group))!r} lies in the group {name!r}",
+                "in an edit",
+                f"associations run between whole groups, and lines join them; say {name!r}",
+            )
+        return name
+
     def _point(self, point: Point | str) -> tuple[int, int]:
         if isinstance(point, Point):
             self._check_own(point)
             return point.row, point.side
         if not isinstance(point, str):
-            raise BadInputError(f"the point {point!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the point is {shown(point)}", "in an edit", _HANDLE)
         found = resolve(self._tables, point)
         if found.row < 0:
             raise UnknownNameError("point", point)
@@ -241,7 +301,7 @@ class Edit:
             self._check_own(curve)
             return curve.row
         if not isinstance(curve, str):
-            raise BadInputError(f"the curve {curve!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the curve is {shown(curve)}", "in an edit", _HANDLE)
         found = resolve(self._tables, curve)
         if found.curve >= 0:
             return found.curve
@@ -257,12 +317,12 @@ class Edit:
             self._check_own(line)
             return line.row
         if not isinstance(line, str):
-            raise BadInputError(f"the line {line!r}", "in an edit", "give a handle or an address")
+            raise WrongTypeError(f"the line is {shown(line)}", "in an edit", _HANDLE)
         found = resolve(self._tables, line)
-        if found.line < 0:
+        if found.line < 0 or found.curve >= 0:
             raise UnknownNameError("line", line)
         return found.line
 
-    def _check_own(self, handle: Point | Curve | Line) -> None:
+    def _check_own(self, handle: Group | Line | Curve | Point | Crossing) -> None:
         if handle.tables is not self._tables:
             raise ForeignPointError(repr(handle))

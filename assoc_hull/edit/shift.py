@@ -10,10 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.edit.branches import track
-from assoc_hull.edit.cut import make_piece, new_plane, pieces_of
+from assoc_hull.edit.cut import make_piece, pieces_of
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.marks import find_marks, spread
 from assoc_hull.edit.pieces import match_pieces
+from assoc_hull.edit.planes import shifted_plane
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import unmeet
@@ -37,7 +38,8 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     line : int
         A line of a plane family.
     position : float, m
-        New place of its plane along the family's axis.
+        New place of its plane along the family's axis; of a diagonal, which keeps its angle,
+        the height at the centre plane.
 
     Raises
     ------
@@ -47,9 +49,9 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
         The new plane meets fewer than two places.
     """
     state = edit.state
-    group = state.groups.name.data[int(state.lines.group.data[line])]
-    number, normal = new_plane(state, group, position)
-    marks = find_marks(state, number, normal, position)
+    cut = shifted_plane(state, line, position)
+    position = cut.offset
+    marks = find_marks(state, cut.group, cut.normal, position)
     mine = np.array(state.lines.curves.data[line], np.int64)
     crossings, placed = _rows(state, mine)
     known = _followed(state, line, crossings, position)

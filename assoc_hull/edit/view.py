@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from assoc_hull.arguments import integer, shown
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain import Thing
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph import view as filters
 from assoc_hull.model.handles import Point, handle
 from assoc_hull.model.state import HullState
@@ -76,6 +77,11 @@ def _two_way(found: networkx.MultiDiGraph[str]) -> networkx.MultiDiGraph[str]:
 
 def _node(state: HullState, thing: Thing | str) -> str:
     found = handle(state, thing) if isinstance(thing, str) else thing
+    if not isinstance(found, Thing):
+        what = f"the object is {shown(found)}"
+        raise WrongTypeError(what, "in graph", "give a handle or an address")
+    if found.tables is not state:
+        raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
     return point_id(state, found.row, found.side) if isinstance(found, Point) else found.id
 
 
@@ -110,6 +116,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     assoc_hull.errors.BadInputError: edit 1 was asked, in a history of 0; give a number from 1
     """
     count = len(document.history)
+    integer(number, "edit", "in graph", least=-(10**6))
     if not (1 <= number <= count or -count <= number <= -1):
         raise BadInputError(
             f"edit {number} was asked", f"in a history of {count}", "give a number from 1"

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from importlib.resources import files
 
+from assoc_hull.arguments import number
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.offsets import OffsetReport, OffsetTable, read_offsets
 
@@ -51,7 +52,7 @@ def todd_table(cb: float) -> tuple[OffsetTable, OffsetReport]:
     >>> round(float(todd_table(0.60)[0].half_breadth.max()), 3)
     8.128
     """
-    name = _FILES.get(cb)
+    name = _FILES.get(number(cb, "cb", "in series60"))
     if name is None:
         known = " and ".join(f"{value:.2f}" for value in _FILES)
         raise BadInputError(

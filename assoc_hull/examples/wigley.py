@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.arguments import integer, positive
 from assoc_hull.edit.adopt import adopt
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 
 __all__ = ["half_breadth", "wigley"]
+
+_MOST = 1000
+"""More stations or waterlines than this are a mistake."""
 
 _FREEBOARD = 0.5
 """Height of the wall-sided part above the design waterline, as a part of the draught."""
@@ -74,13 +77,10 @@ def wigley(
     BadInputError
         Dimensions that are not positive, fewer than 5 stations or 3 waterlines.
     """
-    if not min(length, breadth, draught) > 0.0 or stations < 5 or waterlines < 3:
-        raise BadInputError(
-            f"L {length:g}, B {breadth:g}, T {draught:g} m, {stations} stations, "
-            f"{waterlines} waterlines",
-            "in wigley",
-            "give positive dimensions, 5 stations and 3 waterlines or more",
-        )
+    for name, value in (("length", length), ("breadth", breadth), ("draught", draught)):
+        positive(value, name, "in wigley")
+    integer(stations, "stations", "in wigley", least=5, most=_MOST)
+    integer(waterlines, "waterlines", "in wigley", least=3, most=_MOST)
     hull = (length, breadth, draught)
     x, z = np.linspace(0.0, length, stations), np.linspace(0.0, draught, waterlines)
     sources = _boundaries(x, hull)

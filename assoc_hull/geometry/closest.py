@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.polynomials import differentiate, horner, unit_roots
+from assoc_hull.geometry.polynomials import differentiate, horner
+from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import bernstein, power
 
 __all__ = ["closest"]

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.bernstein import Heights, heights
 from assoc_hull.geometry.crossing import Meetings
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.evaluation import positions, segments
+from assoc_hull.geometry.evaluation import positions
 from assoc_hull.geometry.monotone import CONTACT, checked_planes, nodes_of, planes_containing
+from assoc_hull.geometry.segments import segment_start
 from assoc_hull.geometry.tridiagonal import slots_of
 
 __all__ = ["lies_in", "touches"]
@@ -62,7 +63,7 @@ def lies_in(
     array([], dtype=int64)
     """
     normal, offsets = checked_planes(normal, np.array([offset]))
-    segment = segments(batch)
+    segment = segment_start(batch)
     first, behind = planes_containing(heights(batch, normal), offsets, segment)
     lying = segment[first < behind]
     curve = slots_of(batch.start).curve[lying]
@@ -127,7 +128,7 @@ def _nodes(
     batch: SplineBatch, course: Heights
 ) -> tuple[IntArray, FloatArray, FloatArray, IntArray]:
     """Give all knots and stationary places in order: segment, fraction, height, curve."""
-    segment = segments(batch)
+    segment = segment_start(batch)
     fraction, height = nodes_of(course, segment)
     slots = slots_of(batch.start)
     keep = np.ones(fraction.shape, np.bool_)

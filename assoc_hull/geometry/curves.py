@@ -18,11 +18,13 @@ import itertools
 from collections.abc import Iterator, Sequence
 from enum import IntEnum
 from functools import lru_cache
-from typing import Self
+from typing import NoReturn, Self
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
+
+from assoc_hull.arguments import no_member
 
 __all__ = ["CurveData", "EndKind", "FloatArray", "IntArray", "PointKind", "SplineBatch", "freeze"]
 
@@ -36,6 +38,10 @@ class PointKind(IntEnum):
     SMOOTH = 0
     TANGENT = 1
     KNUCKLE = 2
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise no_member(cls, value)
 
 
 class EndKind(IntEnum):

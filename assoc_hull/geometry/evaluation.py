@@ -1,4 +1,4 @@
-"""Points, derivatives, polylines and Bezier points of cubic composite splines.
+"""Points, derivatives and polylines of cubic composite splines.
 
 Examples
 --------
@@ -18,38 +18,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.tridiagonal import slots_of
+from assoc_hull.geometry.segments import on_knots, segment_start
 
-__all__ = ["control_points", "derivative", "evaluate", "positions", "sample", "segments"]
-
-_SLACK = 1e-9
-"""A parameter may lie this far (m) outside its curve and is then taken as the end."""
-
-
-def segments(batch: SplineBatch) -> IntArray:
-    """Give the knot index where each segment starts.
-
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-
-    Returns
-    -------
-    (s,) int
-        Ascending; frozen.
-
-    Examples
-    --------
-    >>> from assoc_hull.geometry.spline import loft
-    >>> from assoc_hull.geometry.curves import CurveData
-    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])))
-    >>> segments(SplineBatch.join([line, line]))
-    array([0, 1, 3, 4])
-    """
-    result: IntArray = np.flatnonzero(~slots_of(batch.start).is_last)
-    freeze(result)
-    return result
+__all__ = ["derivative", "evaluate", "positions", "sample"]
 
 
 def positions(batch: SplineBatch, segment: IntArray, fraction: FloatArray) -> FloatArray:
@@ -151,7 +122,7 @@ def evaluate(batch: SplineBatch, curve: IntArray, t: FloatArray) -> FloatArray:
     array([[0.5, 0. , 0. ],
            [2. , 0. , 0. ]])
     """
-    segment, fraction, _ = _locate(batch, curve, t)
+    segment, fraction, _ = on_knots(batch, curve, t)
     result = positions(batch, segment, fraction).T
     freeze(result)
     return result
@@ -202,7 +173,7 @@ def derivative(
     """
     if order not in (1, 2, 3):
         raise BadInputError(f"order {order} was asked", "in derivative", "ask for 1, 2 or 3")
-    segment, fraction, length = _locate(batch, curve, t, guess)
+    segment, fraction, length = on_knots(batch, curve, t, guess)
     _, first, second, third = _powers(batch, segment)
     if order == 1:
         value = first + fraction * (2.0 * second + fraction * (3.0 * third))
@@ -214,65 +185,6 @@ def derivative(
         value /= length
     result: FloatArray = value.T
     freeze(result)
-    return result
-
-
-def _locate(
-    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
-) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Find segment, fraction and segment length; the search is exact in the knots' bits."""
-    curve = np.asarray(curve, np.int64).ravel()
-    t = np.asarray(t, np.float64).ravel()
-    if len(curve) and (int(curve.min()) < 0 or int(curve.max()) >= batch.count):
-        raise BadInputError(
-            f"curve {int(curve.max())} or {int(curve.min())} was asked",
-            f"in a batch of {batch.count} curves",
-            "count from 0",
-        )
-    low, high = batch.start.take(curve), batch.start.take(curve + 1) - 1
-    t = _inside(t, batch.knot.take(high))
-    high -= 1
-    low = _search(batch, low, high, t) if guess is None else _guessed(batch, low, high, t, guess)
-    begin, end = batch.knot.take(low), batch.knot.take(low + 1)
-    length = end - begin
-    fraction = np.where(t == end, 1.0, (t - begin) / length)
-    return low, fraction, length
-
-
-def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
-    """Find the last knot not above each parameter, between given ones."""
-    while (high > low).any():
-        middle = (low + high + 1) // 2
-        reached = batch.knot[middle] <= t
-        low = np.where(reached, middle, low)
-        high = np.where(reached, high, middle - 1)
-    return low
-
-
-def _guessed(
-    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: NDArray[np.integer]
-) -> IntArray:
-    """Take what was guessed right, or one too low, and search the rest."""
-    found = np.minimum(np.maximum(low + guess, low), high)
-    found += (batch.knot.take(found + 1) <= t) & (found < high)
-    wrong = batch.knot.take(found) > t
-    wrong |= (batch.knot.take(found + 1) <= t) & (found < high)
-    rest = np.flatnonzero(wrong)
-    if len(rest):
-        found[rest] = _search(batch, low[rest], high[rest], t[rest])
-    return found
-
-
-def _inside(t: FloatArray, end: FloatArray) -> FloatArray:
-    outside = ~((t >= -_SLACK) & (t <= end + _SLACK))
-    if outside.any():
-        worst = int(np.flatnonzero(outside)[0])
-        raise BadInputError(
-            f"parameter {t[worst]} lies outside 0 to {end[worst]} m",
-            f"at place {worst} of the parameters",
-            "ask within the curve",
-        )
-    result: FloatArray = np.clip(t, 0.0, end)
     return result
 
 
@@ -308,7 +220,7 @@ def sample(batch: SplineBatch, per_segment: int = 8) -> tuple[IntArray, FloatArr
     """
     if per_segment < 1:
         raise BadInputError(f"{per_segment} chords were asked", "in sample", "ask for 1 or more")
-    begins = segments(batch)
+    begins = segment_start(batch)
     fraction = np.tile(np.arange(per_segment) / per_segment, len(begins))
     inner = positions(batch, np.repeat(begins, per_segment), fraction)
     counts = np.diff(batch.start)
@@ -322,38 +234,3 @@ def sample(batch: SplineBatch, per_segment: int = 8) -> tuple[IntArray, FloatArr
     result = xyz.T
     freeze(start, result)
     return start, result
-
-
-def control_points(batch: SplineBatch) -> tuple[IntArray, FloatArray]:
-    """Give the Bezier points of every segment.
-
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-
-    Returns
-    -------
-    segment : (s,) int
-        Knot index where each segment starts.
-    points : (s, 4, 3), m
-        Its Bezier points; both frozen.
-
-    Examples
-    --------
-    >>> from assoc_hull.geometry.spline import loft
-    >>> from assoc_hull.geometry.curves import CurveData
-    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 0, 0]])))
-    >>> control_points(line)[1][0, :, 0]
-    array([0., 1., 2., 3.])
-    """
-    segment = segments(batch)
-    after = segment + 1
-    third = ((batch.knot[after] - batch.knot[segment]) / 3.0)[:, None]
-    points = np.empty((len(segment), 4, 3))
-    points[:, 0] = batch.xyz[segment]
-    points[:, 1] = points[:, 0] + third * batch.leave[segment]
-    points[:, 3] = batch.xyz[after]
-    points[:, 2] = points[:, 3] - third * batch.arrive[after]
-    freeze(points)
-    return segment, points

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curvature import plane_curvature, space_curvature
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.polynomials import differentiate, horner, quadratic_roots
+from assoc_hull.geometry.polynomials import differentiate, horner
+from assoc_hull.geometry.roots import quadratic_roots
 from assoc_hull.geometry.segments import power, segment_curve, segment_start
 from assoc_hull.geometry.vectors import check_normals, dot
 

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.polynomials import differentiate, horner, unit_roots
+from assoc_hull.geometry.polynomials import differentiate, horner
+from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import bernstein, power, segment_curve, sum_per_curve
 
 __all__ = ["AreaMoments", "integrate_stations", "line_integral", "plane_integrals", "section_area"]

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.polynomials import differentiate, unit_roots
+from assoc_hull.geometry.polynomials import differentiate
+from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import locate, power, segment_curve, sum_per_curve
 from assoc_hull.geometry.vectors import dot
 

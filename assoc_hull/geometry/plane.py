@@ -9,15 +9,17 @@ Examples
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, Self
 
 import attrs
 import numpy as np
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import choice, number, shown
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["AXES", "Axis", "Plane", "unit_normal"]
+__all__ = ["AXES", "Axis", "Plane", "as_plane", "unit_normal"]
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, Axis, Axis] = ("x", "y", "z")
@@ -49,16 +51,23 @@ def unit_normal(normal: FloatArray) -> FloatArray:
     >>> unit_normal(np.array([0.0, 0.6, 0.8]))
     array([0. , 0.6, 0.8])
     """
-    vector = np.array(normal, np.float64)
+    try:
+        vector = np.array(normal, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        vector = np.zeros(0)
     square = sum(part * part for part in vector.tolist()) if vector.shape == (3,) else np.nan
     if not abs(square - 1.0) <= 2 * _UNIT_SLACK:
         raise BadInputError(
-            f"normal {vector.tolist()} is not a unit vector of three numbers",
+            f"normal {shown(normal)} is not a unit vector of three numbers",
             "in a plane",
             "divide it by its length",
         )
     freeze(vector)
     return vector
+
+
+def _offset(value: object) -> float:
+    return number(value, "the offset", "in a plane")
 
 
 @attrs.frozen(eq=False)
@@ -79,7 +88,7 @@ class Plane:
     """
 
     normal: FloatArray = attrs.field(converter=unit_normal)
-    offset: float = attrs.field(converter=float)
+    offset: float = attrs.field(converter=_offset)
 
     @classmethod
     def across(cls, axis: Axis, offset: float) -> Self:
@@ -107,8 +116,7 @@ class Plane:
         >>> Plane.across("x", 3.0).normal
         array([1., 0., 0.])
         """
-        if axis not in AXES:
-            raise BadInputError(f"axis {axis!r} was asked", "in a plane", "ask for x, y or z")
+        choice(axis, "the axis", AXES, "in a plane")
         return cls(np.eye(3)[AXES.index(axis)], offset)
 
     @property
@@ -140,3 +148,30 @@ class Plane:
         products = xyz * self.normal
         result: FloatArray = products[..., 0] + products[..., 1] + products[..., 2] - self.offset
         return result
+
+
+def as_plane(value: object) -> Plane:
+    """Take a plane, or its normal and offset.
+
+    Parameters
+    ----------
+    value : Plane, or (normal (3,) of unit length, offset m)
+        The plane.
+
+    Raises
+    ------
+    BadInputError
+        Neither.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.plane import as_plane
+    >>> as_plane(((0, 0, 1), 7.0)).offset
+    7.0
+    """
+    if isinstance(value, Plane):
+        return value
+    if not isinstance(value, Sequence) or isinstance(value, str | bytes) or len(value) != 2:
+        remedy = "give a Plane, or its unit normal and offset in m"
+        raise WrongTypeError(f"the plane is {shown(value)}", "in a plane", remedy)
+    return Plane(value[0], value[1])

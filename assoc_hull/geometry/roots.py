@@ -1,4 +1,8 @@
-"""Roots of many cubics at once, each with the same bits as when found alone.
+"""Roots of many polynomials at once, each with the same bits as when found alone.
+
+Two finders: `bracketed_roots` for cubics whose one root is bracketed, in steps that compiled
+code repeats bit by bit (meetings of curves and planes); `unit_roots` for all sign changes of
+polynomials of any degree in [0, 1] (lengths, integrals, closest points).
 
 Examples
 --------
@@ -12,11 +16,24 @@ array([0.5])
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.bernstein import value
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.polynomials import differentiate, horner
 
-__all__ = ["FLOOR", "MOST_TRIALS", "RELATIVE", "STEPS", "bracketed_roots"]
+__all__ = [
+    "FLOOR",
+    "MOST_TRIALS",
+    "RELATIVE",
+    "STEPS",
+    "bracketed_roots",
+    "quadratic_roots",
+    "unit_roots",
+]
+
+_ROUNDING = 4e-16  # a step below this changes nothing in [0, 1]
+_HALVINGS = 80  # more than bisection alone needs
 
 STEPS = 3
 """From the secant, three steps of Halley's rule reach the last bits of nearly all roots."""
@@ -133,3 +150,105 @@ def _safe_roots(
         if not len(active):
             break
     return result
+
+
+def quadratic_roots(constant: FloatArray, linear: FloatArray, square: FloatArray) -> FloatArray:
+    """Give the real roots of ``constant + linear u + square u^2``.
+
+    Parameters
+    ----------
+    constant, linear, square : (p,)
+        The coefficients.
+
+    Returns
+    -------
+    (p, 2)
+        The roots in ascending order; nan where there are none, and infinite or nan where
+        the degree is less than two.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.roots import quadratic_roots
+    >>> quadratic_roots(np.array([2.0, 1.0]), np.array([-3.0, 0.0]), np.array([1.0, 1.0]))
+    array([[ 1.,  2.],
+           [nan, nan]])
+    """
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        discriminant = linear * linear - 4.0 * constant * square
+        # Adding numbers of one sign keeps the digits that the textbook formula loses.
+        larger = -0.5 * (linear + np.copysign(np.sqrt(discriminant), linear))
+        pair = np.stack([larger / square, constant / larger], axis=-1)
+    # 0 / 0 with a root at nil: both roots are nil there.
+    pair[..., 1] = np.where(larger == 0.0, pair[..., 0], pair[..., 1])
+    roots: FloatArray = np.sort(pair, axis=-1)
+    freeze(roots)
+    return roots
+
+
+def unit_roots(coefficients: FloatArray) -> FloatArray:
+    """Split [0, 1] so that each polynomial keeps its sign on every part.
+
+    Between neighbouring roots of its derivative a polynomial is monotone and has one root at
+    most, which bisection with Newton steps cannot miss. No coefficient is divided by, so a
+    polynomial of lower degree than its row is as good as any.
+
+    Parameters
+    ----------
+    coefficients : (p, d + 1), d >= 2
+        Ascending powers.
+
+    Returns
+    -------
+    (p, d)
+        Ascending parameters in [0, 1]: every root at which the sign changes, and harmless
+        repetitions or other places in the room that is left.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.roots import unit_roots
+    >>> cubic = np.array([[-0.09375, 0.6875, -1.5, 1.0]])  # (u - 1/4) (u - 1/2) (u - 3/4)
+    >>> [round(float(u), 12) for u in unit_roots(cubic)[0]]
+    [0.25, 0.5, 0.75]
+    """
+    count, degree = coefficients.shape[0], coefficients.shape[1] - 1
+    if degree == 2:
+        roots = quadratic_roots(coefficients[:, 0], coefficients[:, 1], coefficients[:, 2])
+        clipped = np.sort(np.clip(np.where(np.isnan(roots), 0.0, roots), 0.0, 1.0), axis=1)
+        freeze(clipped)
+        return clipped
+    inner = unit_roots(differentiate(coefficients))
+    edge = np.concatenate([np.zeros((count, 1)), inner, np.ones((count, 1))], axis=1)
+    negative = horner(coefficients, edge) < 0.0
+    row, column = np.nonzero(negative[:, :-1] != negative[:, 1:])
+    found = edge[:, :-1].copy()
+    found[row, column] = _bracketed(
+        coefficients[row], edge[row, column], edge[row, column + 1], negative[row, column]
+    )
+    freeze(found)
+    return found
+
+
+def _bracketed(
+    coefficients: FloatArray, low: FloatArray, high: FloatArray, rising: NDArray[np.bool_]
+) -> FloatArray:
+    """Find the one root in each bracket: Newton steps where they halve, else bisection."""
+    slopes = differentiate(coefficients)
+    at, last = 0.5 * (low + high), high - low
+    alive = np.ones(len(at), bool)
+    for _ in range(_HALVINGS):
+        if not alive.any():
+            break
+        height = horner(coefficients, at[:, None])[:, 0]
+        right = (height < 0.0) == rising
+        low, high = np.where(right, at, low), np.where(right, high, at)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            aim = at - height / horner(slopes, at[:, None])[:, 0]
+            good = (aim >= low) & (aim <= high) & (np.abs(aim - at) <= 0.5 * last)
+        aim = np.where(height == 0.0, at, np.where(good, aim, 0.5 * (low + high)))
+        last = np.abs(aim - at)
+        # A root that has settled stays: its last bit must not depend on the others.
+        at = np.where(alive, aim, at)
+        alive &= last > _ROUNDING
+    return at

@@ -8,7 +8,7 @@ for one curve is the same to the last bit whatever other curves are in the batch
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
@@ -16,6 +16,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 __all__ = [
     "bernstein",
     "locate",
+    "on_knots",
     "power",
     "segment_curve",
     "segment_start",
@@ -245,23 +246,100 @@ def locate(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> tuple[IntArray
     ([0, 1, 2], [0.25, 0.75, 0.25])
     """
     segment_start(batch)
-    which, at = _checked_places(batch, curve, t)
-    low, high = batch.start[which], batch.start[which + 1] - 1
-    at = np.clip(at, batch.knot[low], batch.knot[high])
-    while np.any(high - low > 1):
-        middle = (low + high) // 2
-        after = batch.knot[middle] <= at
-        low, high = np.where(after, middle, low), np.where(after, high, middle)
-    u = (at - batch.knot[low]) / (batch.knot[low + 1] - batch.knot[low])
-    segment = low - which
+    which, at = _checked_places(curve, t)
+    first, u, _ = on_knots(batch, which, at)
+    segment = first - which
     freeze(segment, u)
     return segment, u
 
 
-def _checked_places(
-    batch: SplineBatch, curve: ArrayLike, t: ArrayLike
-) -> tuple[IntArray, FloatArray]:
-    """Give curves and parameters as arrays of one shape, each parameter on its curve."""
+def on_knots(
+    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Find the segments on which parameters lie; the search is exact in the knots' bits.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    curve : (k,) int
+        The curve of each parameter.
+    t : (k,), m
+        Chord-length parameters.
+    guess : (k,) int or None
+        Where each segment is thought to be, as number of its first knot along its curve.
+
+    Returns
+    -------
+    first : (k,) int
+        The knot at which the segment begins.
+    u : (k,)
+        Parameters on the segments, from 0 to 1.
+    length : (k,), m
+        Of the segments, in the parameter.
+
+    Raises
+    ------
+    BadInputError
+        If a curve does not exist or a parameter lies outside its curve.
+    """
+    curve = np.asarray(curve, np.int64).ravel()
+    t = np.asarray(t, np.float64).ravel()
+    if len(curve) and (int(curve.min()) < 0 or int(curve.max()) >= batch.count):
+        raise BadInputError(
+            f"curve {int(curve.max())} or {int(curve.min())} was asked",
+            f"in a batch of {batch.count} curves",
+            "count from 0",
+        )
+    low, high = batch.start.take(curve), batch.start.take(curve + 1) - 1
+    t = _inside(t, batch.knot.take(high))
+    high -= 1
+    low = _search(batch, low, high, t) if guess is None else _guessed(batch, low, high, t, guess)
+    begin, end = batch.knot.take(low), batch.knot.take(low + 1)
+    length = end - begin
+    fraction = np.where(t == end, 1.0, (t - begin) / length)
+    return low, fraction, length
+
+
+def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
+    """Find the last knot not above each parameter, between given ones."""
+    while (high > low).any():
+        middle = (low + high + 1) // 2
+        reached = batch.knot[middle] <= t
+        low = np.where(reached, middle, low)
+        high = np.where(reached, high, middle - 1)
+    return low
+
+
+def _guessed(
+    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: NDArray[np.integer]
+) -> IntArray:
+    """Take what was guessed right, or one too low, and search the rest."""
+    found = np.minimum(np.maximum(low + guess, low), high)
+    found += (batch.knot.take(found + 1) <= t) & (found < high)
+    wrong = batch.knot.take(found) > t
+    wrong |= (batch.knot.take(found + 1) <= t) & (found < high)
+    rest = np.flatnonzero(wrong)
+    if len(rest):
+        found[rest] = _search(batch, low[rest], high[rest], t[rest])
+    return found
+
+
+def _inside(t: FloatArray, end: FloatArray) -> FloatArray:
+    outside = ~((t >= -_OVERSHOOT) & (t <= end + _OVERSHOOT))
+    if outside.any():
+        worst = int(np.flatnonzero(outside)[0])
+        raise BadInputError(
+            f"parameter {t[worst]} lies outside 0 to {end[worst]} m",
+            f"at place {worst} of the parameters",
+            "ask within the curve",
+        )
+    result: FloatArray = np.clip(t, 0.0, end)
+    return result
+
+
+def _checked_places(curve: ArrayLike, t: ArrayLike) -> tuple[IntArray, FloatArray]:
+    """Give curves and parameters as arrays of one shape."""
     which, at = np.asarray(curve), np.asarray(t, np.float64)
     if which.ndim != 1 or which.shape != at.shape:
         raise BadInputError(
@@ -275,20 +353,4 @@ def _checked_places(
             "where places on curves were asked",
             "give whole numbers from 0",
         )
-    if which.size and which.max() >= batch.count:
-        raise BadInputError(
-            f"curve {which.max()} of a batch of {batch.count}",
-            "where places on curves were asked",
-            f"give indices from 0 to {batch.count - 1}",
-        )
-    index = which.astype(np.int64)
-    end = batch.knot[batch.start[index + 1] - 1]
-    off = ~((at >= -_OVERSHOOT) & (at <= end + _OVERSHOOT))
-    if np.any(off):
-        worst = int(np.argmax(off))
-        raise BadInputError(
-            f"parameter {at[worst]:.6g} m lies off the curve, which ends at {end[worst]:.6g} m",
-            f"on curve {index[worst]} of the batch",
-            "give parameters from 0 to the last knot",
-        )
-    return index, at
+    return which.astype(np.int64), at

@@ -32,7 +32,7 @@ from assoc_hull.geometry.curves import (
     PointKind,
     SplineBatch,
 )
-from assoc_hull.geometry.evaluation import control_points, derivative, evaluate, sample
+from assoc_hull.geometry.evaluation import derivative, evaluate, sample
 from assoc_hull.geometry.tridiagonal import Slots, accumulate, slots_of, solve
 from assoc_hull.geometry.workspace import Workspace
 from assoc_hull.tolerance import Tolerances
@@ -40,7 +40,6 @@ from assoc_hull.tolerance import Tolerances
 __all__ = [
     "LEAST_COSINE",
     "NO_DIRECTION",
-    "control_points",
     "derivative",
     "evaluate",
     "loft",

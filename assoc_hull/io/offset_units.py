@@ -15,10 +15,9 @@ Examples
 
 from __future__ import annotations
 
-import math
-
 import attrs
 
+from assoc_hull.arguments import positive
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.offset_hints import Hints
 from assoc_hull.io.offset_report import Notebook
@@ -60,12 +59,8 @@ def check_argument(name: str, value: float | None) -> None:
     BadInputError
         The value is nil, negative, NaN or infinite.
     """
-    try:
-        good = value is None or (math.isfinite(value) and 0.0 < value < 1e7)
-    except TypeError:
-        good = False
-    if not good:
-        raise BadInputError(f"{name} is {value!r}", "the argument", f"give {name} in m, above 0")
+    if value is not None:
+        positive(value, name, "as an argument")
 
 
 def find_scale(

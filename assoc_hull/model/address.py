@@ -24,15 +24,16 @@ from functools import cached_property
 
 import attrs
 
+from assoc_hull.arguments import shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["AddressBook", "Place", "address", "resolve"]
 
-_OWN = re.compile(r"(.+) @ (placed|adopted) (\d+)")
-_BIRTH = re.compile(r"(.+?) #(\d+)")
-_PIECE = re.compile(r"(.+) \[(\d+)\]")
+_OWN = re.compile(r"(.+) @ (placed|adopted) (\d{1,9})")
+_BIRTH = re.compile(r"(.+?) #(\d{1,9})")
+_PIECE = re.compile(r"(.+) \[(\d{1,9})\]")
 
 
 @attrs.frozen
@@ -104,7 +105,7 @@ class AddressBook:
             for curve in state.live("curves").tolist()
         }
         for row in state.live("rows").tolist():
-            found[state.rows.key.data[row]] = self._row_place(row, self._usual_side(row))
+            found[state.rows.key.data[row]] = self._row_place(row, self.usual_side(row))
             label = state.rows.label.data[row]
             if label:
                 found.setdefault(label, found[state.rows.key.data[row]])
@@ -127,7 +128,7 @@ class AddressBook:
 
     def address(self, row: int, side: int | None = None) -> str:
         """Give the address of a point; see the function `address`."""
-        at = self._usual_side(row) if side is None else side
+        at = self.usual_side(row) if side is None else side
         short = self._short(row, at)
         if short is None:
             return str(self.state.rows.key.data[row])
@@ -135,9 +136,9 @@ class AddressBook:
 
     def resolve(self, text: str) -> Place:
         """Find what an address leads to; see the function `resolve`."""
-        found = self._lookup(text.strip())
+        found = self._lookup(word(text, "the address", "in a look-up").strip())
         if found is None:
-            raise UnknownNameError("object", text, tuple(self._known(text)))
+            raise UnknownNameError("object", shown_name(text), tuple(self._known(text)))
         return found
 
     def _lookup(self, text: str) -> Place | None:
@@ -262,7 +263,8 @@ class AddressBook:
             if table.sort.data[row] == sort and table.alive.data[row]
         ]
 
-    def _usual_side(self, row: int) -> int:
+    def usual_side(self, row: int) -> int:
+        """Give the side from which a point is named: the line of higher rank first."""
         return int(self.state.rows.curve.data[row, 1] >= 0)
 
     def _line_place(self, line: int) -> Place:

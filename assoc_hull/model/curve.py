@@ -13,6 +13,8 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import integer, numbers
+from assoc_hull.arguments import place as one_place
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curvature import curvature
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
@@ -128,34 +130,43 @@ class Curve(Handle):
 
     def at(self, t: ArrayLike) -> FloatArray:
         """Give the place at chord parameter t (m): (3,), or (k, 3) for k parameters."""
-        many = np.atleast_1d(np.asarray(t, np.float64))
-        return self._shaped(evaluate(self.spline, np.zeros(len(many), np.int64), many), t)
+        many, one = self._parameters(t)
+        return self._shaped(evaluate(self.spline, np.zeros(len(many), np.int64), many), one)
 
     def tangent(self, t: ArrayLike) -> FloatArray:
         """Give the unit tangent at chord parameter t (m): (3,) or (k, 3)."""
-        many = np.atleast_1d(np.asarray(t, np.float64))
-        return self._shaped(tangents(self.tables, np.full(len(many), self.row), many), t)
+        many, one = self._parameters(t)
+        return self._shaped(tangents(self.tables, np.full(len(many), self.row), many), one)
 
     def curvature(self, t: ArrayLike) -> FloatArray:
         """Give the curvature vector at chord parameter t (m), 1/m: (3,) or (k, 3)."""
-        many = np.atleast_1d(np.asarray(t, np.float64))
+        many, one = self._parameters(t)
         place = np.zeros(len(many), np.int64), many
-        return self._shaped(curvature(self.spline, at=place), t)
+        return self._shaped(curvature(self.spline, at=place), one)
+
+    def _parameters(self, t: object) -> tuple[FloatArray, bool]:
+        """Take parameters as an array, and tell whether it was but one."""
+        found = numbers(t, "t", f"on {self.name}")
+        return np.atleast_1d(found), found.ndim == 0
 
     @staticmethod
-    def _shaped(found: FloatArray, t: ArrayLike) -> FloatArray:
-        out: FloatArray = np.array(found if np.ndim(t) else found[0])
+    def _shaped(found: FloatArray, one: bool) -> FloatArray:
+        out: FloatArray = np.array(found[0] if one else found)
         freeze(out)
         return out
 
     def closest(self, p: ArrayLike) -> tuple[float, FloatArray, float]:
         """Give parameter, place (3,) and distance of the point closest to p (3,), m."""
-        t, xyz, distance = closest(self.spline, 0, np.asarray(p, np.float64)[None])
+        place = one_place(p, "p", f"in closest of {self.name}")
+        t, xyz, distance = closest(self.spline, 0, place[None])
         return float(t[0]), xyz[0], float(distance[0])
 
     def polyline(self, per_segment: int = 8) -> FloatArray:
         """Give places along the curve for drawing, (n, 3), m; frozen."""
-        return sample(self.spline, per_segment)[1]
+        where = f"in polyline of {self.name}"
+        return sample(self.spline, integer(per_segment, "per_segment", where, least=1, most=1000))[
+            1
+        ]
 
     @property
     def state(self) -> str:

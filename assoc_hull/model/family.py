@@ -13,8 +13,11 @@ Examples
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import NoReturn
 
 import attrs
+
+from assoc_hull.arguments import no_member
 
 __all__ = ["FAMILIES", "BoundaryKind", "Family", "Role", "Sort", "State"]
 
@@ -56,6 +59,10 @@ class BoundaryKind(IntEnum):
     FLAT = 1
     KNUCKLE = 2
 
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise no_member(cls, value)
+
 
 @attrs.frozen
 class Family:
@@ -86,7 +93,7 @@ FAMILIES = {
         Family("sections", "ST", 1, 0),
         Family("waterlines", "WL", 2, 2),
         Family("buttocks", "BTK", 3, 1),
-        Family("diagonals", "DIAG", 4, None),
+        Family("diagonals", "DIA", 4, None),
         Family("frames", "FR", 5, 0),
     )
 }

@@ -6,6 +6,7 @@ from typing import ClassVar, Self
 
 import attrs
 
+from assoc_hull.arguments import instance, integer, word
 from assoc_hull.errors import ForeignPointError
 from assoc_hull.model.state import HullState
 
@@ -31,10 +32,17 @@ class Handle:
     number: int
     id: str
 
+    def __attrs_post_init__(self) -> None:
+        instance(self.tables, HullState, "tables", "in a handle")
+        if not isinstance(self.number, int):
+            integer(self.number, "number", "in a handle", least=0)
+        word(self.id, "id", "in a handle")
+
     @classmethod
     def of(cls, tables: HullState, number: int) -> Self:
         """Give the handle on a row of the table."""
-        table = getattr(tables, cls._table)
+        table = getattr(instance(tables, HullState, "tables", "in a handle"), cls._table)
+        integer(number, "number", "in a handle", least=0, most=table.count - 1)
         column = table.name if cls._table == "groups" else table.key
         return cls(tables, int(number), column.data[int(number)])
 

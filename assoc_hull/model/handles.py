@@ -18,14 +18,14 @@ Examples
 
 from __future__ import annotations
 
-from assoc_hull.model.address import resolve
+from assoc_hull.model.address import Place, resolve
 from assoc_hull.model.curve import Curve, Touch
 from assoc_hull.model.handle import Handle
 from assoc_hull.model.line import Group, Line
 from assoc_hull.model.point import Crossing, Point
 from assoc_hull.model.state import HullState
 
-__all__ = ["Crossing", "Curve", "Group", "Handle", "Line", "Point", "Touch", "handle"]
+__all__ = ["Crossing", "Curve", "Group", "Handle", "Line", "Point", "Touch", "handle", "place_of"]
 
 
 def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
@@ -63,3 +63,30 @@ def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
     if place.line >= 0:
         return Line.of(state, place.line)
     return Group.of(state, place.group)
+
+
+def place_of(thing: Group | Line | Curve | Point | Crossing) -> Place:
+    """Give the numbers of what a handle stands for, as its address would.
+
+    Raises
+    ------
+    ForeignPointError
+        It has gone.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.model.handles import handle, place_of
+    >>> place_of(handle(wigley(), "sections"))
+    Place(group=1, line=-1, curve=-1, row=-1, side=-1)
+    """
+    number, state = thing.row, thing.tables
+    if isinstance(thing, Group):
+        return Place(number)
+    row = number if isinstance(thing, Point | Crossing) else -1
+    side = thing.side if isinstance(thing, Point) else 0
+    if isinstance(thing, Line):
+        return Place(int(state.lines.group.data[number]), number)
+    curve = number if row < 0 else int(state.rows.curve.data[row, side])
+    line = state.line_of(curve)
+    return Place(int(state.lines.group.data[line]), line, curve, row, side if row >= 0 else -1)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.plane import Plane
+from assoc_hull.geometry.plane import Plane, as_plane
 from assoc_hull.model.curve import Curve
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.handle import Handle
@@ -90,7 +90,7 @@ class Line(Handle):
         >>> Line.of(wigley(), 3).meet(((0, 0, 1), 7.0)).round(3).tolist()
         [[10.0, 1.8, 7.0]]
         """
-        cut = plane if isinstance(plane, Plane) else Plane(np.asarray(plane[0], float), plane[1])
+        cut = as_plane(plane)
         offsets = np.array([cut.offset])
         found = [meet_planes(curve.spline, cut.normal, offsets).xyz for curve in self.curves]
         out = np.concatenate([*found, np.zeros((0, 3))])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
+from assoc_hull.arguments import shown_name
 from assoc_hull.errors import UnknownNameError
 
 __all__ = ["Named"]
@@ -34,8 +35,8 @@ class Named(Mapping[str, Item]):
         self._items = dict(items)
 
     def __getitem__(self, name: str) -> Item:
-        if name not in self._items:
-            raise UnknownNameError(self._kind, str(name), tuple(self._items))
+        if name not in self:
+            raise UnknownNameError(self._kind, shown_name(name), tuple(self._items))
         return self._items[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -45,7 +46,7 @@ class Named(Mapping[str, Item]):
         return len(self._items)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._items
+        return isinstance(name, str) and name in self._items
 
     def __repr__(self) -> str:
         return f"<{len(self._items)} by name: {', '.join(list(self._items)[:4])}, ...>"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import ItemsView, Iterator, Mapping, ValuesView
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.handles import Point, handle
 from assoc_hull.model.state import HullState
@@ -34,6 +34,27 @@ class Points(Mapping[str, Point]):
         if isinstance(found, Point):
             return found
         raise BadInputError(f"{address!r} names no point", "in points", "ask hull.find for it")
+
+    def __contains__(self, address: object) -> bool:
+        try:
+            return isinstance(address, str) and bool(self[address])
+        except (BadInputError, UnknownNameError):
+            return False
+
+    def items(self) -> ItemsView[str, Point]:
+        """Give addresses with their points."""
+        return dict(self._all()).items()
+
+    def values(self) -> ValuesView[Point]:
+        """Give the points."""
+        return dict(self._all()).values()
+
+    def _all(self) -> Iterator[tuple[str, Point]]:
+        """Give all points by address from one book: a look-up each would make one each."""
+        book, keys = AddressBook(self._state), self._state.rows.key.data
+        for row in self._state.live("rows").tolist():
+            side = book.usual_side(row)
+            yield book.address(row, side), Point(self._state, row, keys[row], side)
 
     def __iter__(self) -> Iterator[str]:
         book = AddressBook(self._state)

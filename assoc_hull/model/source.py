@@ -9,8 +9,10 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import choice, flag, instance, places, positive, shown, text
 from assoc_hull.errors import BadInputError, TooFewPointsError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
+from assoc_hull.geometry.plane import as_plane
 from assoc_hull.model.family import FAMILIES, BoundaryKind
 from assoc_hull.model.state import Ends
 
@@ -94,35 +96,59 @@ class LineSource:
         >>> LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]]).offset
         1.0
         """
-        where = f"{group} {name!r}"
-        chosen = FAMILIES.get(family or group)
-        if chosen is None:
-            raise BadInputError(
-                f"the family {family or group!r} is unknown",
-                where,
-                f"use one of {', '.join(FAMILIES)}",
-            )
+        where = f"{text(group, 'group', 'of a line')} {text(name, 'name', 'of a line')!r}"
+        title = group if family is None else choice(family, "family", tuple(FAMILIES), where)
+        if title not in FAMILIES:
+            remedy = f"use one of {', '.join(FAMILIES)}"
+            raise BadInputError(f"the family {title!r} is unknown", where, remedy)
+        chosen = FAMILIES[title]
         xyz = _points(points, where)
         normal, offset = _plane(xyz, chosen.axis, plane, where)
-        kinds = np.zeros(len(xyz), np.int8) if kind is None else np.array(kind, np.int8)
-        given = np.zeros((len(xyz), 3)) if direction is None else np.array(direction, np.float64)
-        if kinds.shape != (len(xyz),) or given.shape != xyz.shape:
-            raise BadInputError(
-                f"{len(xyz)} points have {len(kinds)} kinds and {len(given)} directions",
-                where,
-                "give one of each per point",
-            )
+        kinds, given = _kinds(kind, len(xyz), where), _directions(direction, len(xyz), where)
+        if boundary is not None:
+            boundary = BoundaryKind(instance(boundary, int, "boundary", where))
         freeze(xyz, kinds, given)
         return cls(
             group, name, xyz, chosen.name, normal, offset, boundary, kinds, given,
-            ends or Ends(), placed, tolerance,
+            Ends() if ends is None else instance(ends, Ends, "ends", where),
+            flag(placed, "placed", where), positive(tolerance, "tolerance", where),
         )  # fmt: skip
+
+
+def _kinds(kind: ArrayLike | None, count: int, where: str) -> np.typing.NDArray[np.int8]:
+    """Take a `PointKind` per point; all smooth if None."""
+    if kind is None:
+        return np.zeros(count, np.int8)
+    try:
+        kinds = np.array(kind, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        kinds = np.full(1, np.nan)
+    if not np.isin(kinds, list(PointKind)).all():
+        known = ", ".join(f"{each.name.lower()} {each.value}" for each in PointKind)
+        raise BadInputError(f"kind is {shown(kind)}", where, f"give one of {known} per point")
+    _one_each(kinds, (count,), "kinds", where)
+    return kinds.astype(np.int8)
+
+
+def _directions(direction: ArrayLike | None, count: int, where: str) -> FloatArray:
+    """Take a direction per point; nil if None."""
+    if direction is None:
+        return np.zeros((count, 3))
+    given = places(direction, "direction", where)
+    _one_each(given, (count, 3), "directions", where)
+    return given
+
+
+def _one_each(given: FloatArray, shape: tuple[int, ...], what: str, where: str) -> None:
+    if given.shape != shape:
+        found = len(given) if given.ndim else 1
+        raise BadInputError(f"{shape[0]} points have {found} {what}", where, "give one per point")
 
 
 def _points(points: ArrayLike, where: str) -> FloatArray:
     try:
         xyz = np.array(points, np.float64) + 0.0
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise BadInputError("the points are not numbers", where, "give an (n, 3) array") from error
     if xyz.ndim != 2 or xyz.shape[1] != 3:
         raise BadInputError(f"the points have the shape {xyz.shape}", where, "give an (n, 3) array")
@@ -139,7 +165,8 @@ def _plane(
 ) -> tuple[FloatArray | None, float]:
     """Find or check the plane of a line."""
     if plane is not None:
-        normal, offset = np.array(plane[0], np.float64), float(plane[1])
+        given = as_plane(plane)
+        normal, offset = np.array(given.normal), given.offset
         off = float(np.abs(xyz @ normal - offset).max())
     elif axis is not None:
         normal = np.eye(3)[axis]

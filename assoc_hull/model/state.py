@@ -16,7 +16,9 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.arguments import checked, flag, integer, places, positive, shown, word
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Table
 from assoc_hull.model.family import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
@@ -38,30 +40,43 @@ class Particulars:
         Moulded; the draught is the design draught.
     """
 
-    name: str
-    length: float
-    breadth: float
-    depth: float
-    draught: float
+    name: str = attrs.field(validator=checked(word, "in the particulars"))
+    length: float = attrs.field(validator=checked(positive, "in the particulars"))
+    breadth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    depth: float = attrs.field(validator=checked(positive, "in the particulars"))
+    draught: float = attrs.field(validator=checked(positive, "in the particulars"))
 
 
 @attrs.frozen
 class Association:
     """Lines of group `a` generate points on those of group `b`, and back if `two_way`."""
 
-    a: str
-    b: str
-    two_way: bool = True
+    a: str = attrs.field(validator=checked(word, "in an association"))
+    b: str = attrs.field(validator=checked(word, "in an association"))
+    two_way: bool = attrs.field(default=True, validator=checked(flag, "in an association"))
+
+
+def _end_kinds(_: object, __: object, value: object) -> None:
+    if not isinstance(value, tuple) or len(value) != 2:
+        remedy = "give an EndKind for the start and one for the finish"
+        raise BadInputError(f"kind is {shown(value)}", "in Ends", remedy)
+    for each in value:
+        EndKind(integer(each, "kind", "in Ends", least=0, most=len(EndKind) - 1))
+
+
+def _two_places(value: object, name: str, where: str) -> None:
+    if not isinstance(value, tuple) or len(places(value, name, where)) != 2:
+        remedy = "give a vector for the start and one for the finish"
+        raise BadInputError(f"{name} is {shown(value)}", where, remedy)
 
 
 @attrs.frozen
 class Ends:
     """End conditions of a curve: an `EndKind` and a vector at the start and at the finish."""
 
-    kind: tuple[int, int] = (0, 0)
-    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = (
-        (0.0, 0.0, 0.0),
-        (0.0, 0.0, 0.0),
+    kind: tuple[int, int] = attrs.field(default=(0, 0), validator=_end_kinds)
+    vector: tuple[tuple[float, float, float], tuple[float, float, float]] = attrs.field(
+        default=((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), validator=checked(_two_places, "in Ends")
     )
 
 
@@ -92,6 +107,16 @@ class Meets:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.line, self.sign, self.row, self.parameter, self.xyz)
+
+    def take(self, chosen: IntArray | np.typing.NDArray[np.bool_]) -> Meets:
+        """Give some of the meetings, by index or mask, in that order."""
+        return Meets(
+            self.line[chosen],
+            self.sign[chosen],
+            self.row[chosen],
+            self.parameter[chosen],
+            self.xyz[chosen],
+        )
 
     @classmethod
     def none(cls) -> Meets:
@@ -174,6 +199,15 @@ def _lines() -> Table:
     )
 
 
+def _settings() -> Table:
+    return Table(
+        associations=(object, ()),
+        births=(object, None),
+        failed=(object, ()),
+        particulars=(object, None),
+    )
+
+
 @attrs.define(eq=False)
 class HullState:
     """The tables of one hull.
@@ -188,12 +222,13 @@ class HullState:
         The objects.
     settings : Table
         One row: the associations (`associations`) and how many crossings of each pair of
-        lines were ever born (`births`), so that a dead id never comes back.
+        lines were ever born (`births`), so that a dead id never comes back; the name may
+        change, so the particulars lie here too.
     revision_row, revision_curve : list of int
         Revisions; outside the journal, as they never run backward.
     """
 
-    particulars: Particulars
+    _given: Particulars = attrs.field(alias="particulars")
     tolerances: Tolerances = attrs.field(factory=Tolerances)
     rows: Any = attrs.field(factory=_rows)
     curves: Any = attrs.field(factory=_curves)
@@ -201,9 +236,7 @@ class HullState:
     groups: Any = attrs.field(
         factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
     )
-    settings: Any = attrs.field(
-        factory=lambda: Table(associations=(object, ()), births=(object, None), failed=(object, ()))
-    )
+    settings: Any = attrs.field(factory=_settings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
 
@@ -211,6 +244,13 @@ class HullState:
         if not self.settings.count:
             self.settings.resize(1)
             self.settings.births.data[0] = {}
+            self.settings.particulars.data[0] = self._given
+
+    @property
+    def particulars(self) -> Particulars:
+        """Name and principal dimensions, m."""
+        found: Particulars = self.settings.particulars.data[0]
+        return found
 
     @property
     def associations(self) -> tuple[Association, ...]:

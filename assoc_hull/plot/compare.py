@@ -182,7 +182,9 @@ def _arrow(views: Views, view: View, largest: LineMovement) -> None:
     tip = half.on_paper(np.array([largest.place]))[0]
     edge = half.across(float(views.high[1])) + half.sign * 19.0 * factor
     x, y, z = largest.place
-    words = f"{1e3 * largest.distance:.1f} mm\nat ({x:.3f}, {y:.3f}, {z:.3f}) m\n{largest.line}"
+    amount = f"{1e3 * largest.distance:.1f} mm"
+    # One coordinate a line: the words stand between the view and the frame of the sheet.
+    words = f"{amount}\n{largest.line}\nx {x:.3f} m\ny {y:.3f} m\nz {z:.3f} m"
     middle = 0.5 * float(views.low[2] + views.high[2])
     level = float(tip[1]) + (7.0 if z < middle else -7.0) * factor
     text = sheet.text(

@@ -17,6 +17,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ValueError,
         ["draught of -3 m", "argument draught", "give a depth above 0"],
     ),
+    (
+        errors.WrongTypeError("name is None", "in rename", "give text"),
+        TypeError,
+        ["name is None", "in rename", "give text"],
+    ),
     (errors.TooFewPointsError("curve 'WL 1'", 1), ValueError, ["curve 'WL 1'", "1", "two"]),
     (
         errors.CoincidentPointsError("curve 'ST 7'", (1.5, 2.25, 3.125), 2e-8, 1e-6),

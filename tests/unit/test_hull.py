@@ -10,6 +10,8 @@ import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
 from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.state import HullState
 
 POINT = "WL 2.5 x ST 7"
 
@@ -46,6 +48,27 @@ def test_objects_are_read_by_name(hull: ah.Hull) -> None:
         hull.points["WL 2.5 x ST 99"]
     with pytest.raises(BadInputError):
         hull.points["WL 2.5"]
+
+
+def test_points_are_listed_from_one_book(hull: ah.Hull, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Values and items cost one look at the names, not one a point, and agree with look-ups."""
+    made: list[AddressBook] = []
+    real = AddressBook.__init__
+
+    def counted(book: AddressBook, state: HullState) -> None:
+        made.append(book)
+        real(book, state)
+
+    monkeypatch.setattr(AddressBook, "__init__", counted)
+    items = dict(hull.points.items())
+    assert list(items.values()) == list(hull.points.values())
+    assert len(made) == 2
+    assert list(items) == list(hull.points)
+    assert all(hull.points[address] == point for address, point in list(items.items())[::37])
+    assert POINT in hull.points
+    assert "WL 2.5" not in hull.points
+    number: object = 3
+    assert number not in hull.points
 
 
 def test_a_hull_is_built_of_lines() -> None:

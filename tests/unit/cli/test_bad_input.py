@@ -48,6 +48,7 @@ def error_of(arguments: list[object], capsys: pytest.CaptureFixture[str], code: 
         (["plot", "a.hull.json", "-o", "none/lines.pdf"], "there is no folder none"),
         (["plot", "none.hull.json", "-o", "lines.pdf"], "No such file"),
         (["verify", "a.hull.json", "--relative", "much"], "'much'"),
+        (["verify", "none.hull.json", "--relative", "-1"], "none.hull.json"),
     ],
 )
 def test_wrong_arguments(
@@ -128,7 +129,7 @@ def test_a_changed_hull_file_is_found(hull: Path, capsys: pytest.CaptureFixture[
             [{"op": "move", "point": "WL 2.5 x ST 7", "y": "wide"}], "'wide'", id="no number"
         ),
         pytest.param(
-            [{"op": "move", "point": 7, "y": 1}], "the point 7", id="point is a number"
+            [{"op": "move", "point": 7, "y": 1}], "the point is 7", id="point is a number"
         ),
         pytest.param([{"op": "move", "punkt": "WL 2.5"}], "punkt", id="unknown argument"),
         pytest.param(
@@ -146,8 +147,8 @@ def test_a_changed_hull_file_is_found(hull: Path, capsys: pytest.CaptureFixture[
         pytest.param(
             [{"op": "set_role", "crossing": "WL 2.5 x ST 7", "role": "boss"}], "boss", id="role"
         ),
-        pytest.param([{"op": "rename", "line": "WL 2.5", "name": "ST 7"},
-                      {"op": "rename", "line": "no", "name": "x"}], "modification 2", id="second"),
+        pytest.param([{"op": "rename", "obj": "WL 2.5", "name": "ST 7"},
+                      {"op": "rename", "obj": "no", "name": "x"}], "modification 2", id="second"),
     ],
 )  # fmt: skip
 def test_wrong_edits(

@@ -75,7 +75,7 @@ def test_several_modifications_are_one_edit(hull: Path, edits: Edits, facts: Jso
     """A pull, a pin and a new line."""
     changes = [
         {"op": "pull", "point": POINT, "d": 0.02, "radius": [15, 4]},
-        {"op": "rename", "line": "WL 2.5", "name": "middle"},
+        {"op": "rename", "obj": "WL 2.5", "name": "middle"},
     ]
     found = facts("edit", hull, edits(changes))
     assert len(found["report"]["relofted"]) > 2

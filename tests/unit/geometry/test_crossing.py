@@ -12,7 +12,8 @@ from assoc_hull.geometry.contact import lies_in, touches
 from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.plane import Plane
-from assoc_hull.geometry.spline import control_points, evaluate, loft
+from assoc_hull.geometry.segments import bernstein
+from assoc_hull.geometry.spline import evaluate, loft
 
 UP = np.array([0.0, 0.0, 1.0])
 SKEW = np.array([0.48, 0.6, 0.64])
@@ -58,7 +59,7 @@ def reference_roots(
 ) -> FloatArray:
     """The roots that scipy finds."""
     one = batch.curve(curve)
-    points = control_points(one)[1]
+    points = bernstein(one)
     b0, b1, b2, b3 = (points @ normal).T
     step = np.diff(one.knot)
     powers = [

@@ -9,7 +9,8 @@ from scipy.interpolate import CubicSpline
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import control_points, derivative, evaluate, loft, sample
+from assoc_hull.geometry.segments import bernstein, segment_start
+from assoc_hull.geometry.spline import derivative, evaluate, loft, sample
 
 WAVE = np.array([[0, 0, 0], [1, 0.8, 0.1], [2.5, 1, 0.3], [3, 0.2, 0.2], [4.4, -0.5, 0], [6, 0, 1]])
 GIVEN = (EndKind.TANGENT, EndKind.TANGENT)
@@ -35,7 +36,7 @@ def unit(vector: FloatArray) -> FloatArray:
 
 def second_derivatives(spline: SplineBatch, segment: int) -> tuple[FloatArray, FloatArray]:
     """Second derivative at the start and the end of a segment, from its Bezier points."""
-    index, points = control_points(spline)
+    index, points = segment_start(spline), bernstein(spline)
     one = points[int(np.flatnonzero(index == segment)[0])]
     scale = 6.0 / (spline.knot[segment + 1] - spline.knot[segment]) ** 2
     return scale * (one[0] - 2 * one[1] + one[2]), scale * (one[1] - 2 * one[2] + one[3])

@@ -12,9 +12,13 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull, examples
 from assoc_hull.plot import before_after, curvature_combs, neighbourhood, snapshot
 from assoc_hull.plot.drawing import Drawing, drawing
+from assoc_hull.plot.layout import MARGIN
 from assoc_hull.plot.links import links
 from assoc_hull.plot.movement import movements
+from assoc_hull.plot.paper import PAPERS, PaperName
+from assoc_hull.plot.rails import overlaps
 
+Boxes = Callable[[Figure], dict[str, FloatArray]]
 Lines = Callable[[Figure, str], list[FloatArray]]
 
 
@@ -60,7 +64,27 @@ def test_before_and_after_shows_what_moved(pulled: tuple[Hull, Drawing]) -> None
     assert "body/before/ST 15" not in ids(figure, "body/before/")
     assert ids(figure, "arrow/") == ["arrow/largest"]
     assert "half-breadth/moved/WL 2.5" in ids(figure, "half-breadth/moved/")
-    assert "20.0 mm\nat (35.000, " in words(figure)
+    assert "20.0 mm\nST 7\nx 35.000 m\ny " in words(figure)
+
+
+@pytest.mark.parametrize("paper", list(PAPERS))
+@pytest.mark.parametrize("station", ["ST 3", "ST 16"])
+def test_the_words_at_the_largest_movement_keep_within_the_frame(
+    station: str, paper: PaperName, boxes_of: Boxes
+) -> None:
+    """In the fore body and in the aft body, clear of the frame and of all other words."""
+    hull = examples.series60(0.70)
+    before = snapshot(hull)
+    with hull.edit("pull") as edit:
+        edit.pull(f"WL 0.5 x {station}", 0.05, (20.0, 4.0))
+    sheet, boxes = PAPERS[paper], boxes_of(before_after(before, hull, paper=paper))
+    (mine,) = (box for name, box in boxes.items() if name.startswith("label/largest"))
+    edge = (MARGIN + 1.5) * sheet.factor
+    assert (mine[:2] > edge).all()
+    assert mine[2] < sheet.width - edge
+    assert mine[3] < sheet.height - edge
+    others = [box for name, box in boxes.items() if not name.startswith("label/largest")]
+    assert not overlaps(mine, others)
 
 
 def test_nothing_moved_is_drawn_without_an_arrow(wigley: Hull) -> None:

@@ -1,0 +1,343 @@
+"""Checking what is handed in: numbers, places, flags, text. One error says which, and where.
+
+Every function takes the value, the name of the argument, and where it was given (``"in
+move"``, ``"at WL 1"``).
+
+Examples
+--------
+>>> from assoc_hull.arguments import integer
+>>> integer(3, "n", "in undo", least=0)
+3
+"""
+
+from __future__ import annotations
+
+import os
+import reprlib
+from collections.abc import Callable, Collection, Iterable
+from enum import Enum
+from typing import Any, TypeVar, cast
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError, WrongTypeError
+
+__all__ = [
+    "all_of",
+    "checked",
+    "choice",
+    "file_path",
+    "flag",
+    "instance",
+    "integer",
+    "no_member",
+    "not_negative",
+    "number",
+    "numbers",
+    "pair",
+    "place",
+    "places",
+    "positive",
+    "shown",
+    "shown_name",
+    "text",
+    "word",
+]
+
+Floats = np.typing.NDArray[np.float64]
+Kind = TypeVar("Kind")
+
+_LARGEST = 1e6
+"""No coordinate of a ship exceeds this (m); beyond, sums of squares lose all meaning."""
+
+_CALL = "in the call"
+_FAILS = (TypeError, ValueError, OverflowError)
+
+
+def shown(value: object) -> str:
+    """Give a value as it may stand in a message: in one line, and short.
+
+    Examples
+    --------
+    >>> from assoc_hull.arguments import shown
+    >>> shown(list(range(100)))
+    '[0, 1, 2, 3, 4, 5, ...]'
+    """
+    return " ".join(reprlib.repr(value).split())
+
+
+def shown_name(value: object) -> str:
+    """Give what was asked for as a name, short if it is none."""
+    return value if isinstance(value, str) and len(value) < 100 else shown(value)
+
+
+def _array(values: object) -> Floats:
+    """Give numbers as an array; one nan where they are none."""
+    try:
+        return np.array(values, np.float64)
+    except _FAILS:
+        return np.full(1, np.nan)
+
+
+def number(value: object, name: str, where: str = _CALL) -> float:
+    """Take a finite number of at most 1e6 m, or say which argument is none.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+
+    Examples
+    --------
+    >>> from assoc_hull.arguments import number
+    >>> number("3.5", "y")
+    3.5
+    """
+    try:
+        found = float(value) if np.ndim(value) == 0 else float("nan")  # type: ignore[arg-type]
+    except _FAILS:
+        found = float("nan")
+    if not abs(found) <= _LARGEST:
+        raise BadInputError(
+            f"{name} is {shown(value)}", where, f"give a finite number up to {_LARGEST:g} m"
+        )
+    return found
+
+
+def positive(value: object, name: str, where: str = _CALL) -> float:
+    """Take a finite number above 0.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    found = number(value, name, where)
+    if not found > 0.0:
+        raise BadInputError(f"{name} is {shown(value)}", where, "give a number above 0")
+    return found
+
+
+def not_negative(value: object, name: str, where: str = _CALL) -> float:
+    """Take a finite number of 0 or more.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    found = number(value, name, where)
+    if found < 0.0:
+        raise BadInputError(f"{name} is {shown(value)}", where, "give 0 or more")
+    return found
+
+
+def integer(value: object, name: str, where: str = _CALL, *, least: int, most: int = 10**6) -> int:
+    """Take a whole number within limits.
+
+    Raises
+    ------
+    BadInputError
+        Anything else; truth values too.
+    """
+    if not isinstance(value, int | np.integer) or isinstance(value, bool):
+        remedy = "give a whole number"
+        raise WrongTypeError(f"{name} is {shown(value)}", where, remedy)
+    if not least <= value <= most:
+        remedy = f"give a whole number from {least} to {most}"
+        raise BadInputError(f"{name} is {shown(value)}", where, remedy)
+    return int(value)
+
+
+def numbers(values: object, name: str, where: str = _CALL) -> Floats:
+    """Take one number or some, (k,): finite, of at most 1e6 m.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    found = _array(values)
+    if found.ndim > 1 or not (np.abs(found) <= _LARGEST).all():
+        raise BadInputError(
+            f"{name} is {shown(values)}",
+            where,
+            f"give one finite number up to {_LARGEST:g}, or a list of such",
+        )
+    return found
+
+
+def places(values: object, name: str, where: str = _CALL) -> Floats:
+    """Take places, (k, 3), m; one place may come without the leading axis.
+
+    Raises
+    ------
+    BadInputError
+        Another shape, no place at all, or a number that is not finite or too large.
+    """
+    found = np.atleast_2d(_array(values)) + 0.0
+    if found.ndim != 2 or found.shape[1:] != (3,) or not len(found):
+        raise BadInputError(f"{name} is no list of places", where, "give (x, y, z) each, m")
+    if not (np.abs(found) <= _LARGEST).all():
+        raise BadInputError(
+            f"{name} holds a number that is not finite or above {_LARGEST:g} m",
+            where,
+            "give metres",
+        )
+    return found
+
+
+def place(value: object, name: str, where: str = _CALL) -> Floats:
+    """Take one place, (3,), m; raises as `places`."""
+    found = places(value, name, where)
+    if len(found) != 1:
+        raise BadInputError(f"{name} holds {len(found)} places", where, "give one")
+    one: Floats = found[0]
+    return one
+
+
+def pair(values: object, name: str, where: str = _CALL, *, positive: bool) -> tuple[float, float]:
+    """Take two numbers: radii above 0, or a span whose second number is the larger.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+
+    Examples
+    --------
+    >>> from assoc_hull.arguments import pair
+    >>> pair([20, 8], "radius", positive=True)
+    (20.0, 8.0)
+    """
+    given = f"{name} is {shown(values)}"
+    found = _array(values)
+    if found.shape != (2,) or not (np.abs(found) <= _LARGEST).all():
+        raise BadInputError(given, where, "give two finite numbers, m")
+    first, second = found.tolist()
+    if positive and not (first > 0.0 and second > 0.0):
+        raise BadInputError(given, where, "give two radii above 0, m")
+    if not positive and not first < second:
+        raise BadInputError(given, where, "give (lower, upper), m")
+    return first, second
+
+
+def word(value: object, name: str, where: str = _CALL) -> str:
+    """Take text, or say which argument is none.
+
+    Raises
+    ------
+    WrongTypeError
+        Anything else.
+    """
+    if not isinstance(value, str):
+        raise WrongTypeError(f"{name} is {shown(value)}", where, "give text")
+    return value
+
+
+def text(value: object, name: str, where: str = _CALL) -> str:
+    """Take text that can be printed in one line and is not empty.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    found = word(value, name, where)
+    if not found.strip() or not found.isprintable():
+        remedy = "give printable text in one line"
+        raise BadInputError(f"{name} is {shown(value)}", where, remedy)
+    return found
+
+
+def choice(value: object, name: str, known: Collection[str], where: str = _CALL) -> str:
+    """Take one of some words.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    if not isinstance(value, str) or value not in known:
+        raise BadInputError(f"{name} is {shown(value)}", where, f"use {' or '.join(known)}")
+    return value
+
+
+def flag(value: object, name: str, where: str = _CALL) -> bool:
+    """Take a truth value.
+
+    Raises
+    ------
+    WrongTypeError
+        Anything else: what merely counts as true may be a mistake.
+    """
+    if not isinstance(value, bool | np.bool_):
+        raise WrongTypeError(f"{name} is {shown(value)}", where, "give True or False")
+    return bool(value)
+
+
+def instance(value: object, kind: type[Kind], name: str, where: str = _CALL) -> Kind:
+    """Take an object of a class.
+
+    Raises
+    ------
+    WrongTypeError
+        Anything else.
+    """
+    if not isinstance(value, kind):
+        raise WrongTypeError(f"{name} is {shown(value)}", where, f"give a {kind.__name__}")
+    return value
+
+
+def all_of(values: object, kind: type[Kind], name: str, where: str = _CALL) -> list[Kind]:
+    """Take some objects of a class, in any collection but a text.
+
+    Raises
+    ------
+    WrongTypeError
+        Anything else.
+    """
+    if not isinstance(values, Iterable) or isinstance(values, str | bytes):
+        remedy = f"give a list of {kind.__name__}"
+        raise WrongTypeError(f"{name} is {shown(values)}", where, remedy)
+    given = cast("Iterable[object]", values)
+    return [instance(each, kind, f"an item of {name}", where) for each in given]
+
+
+def file_path(value: object, where: str = _CALL) -> str:
+    """Take the name of a file.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    if not isinstance(value, str | os.PathLike):
+        raise WrongTypeError(f"the path is {shown(value)}", where, "give the name of a file")
+    found = os.fspath(value)
+    if not isinstance(found, str) or not found or "\0" in found:
+        raise BadInputError(f"the path is {shown(value)}", where, "give the name of a file")
+    return found
+
+
+def no_member(kind: type[Enum], value: object) -> BadInputError:
+    """Give the error for a value that no member of an enumeration has."""
+    known = " or ".join(f"{kind.__name__}.{each.name}" for each in kind)
+    return BadInputError(f"there is no {kind.__name__} {shown(value)}", _CALL, f"use {known}")
+
+
+def checked(check: Callable[[object, str, str], object], where: str) -> Callable[..., Any]:
+    """Give a check as a validator of an attrs field, which is named as the argument is.
+
+    Examples
+    --------
+    >>> import attrs
+    >>> from assoc_hull.arguments import checked, word
+    >>> name = attrs.field(validator=checked(word, "in a ship"))
+    """
+
+    def validator(_: object, field: attrs.Attribute[Any], value: object) -> None:
+        check(value, field.name, where)
+
+    return validator

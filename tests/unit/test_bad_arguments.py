@@ -1,0 +1,260 @@
+"""Whatever is handed to the public interface: an error of the family, or a result."""
+
+from __future__ import annotations
+
+import inspect
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.session import Edit
+from assoc_hull.hull import Examples
+
+POINT, LINE, CURVE = "WL 2.5 x ST 3", "WL 2.5", "ST 3"
+PLACE = (40.0, 3.0, 2.5)
+
+BAD: dict[str, Any] = {
+    "None": None,
+    "text": "a",
+    "text with an ending": "a.hull.json",
+    "nan": float("nan"),
+    "inf": float("inf"),
+    "minus one": -1,
+    "huge": 10**400,
+    "complex": 1j,
+    "bytes": b"a",
+    "empty list": [],
+    "list of a number": [1],
+    "list of text": ["move"],
+    "ragged list": [1, [2], 3],
+    "mapping": {},
+    "object": object(),
+    "class": type,
+    "flat array": np.zeros(4),
+    "deep array": np.zeros((2, 2, 2)),
+    "empty places": np.zeros((0, 3)),
+    "nan places": np.full((2, 3), np.nan),
+    "array of text": np.array(["a", "b"]),
+}
+
+Given = dict[str, Any]
+
+HULL: dict[str, Given] = {
+    "from_lines": {
+        "lines": [], "particulars": ah.Particulars("a", 1.0, 1.0, 1.0, 1.0),
+        "associations": [], "tolerances": None,
+    },
+    "edit": {"name": "a", "policy": "all_or_nothing", "gaps": "refuse"},
+    "preview": {"edits": [], "policy": "all_or_nothing", "gaps": "refuse"},
+    "apply": {"name": "a", "edits": []},
+    "undo": {"n": 0},
+    "redo": {"n": 0},
+    "find": {"address": POINT},
+    "why": {"thing": POINT},
+    "check": {"notes": False},
+    "verify": {"relative": 0.0},
+    "graph": {"around": POINT, "up": 1, "down": 1, "two_way": False, "edit": None},
+    "dependencies": {"points": False},
+    "half_breadth": {"x": 40.0, "z": 2.5},
+    "save": {"path": "no-such-folder/a.hull.json"},
+}  # fmt: skip
+EDIT: dict[str, Given] = {
+    "move": {"point": POINT, "x": None, "y": 3.0, "z": None},
+    "insert": {"curve": LINE, "place": PLACE},
+    "delete": {"point": POINT},
+    "set_kind": {"point": POINT, "kind": "tangent", "direction": (1.0, 0.0, 0.0)},
+    "pin": {"point": POINT},
+    "unpin": {"point": POINT},
+    "pull": {"point": POINT, "d": 0.01, "radius": (20.0, 5.0), "across_flats": False},
+    "reshape": {
+        "curve": LINE, "points": [PLACE], "span": (30.0, 60.0), "fade": "auto",
+        "across_flats": False,
+    },
+    "set_end": {"curve": LINE, "end": "start", "tangent": None, "curvature": None},
+    "set_role": {"crossing": POINT, "role": "drives a"},
+    "renew_roles": {"lines": [LINE]},
+    "associate": {"a": "sections", "b": "waterlines", "two_way": True},
+    "dissociate": {"a": "sections", "b": "waterlines"},
+    "rename": {"obj": LINE, "name": "low"},
+    "add_line": {"group": "waterlines", "position": 2.0, "name": "low"},
+    "shift_line": {"line": LINE, "position": 2.4},
+    "remove_line": {"line": LINE},
+}  # fmt: skip
+CURVES: dict[str, Given] = {
+    "at": {"t": 1.0},
+    "tangent": {"t": 1.0},
+    "curvature": {"t": 1.0},
+    "closest": {"p": PLACE},
+    "polyline": {"per_segment": 8},
+}
+LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
+MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
+    "open": (ah.open, {"path": "a"}),
+    "read": (ah.read, {"path": "a", "length": 1.0, "breadth": 1.0, "draught": 1.0}),
+    "wigley": (
+        ah.examples.wigley,
+        {"length": 90.0, "breadth": 9.0, "draught": 5.0, "stations": 9, "waterlines": 6},
+    ),
+    "series60": (ah.examples.series60, {"cb": 0.7}),
+    "Hull": (ah.Hull, {"state": None}),
+    "Plane": (ah.Plane, {"normal": (1.0, 0.0, 0.0), "offset": 1.0}),
+    "Plane.across": (ah.Plane.across, {"axis": "x", "offset": 1.0}),
+    "Association": (ah.Association, {"a": "a", "b": "b", "two_way": True}),
+    "Particulars": (
+        ah.Particulars, {"name": "a", "length": 9.0, "breadth": 2.0, "depth": 2.0, "draught": 1.0},
+    ),
+    "Ends": (ah.Ends, {"kind": (0, 0), "vector": ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))}),
+    "BoundaryKind": (ah.BoundaryKind, {"value": 0}),
+    "PointKind": (ah.PointKind, {"value": 0}),
+    "Tolerances": (
+        ah.Tolerances,
+        {field.name: field.default for field in attrs.fields(ah.Tolerances)},
+    ),
+    "LineSource.make": (
+        ah.LineSource.make,
+        {
+            "group": "waterlines", "name": "a", "points": [(0, 0, 1), (5, 2, 1), (9, 0, 1)],
+            "family": None, "plane": None, "boundary": None, "kind": None, "direction": None,
+            "ends": None, "placed": False, "tolerance": 0.005,
+        },
+    ),
+}  # fmt: skip
+
+
+def cases(table: dict[str, Given]) -> list[Any]:
+    """Every argument of every method, with everything bad in its place."""
+    return [
+        pytest.param(method, {**given, name: value}, id=f"{method}-{name}-{kind}")
+        for method, given in table.items()
+        for name in given
+        for kind, value in BAD.items()
+    ]
+
+
+@pytest.fixture(scope="module")
+def hull() -> ah.Hull:
+    """A small net; nothing here changes it for good."""
+    return ah.examples.wigley(stations=9, waterlines=6)
+
+
+def call(function: Callable[..., object], given: Given) -> bool:
+    """Call, and tell whether an error of the family was raised; no other error may be."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            function(**given)
+        except ah.AssocHullError as error:
+            check(error)
+            return True
+    return False
+
+
+def check(error: ah.AssocHullError) -> None:
+    """An error is a fitting builtin too, and says it in one line of a length to be read."""
+    assert isinstance(error, ValueError | TypeError | KeyError | RuntimeError)
+    assert "\n" not in str(error)
+    assert 10 < len(str(error)) < 400
+
+
+@pytest.mark.parametrize(("method", "given"), cases(HULL))
+def test_a_hull_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+    """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
+    refused = call(getattr(hull, method), given)
+    assert len(hull.history) == (method == "apply" and not refused)
+    if hull.history:
+        hull.undo()
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize(("method", "given"), cases(EDIT))
+def test_a_refused_modification_leaves_no_trace(hull: ah.Hull, method: str, given: Given) -> None:
+    """Caught inside the edit, which then goes on and ends: not a bit has changed."""
+    before, refused = hull.fingerprint, False
+    try:
+        with hull.edit("try") as edit:
+            refused = call(getattr(edit, method), given)
+    except ah.RefusedEditError as error:
+        assert not refused, "what was refused in the edit makes it fail at its end"
+        check(error)
+    if hull.history:
+        assert not refused or hull.fingerprint == before
+        hull.undo()
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize(("method", "given"), cases(CURVES))
+def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+    """Parameters and places that are none are refused."""
+    curve = hull.find(f"{CURVE} [1]")
+    call(getattr(curve, method), given)
+
+
+@pytest.mark.parametrize(("method", "given"), cases(LINES))
+def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+    """Planes that are none are refused."""
+    call(getattr(hull.lines[LINE], method), given)
+
+
+@pytest.mark.parametrize(
+    ("method", "given"), cases({name: given for name, (_, given) in MAKERS.items()})
+)
+def test_what_is_made_is_made_of_good_values(method: str, given: Given) -> None:
+    """Constructors and readers refuse what they cannot use."""
+    function = MAKERS[method][0]
+    if method in ("BoundaryKind", "PointKind"):
+        value = given["value"]
+        # An enumeration compares arrays before it asks its class what is missing.
+        call(lambda: function(value), {}) if not isinstance(value, np.ndarray) else None
+        return
+    call(function, given)
+
+
+@pytest.mark.parametrize("name", ["groups", "lines", "points", "crossings"])
+@pytest.mark.parametrize("value", BAD.values(), ids=BAD)
+def test_a_mapping_knows_no_such_name(hull: ah.Hull, name: str, value: Any) -> None:
+    """Whatever is asked for."""
+    assert call(lambda: getattr(hull, name)[value], {})
+    assert call(lambda: hull.groups["waterlines"].lines[value], {})
+
+
+@pytest.mark.parametrize("kind", [ah.Group, ah.Line, ah.Curve, ah.Point, ah.Crossing])
+@pytest.mark.parametrize("value", BAD.values(), ids=BAD)
+def test_a_handle_is_made_of_tables_and_a_number(hull: ah.Hull, kind: Any, value: object) -> None:
+    """What is no hull's tables, or no row of them, is refused."""
+    assert call(lambda: kind.of(value, 0), {})
+    assert call(lambda: kind.of(hull.state, value), {}) or isinstance(value, np.ndarray)
+
+
+@pytest.mark.parametrize(
+    ("kind", "table"),
+    [(ah.Hull, HULL), (Edit, EDIT), (ah.Curve, CURVES), (ah.Line, LINES)],
+    ids=["Hull", "Edit", "Curve", "Line"],
+)
+def test_every_public_method_is_tried(kind: type, table: dict[str, Given]) -> None:
+    """With all its arguments; the ways to make handles stand in a test of their own."""
+    public = {
+        name: set(inspect.signature(getattr(kind, name)).parameters) - {"self"}
+        for name in dir(kind)
+        if not name.startswith("_") and callable(getattr(kind, name)) and name != "of"
+    }
+    assert public == {name: set(given) for name, given in table.items()}
+
+
+def test_every_public_name_is_tried() -> None:
+    """What can be called stands in a table above; errors are for the package to raise."""
+    tried = {name.partition(".")[0] for name in MAKERS}
+    handles = {"Group", "Line", "Curve", "Point", "Crossing"}
+    public = {
+        name
+        for name in ah.__all__
+        if callable(getattr(ah, name))
+        and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
+    }
+    assert public == tried - {"wigley", "series60"} | handles
+    assert {"wigley", "series60"} == {name for name in dir(Examples) if name[0] != "_"}
