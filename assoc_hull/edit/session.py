@@ -22,8 +22,10 @@ from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
+from assoc_hull.edit import transform as _transform
 from assoc_hull.edit.arguments import number
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.mapping import Jacobian, Mapping, SpaceMap, affine
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.update import Settings
@@ -224,6 +226,93 @@ class Edit:
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
         _lines.remove_line(self._transaction, self._line(line))
+
+    def transform(
+        self,
+        mapping: Mapping | None = None,
+        drivers: Sequence[Group | Line | str] = (),
+        *,
+        scale: ArrayLike | None = None,
+        shift: ArrayLike | None = None,
+        planes: Literal["stay", "follow"] = "stay",
+        jacobian: Jacobian | None = None,
+        tolerance: float = 2e-3,
+    ) -> None:
+        """Carry driving groups or lines by a mapping of space; all other lines follow.
+
+        Parameters
+        ----------
+        mapping : callable or None
+            Takes places (n, 3), m, and gives where they come to; (0, y, z) stays at y = 0.
+        drivers : sequence of Group, Line or str
+            Whose images are taken exactly; their planes go along, and one that is bent out
+            of a plane becomes a space curve. Boundary curves are features of the hull and
+            no cuts of it: they are carried with the drivers, named or not.
+        scale, shift : (3,), (3,), m
+            Instead of a mapping: factors about the origin, then a shift.
+        planes : {"stay", "follow"}
+            Followers are cut again at their own planes, or at parallel ones where the
+            mapping sends their planes to such.
+        jacobian : callable or None
+            Gives d mapping_i / d x_j as (n, 3, 3); central differences over 1 mm if None.
+        tolerance : float, m
+            How far a driver may leave its exact image; adopted points hold it.
+
+        Raises
+        ------
+        BadInputError
+            No driver, a mapping that fails, folds, or moves the centre plane, a follower
+            that no driver defines or that would end on other boundary curves.
+        UnknownNameError
+            A driver that does not exist.
+
+        Notes
+        -----
+        It is an edit of its own: nothing else may stand in the same ``with`` block. The
+        particulars stay as they are.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("10 % broader") as edit:
+        ...     edit.transform(lambda p: p * [1, 1.1, 1], drivers=["sections", "profile"])
+        >>> hull.half_breadth(50.0, 6.25)
+        5.5
+        """
+        if (mapping is None) == (scale is None and shift is None):
+            raise BadInputError(
+                "neither or both of a mapping and factors", "in transform",
+                "give mapping, or scale and shift",
+            )  # fmt: skip
+        if mapping is None:
+            linear = affine(scale, shift)
+            space = SpaceMap(linear, linear.jacobian)
+        else:
+            space = SpaceMap(mapping, jacobian)
+        if planes not in ("stay", "follow"):
+            raise BadInputError(f"planes={planes!r}", "in transform", "use 'stay' or 'follow'")
+        _transform.transform(
+            self._transaction, space, self._driving(drivers), follow=planes == "follow",
+            tolerance=number(tolerance, "tolerance"),
+        )  # fmt: skip
+
+    def _driving(self, drivers: Sequence[Group | Line | str]) -> list[int]:
+        """Give the lines of groups and lines given as handles or names."""
+        if isinstance(drivers, (str, Group, Line)) or not isinstance(drivers, Sequence):
+            raise BadInputError(f"drivers={drivers!r}", "in transform", "give a list of names")
+        tables, found = self._tables, list[int]()
+        for each in drivers:
+            names = tables.groups.name.data
+            name = each.name if isinstance(each, Group) else each
+            if isinstance(name, str) and name in names:
+                live = tables.live("lines")
+                found += live[tables.lines.group.data[live] == names.index(name)].tolist()
+            elif not isinstance(each, Group):
+                found.append(self._line(each))
+            else:
+                raise ForeignPointError(repr(each))
+        return found
 
     def _point(self, point: Point | str) -> tuple[int, int]:
         if isinstance(point, Point):

@@ -90,6 +90,10 @@ class Pending:
         Curves that were made in this transaction.
     notes : list of str
         What was left alone, and why.
+    relink : set of int
+        Curves whose adopted points are linked to their neighbours anew after the main pass.
+    carried, cut_again : list of str
+        Keys of the lines that a mapping carried, and of those that followed it.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -103,6 +107,9 @@ class Pending:
     gone: list[str] = attrs.field(factory=list)
     fresh: list[int] = attrs.field(factory=list)
     notes: list[str] = attrs.field(factory=list)
+    relink: set[int] = attrs.field(factory=set)
+    carried: list[str] = attrs.field(factory=list)
+    cut_again: list[str] = attrs.field(factory=list)
 
 
 @attrs.define(eq=False)
@@ -203,6 +210,7 @@ def update(
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
             _settle(work)
+            _relink(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -294,6 +302,16 @@ def _settle(work: _Work) -> None:
         work.go(_NONE, curves)
 
 
+def _relink(work: _Work) -> None:
+    """Let adopted points that were carried ride from where they and their neighbours are now."""
+    held, curves = work.pending.held, np.array(sorted(work.pending.relink), np.int64)
+    curves = curves[work.state.curves.alive.data[curves]]
+    ride_links(work.state, curves, work.journal)
+    if len(curves):
+        work.renew()
+    held.clear()
+
+
 def _check(work: _Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
@@ -374,6 +392,8 @@ def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
         largest=_largest(state, changed, moved),
         largest_gap=0.0 if work.wide is None else work.wide.largest,
         notes=tuple(work.pending.notes),
+        carried=tuple(work.pending.carried),
+        cut_again=tuple(work.pending.cut_again),
         seconds=work.seconds,
         fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
     )
