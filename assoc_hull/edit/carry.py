@@ -19,6 +19,7 @@ from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
 from assoc_hull.geometry.spline import derivative
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import Sort
+from assoc_hull.model.make import Maker
 from assoc_hull.model.state import Ends, HullState
 
 __all__ = ["Carried", "Through", "carry_directions", "carry_ends", "carry_points", "through"]
@@ -47,12 +48,12 @@ class Through:
 
 @attrs.define(eq=False)
 class Carried:
-    """A transformation under way; nothing of it is written to the tables yet.
+    """A transformation under way; the tables hold the places of before.
 
     Attributes
     ----------
-    state : HullState
-        The tables.
+    maker : Maker
+        Writes structure.
     space : SpaceMap
         The mapping.
     planes : Planes
@@ -74,10 +75,12 @@ class Carried:
     gone : set of int
         Points that have no place any more.
     come : list of (int, (3,) array)
-        Lines with places at which a driver has come to meet their planes.
+        Followers with places at which a driver has come to meet their planes.
+    contacts : list of (int, int)
+        Followers with new crossings with boundary curves.
     """
 
-    state: HullState
+    maker: Maker
     space: SpaceMap
     planes: Planes
     driver: BoolArray
@@ -89,6 +92,28 @@ class Carried:
     made: dict[int, Through] = attrs.field(factory=dict)
     gone: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
+    contacts: list[tuple[int, int]] = attrs.field(factory=list)
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+        return self.maker.state
+
+    def add(self, place: FloatArray) -> None:
+        """Take in one more point, which has just been made, at its final place."""
+        self.image = np.concatenate([self.image, place[None]])
+        self.value = np.concatenate([self.value, place[None]])
+        self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
+        self.slid = np.append(self.slid, True)
+
+    def piece(self, line: int, place: FloatArray) -> int:
+        """Give the curve of a line whose carried points come nearest to a place."""
+        curves = self.state.lines.curves.data[line]
+        away = [
+            float(((self.image[self.state.curves.rows.data[curve]] - place) ** 2).sum(1).min())
+            for curve in curves
+        ]
+        return int(curves[int(np.argmin(away))])
 
     def drives(self, curve: int) -> bool:
         """Tell whether a curve belongs to a driving line."""
@@ -100,7 +125,7 @@ class Carried:
         return int(two if one == curve else one)
 
 
-def carry_points(state: HullState, space: SpaceMap, planes: Planes, driver: BoolArray) -> Carried:
+def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArray) -> Carried:
     """Map all points, and see which come to lie in the planes of their lines.
 
     Raises
@@ -108,6 +133,7 @@ def carry_points(state: HullState, space: SpaceMap, planes: Planes, driver: Bool
     BadInputError
         The mapping turns the hull inside out somewhere.
     """
+    state = maker.state
     live = state.live("rows")
     image = state.rows.xyz.data.copy()
     image[live] = space.places(state.rows.xyz.data[live])
@@ -128,7 +154,7 @@ def carry_points(state: HullState, space: SpaceMap, planes: Planes, driver: Bool
     crossing = table.sort.data == Sort.CROSSING
     known = np.where(crossing, direct, drives & direct)
     return Carried(
-        state, space, planes, driver, image, value, direct, known, np.zeros(table.count, bool)
+        maker, space, planes, driver, image, value, direct, known, np.zeros(table.count, bool)
     )
 
 

@@ -13,12 +13,13 @@ from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
 from assoc_hull.edit.image import Image, Roots, misfit
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.address import address
 from assoc_hull.model.align import align_roots
-from assoc_hull.model.family import BoundaryKind, Sort
+from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.index import Index
+from assoc_hull.model.make import CrossingSpec
 from assoc_hull.model.state import HullState, Meets
 
 __all__ = ["cut_drivers", "hold_images"]
@@ -113,7 +114,7 @@ def _match(
         if row >= 0:
             _lose(work, row)
     for other in np.setdiff1d(np.arange(len(new)), [other for _, other in pairs]).tolist():
-        _win(work, curve, line, roots.xyz[new[other]])
+        _win(work, curve, line, roots, int(new[other]))
 
 
 def _lose(work: Carried, row: int) -> None:
@@ -128,19 +129,51 @@ def _lose(work: Carried, row: int) -> None:
     work.gone.add(row)
 
 
-def _win(work: Carried, curve: int, line: int, place: FloatArray) -> None:
-    """Note a place at which a driver has come to meet a follower's plane."""
-    state = work.state
-    boundary = state.lines.boundary.data[state.line_of(curve)]
-    if boundary >= 0:
+def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+    """Note a place at which a driver has come to meet a follower's plane.
+
+    At the border of a flat and at a knuckle line the follower gets a contact.
+    """
+    state, place = work.state, roots.xyz[at]
+    boundary = int(state.lines.boundary.data[state.line_of(curve)])
+    if boundary == BoundaryKind.END:
         x, y, z = place.tolist()
         raise BadInputError(
-            f"{state.lines.name.data[line]} would come to meet "
+            f"{state.lines.name.data[line]} would come to end on "
             f"{state.lines.name.data[state.line_of(curve)]} at ({x:.3f}, {y:.3f}, {z:.3f}) m too",
             "in transform",
             "remove the line before and add it again, or let the planes of followers follow",
         )
-    work.come.append((line, place))
+    if boundary < 0:
+        work.come.append((line, place))
+    else:
+        _touch(work, curve, line, roots, at)
+
+
+def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+    """Make a contact of a follower with a boundary curve that has come to it."""
+    state, xyz = work.state, roots.xyz[at]
+    flat = state.lines.boundary.data[state.line_of(curve)] == BoundaryKind.FLAT
+    kind = PointKind.TANGENT if flat else PointKind.KNUCKLE
+    sign = int(roots.sign[at])
+    spec = CrossingSpec(
+        curve, work.piece(line, xyz), xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind
+    )
+    row = int(work.maker.crossings([spec])[0])
+    work.add(into_planes(state, work.planes, np.array([row]), xyz[None])[0])
+    work.contacts.append((line, row))
+    meets: Meets = state.curves.meets.data[curve]
+    before = np.flatnonzero(meets.line == line)
+    where = int(before[0]) if len(before) else len(meets.line)
+    where += int((meets.parameter[before] < roots.t[at]).sum())
+    work.maker.journal.set(
+        state.curves.meets, [curve],
+        [Meets(
+            np.insert(meets.line, where, line), np.insert(meets.sign, where, roots.sign[at]),
+            np.insert(meets.row, where, row), np.insert(meets.parameter, where, roots.t[at]),
+            np.insert(meets.xyz, where, xyz, axis=0),
+        )],
+    )  # fmt: skip
 
 
 def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float]) -> None:

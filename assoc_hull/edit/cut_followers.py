@@ -1,8 +1,10 @@
 """Followers of a transformation: cut again from the drivers, then from one another by rank.
 
-A follower is made through its crossings with drivers and with the followers cut before it,
-and through its own points, which the mapping carries; where the crossings beside such a
-point were carried out of the plane and found again elsewhere, it goes along with them.
+A follower is made through its crossings with drivers and with the followers cut before it.
+Where its plane is kept by the mapping, its own points are carried as they are. Where not,
+another part of the hull comes to lie in the plane: placed points are brought there along
+the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
+line that is cut before passes without defining.
 """
 
 from __future__ import annotations
@@ -15,8 +17,9 @@ from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import Sort
@@ -25,7 +28,9 @@ from assoc_hull.model.state import Meets
 __all__ = ["cut_followers"]
 
 _NEAR = 0.15
-"""An own point as near as this (m) to one that a follower is threaded through is dropped."""
+"""No point is added as near as this (m) to another one."""
+
+_ROUNDS = 6
 
 
 def cut_followers(work: Carried) -> None:
@@ -81,27 +86,24 @@ def _before(work: Carried, row: int, curve: int) -> bool:
 
 
 def _carry_own(work: Carried, curve: int) -> None:
-    """Carry the own points of a follower, along with the crossings beside them.
-
-    These slip by the way from the image to the new place; between two of them the slip is
-    blended by the chords of the curve as it was.
-    """
-    state = work.state
-    rows: IntArray = state.curves.rows.data[curve]
-    own = state.rows.sort.data[rows] != Sort.CROSSING
-    if not own.any():
+    """Give the own points of a follower whose plane is kept the places of their images."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    mine = rows[work.state.rows.sort.data[rows] != Sort.CROSSING]
+    if not _slides(work, curve):
+        work.known[mine] = True
         return
-    step = np.sqrt((np.diff(state.rows.xyz.data[rows], axis=0) ** 2).sum(axis=1))
-    chord = np.concatenate([[0.0], np.cumsum(step)])
-    held = np.flatnonzero(~own & work.known[rows])
-    mine = rows[own]
-    if len(held):
-        slip = work.value[rows[held]] - work.image[rows[held]]
-        for axis in range(3):
-            along = np.interp(chord[own], chord[held], slip[:, axis])
-            work.value[mine, axis] = work.image[mine, axis] + along
-    work.value[mine] = into_planes(state, work.planes, mine, work.value[mine])
-    work.known[mine] = True
+    smooth = (work.state.rows.sort.data[mine] == Sort.ADOPTED) & (
+        work.state.rows.kind.data[mine, 0] == PointKind.SMOOTH
+    )
+    work.gone |= set(mine[smooth].tolist())
+
+
+def _slides(work: Carried, curve: int) -> bool:
+    """Tell whether another part of the hull comes to lie in the plane of a follower."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    own = work.state.rows.sort.data[rows] != Sort.CROSSING
+    new = any(curve in work.state.rows.curve.data[row] for _, row in work.contacts)
+    return new or bool(work.slid[rows].any() or (~work.direct[rows[own]]).any())
 
 
 def _points(work: Carried, curve: int) -> Through:
@@ -110,27 +112,100 @@ def _points(work: Carried, curve: int) -> Through:
     Where crossings slid, those of one family and the ends keep their order, and the others
     are put between them by the least detour.
     """
-    rows: IntArray = work.state.curves.rows.data[curve]
+    state = work.state
+    rows: IntArray = state.curves.rows.data[curve]
     order = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
-    come = [place for line, place in work.come if line == work.state.line_of(curve)]
-    come = come if _nearest(work, curve, come) else []
-    if not any(work.slid[row] for row in order) and not come:
+    if not _slides(work, curve):
         return Through(order, [work.value[row].copy() for row in order], [])
+    new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
     base = _base(work, curve, order)
     found = Through(base, [work.value[row].copy() for row in base], [])
-    for row in [each for each in order if each not in set(base)]:
-        smooth = work.state.rows.sort.data[row] == Sort.ADOPTED
-        smooth = bool(smooth) and not work.state.rows.kind.data[row, 0]
-        if not _insert(found, row, work.value[row], least=_NEAR if smooth else 0.0):
-            work.gone.add(row)
-    for place in come:
+    for row in [*new, *(each for each in order if each not in set(base))]:
+        _insert(found, row, work.value[row])
+    for place in _coming(work, curve):
         _insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
+    for row in new:
+        _direct(work, curve, found, row)
+    _bring_along(work, curve, found)
+    _hold(work, curve, found)
     return found
 
 
-def _nearest(work: Carried, curve: int, come: list[FloatArray]) -> bool:
-    """Tell whether a line has one piece only: then what comes to it comes to this piece."""
-    return bool(come) and work.state.lines.curves.data[work.state.line_of(curve)] == (curve,)
+def _bring_along(work: Carried, curve: int, found: Through) -> None:
+    """Bring the own points of a follower to the part of the hull that is now in its plane.
+
+    Each comes to the foot of its image on the curve without it, and as far off that as it
+    was off the curve without it before.
+    """
+    state = work.state
+    rows: IntArray = state.curves.rows.data[curve]
+    own = state.rows.sort.data[rows] != Sort.CROSSING
+    mine = np.array([row for row in rows[own].tolist() if row not in work.gone], np.int64)
+    mine = mine[~work.known[mine]]
+    if not len(mine):
+        return
+    work.made[curve] = Through(list(rows[~own]), list(state.rows.xyz.data[rows[~own]]), [])
+    before = loft(through(work, [curve]))
+    work.made[curve] = found
+    after = loft(through(work, [curve]))
+    off = state.rows.xyz.data[mine] - closest(before, 0, state.rows.xyz.data[mine])[1]
+    foot = closest(after, 0, work.image[mine])[1]
+    work.value[mine] = into_planes(state, work.planes, mine, foot + off)
+    work.known[mine] = True
+    for row in mine.tolist():
+        _insert(found, row, work.value[row])
+
+
+def _hold(work: Carried, curve: int, found: Through) -> None:
+    """Hold a follower where lines cut before it pass its plane without defining it."""
+    places = _passed(work, curve)
+    for _ in range(_ROUNDS):
+        if not len(places):
+            return
+        work.made[curve] = found
+        spline = loft(through(work, [curve]))
+        at, _, away = closest(spline, 0, places)
+        segment = np.searchsorted(spline.knot, at, side="right")
+        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption)
+        wide = wide[np.argsort(-away[wide], kind="stable")]
+        first = np.unique(segment[wide], return_index=True)[1]
+        added = [
+            _insert(found, -1, into_own_plane(work, curve, places[i]), least=_NEAR)
+            for i in wide[np.sort(first)].tolist()
+        ]
+        if not any(added):
+            return
+
+
+def _passed(work: Carried, curve: int) -> FloatArray:
+    """Give the places (k, 3), m, where lines cut before a follower pass its plane unheard."""
+    table, meets = work.state.rows, work.state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
+    kept = [row for row in rows.tolist() if row not in work.gone and _before(work, row, curve)]
+    return np.array(work.value[kept]).reshape(-1, 3)
+
+
+def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
+    """Give a new contact with the border of a flat its direction: along the flat."""
+    table = work.state.rows
+    if table.kind.data[row, 1] != PointKind.TANGENT:
+        return
+    flat, own = (work.planes.normal[work.state.line_of(c)] for c in table.curve.data[row].tolist())
+    along = np.cross(flat, own)
+    at = found.row.index(row)
+    chord = found.place[min(at + 1, len(found.place) - 1)] - found.place[max(at - 1, 0)]
+    along = along if float((along * chord).sum()) >= 0.0 else -along
+    work.maker.journal.put(table.direction, [row], [[np.zeros(3), along]])
+
+
+def _coming(work: Carried, curve: int) -> list[FloatArray]:
+    """Give the places at which drivers have come to meet the plane of a follower's piece."""
+    line = work.state.line_of(curve)
+    return [
+        place for other, place in work.come
+        if other == line and work.piece(line, place) == curve
+    ]  # fmt: skip
 
 
 def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
@@ -141,7 +216,7 @@ def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
     return out
 
 
-def _insert(found: Through, row: int, place: FloatArray, least: float) -> bool:
+def _insert(found: Through, row: int, place: FloatArray, least: float = 0.0) -> bool:
     """Put a point where it makes the least detour, unless one is nearer than `least`."""
     places = np.array(found.place)
     if least and float(np.sqrt(((places - place) ** 2).sum(axis=1)).min()) < least:
@@ -165,20 +240,19 @@ def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
     ends = {order[0], order[-1]}
     return [
         row for row in order
-        if row in ends or state.rows.contact.data[row] or group.get(row) == main
+        if row in ends or group.get(row) == main
+        or (state.rows.contact.data[row] and not work.slid[row])
     ]  # fmt: skip
 
 
 def _give(work: Carried, curve: int) -> None:
     """Cut a follower with the planes of those that come after it, where these have to slide."""
-    state, table = work.state, work.state.rows
+    state = work.state
     meets: Meets = state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
-    rows = rows[~work.known[rows]]
     wanted = [
-        row for row in rows.tolist()
-        if row not in work.gone and (table.reader.data[row] >= 0).any()
-        and not _before(work, row, curve)
+        row for row in rows[~work.known[rows]].tolist()
+        if row not in work.gone and not _before(work, row, curve)
     ]  # fmt: skip
     if not wanted:
         return

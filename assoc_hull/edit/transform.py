@@ -64,7 +64,7 @@ def transform(
     state = edit.state
     driver = _drivers(edit, drivers)
     planes = carry_planes(state, space, np.flatnonzero(driver), follow)
-    work = carry_points(state, space, planes, driver)
+    work = carry_points(edit.maker, space, planes, driver)
     if not _anything(state, work):
         _tell(edit, work, 0)
         return
@@ -147,6 +147,9 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     edit.write(rows, work.value[rows], "transform")
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
+    fresh = [row for _, row in work.contacts]
+    pending.computed |= set(fresh)
+    pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())
     pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
