@@ -78,6 +78,8 @@ class Carried:
         Followers with places at which a driver has come to meet their planes.
     contacts : list of (int, int)
         Followers with new crossings with boundary curves.
+    extra : dict of int to list of (float, int)
+        Points that come to define a driver, with their parameters on it before the mapping.
     """
 
     maker: Maker
@@ -93,6 +95,7 @@ class Carried:
     gone: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
+    extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
     def state(self) -> HullState:
@@ -204,7 +207,8 @@ def _lay(vectors: FloatArray, normal: FloatArray) -> FloatArray:
     flat = vectors - normal * (vectors * normal).sum(axis=1)[:, None]
     flat = np.where(np.abs(normal) == 1.0, 0.0, flat)
     length = np.sqrt((flat * flat).sum(axis=1))
-    return flat * (size / np.where(length > 0.0, length, 1.0))[:, None]
+    laid: FloatArray = flat * (size / np.where(length > 0.0, length, 1.0))[:, None]
+    return laid
 
 
 def _turned(work: Carried, at: FloatArray, vectors: FloatArray) -> FloatArray:

@@ -129,12 +129,12 @@ def _refuse_centre(state: HullState, line: int, away: float) -> None:
 def _oblique(
     state: HullState, space: SpaceMap, line: int, before: FloatArray, after: FloatArray
 ) -> tuple[FloatArray, float] | None:
-    """Give the oblique plane a line comes to lie in; None if there is none, or it may not.
+    """Give the oblique plane a diagonal comes to lie in; None for other lines, or without one.
 
-    Sections, waterlines and buttocks have planes of one direction. Under a map with the
-    Jacobian J a normal n goes to one along cof(J) n.
+    Sections, waterlines and buttocks have planes of one direction, and boundary curves
+    need none. Under a map with the Jacobian J a normal n goes to one along cof(J) n.
     """
-    if state.family(line).axis is not None or _is_centre(state, line):
+    if state.family(line).axis is not None or state.lines.boundary.data[line] >= 0:
         return None
     slope = space.jacobians(before[:1])[0]
     old = state.lines.normal.data[line]

@@ -38,7 +38,8 @@ def cut_drivers(work: Carried, index: Index) -> Image:
         A line would end elsewhere on the boundary curves than it does.
     """
     state = work.state
-    curves = np.array([c for c in state.live("curves").tolist() if work.drives(c)], np.int64)
+    mine = [curve for curve in state.live("curves").tolist() if work.drives(curve)]
+    curves = np.array(sorted(mine, key=lambda c: str(state.curves.key.data[c])), np.int64)
     image = Image.of(work.space, SplineBatch.join([state.spline(c) for c in curves.tolist()]))
     slid: dict[int, float] = {}
     for line in _followers(work):
@@ -179,7 +180,9 @@ def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
 def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float]) -> None:
     """Put the points of a driver in the order in which its image passes them."""
     state = work.state
-    rows: IntArray = state.curves.rows.data[curve]
+    more = work.extra.get(curve, [])
+    rows = np.append(state.curves.rows.data[curve], [row for _, row in more]).astype(np.int64)
+    knots = np.append(knots, [t for t, _ in more])
     for row in rows[~work.known[rows]].tolist():
         if row not in work.gone:
             _settle(work, curve, row)
@@ -234,10 +237,11 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     int
         How many points were added.
     """
-    curves = sorted(work.made)
+    keys = work.state.curves.key.data
+    curves = sorted((c for c in work.made if work.drives(c)), key=lambda curve: str(keys[curve]))
     added = 0
     for _ in range(_ROUNDS):
-        batch = loft(through(work, curves), [str(work.state.curves.key.data[c]) for c in curves])
+        batch = loft(through(work, curves), [str(keys[curve]) for curve in curves])
         at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
         away, middle = misfit(image, np.arange(len(curves)), batch, at)
         count = np.diff(batch.start) - 1

@@ -61,22 +61,19 @@ def _crossings(work: Carried, curve: int) -> list[int]:
 def _check_cut(work: Carried, curve: int) -> None:
     """See that a follower is defined by a driver, or by a follower cut before it."""
     state = work.state
-    inner = [row for row in _crossings(work, curve) if not state.rows.contact.data[row]]
+    boundary = state.lines.boundary.data >= 0
+    inner = [
+        row for row in _crossings(work, curve)
+        if not boundary[state.line_of(work.other(row, curve))]
+    ]  # fmt: skip
     given = [row for row in inner if _before(work, row, curve)]
-    if (inner and not given) or len(_given_ends(work, curve)) + len(given) < 2:
+    own = len(state.curves.rows.data[curve]) - len(inner)
+    if (inner and not given) or own + len(given) < 2:
         name = state.lines.name.data[state.line_of(curve)]
         raise BadInputError(
             f"{name} follows, but no driver defines it", "in transform",
             f"name {name} or its group as a driver too, or another group that crosses it",
         )  # fmt: skip
-
-
-def _given_ends(work: Carried, curve: int) -> list[int]:
-    """Give contacts and own points: what a follower has beside its inner crossings."""
-    rows: IntArray = work.state.curves.rows.data[curve]
-    own = work.state.rows.sort.data[rows] != Sort.CROSSING
-    found: list[int] = rows[own | work.state.rows.contact.data[rows]].tolist()
-    return found
 
 
 def _before(work: Carried, row: int, curve: int) -> bool:
@@ -236,7 +233,8 @@ def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
         if work.other(row, curve) >= 0 and not state.rows.contact.data[row]
     }
     count = Counter(group.values())
-    main = min(count, key=lambda each: (-count[each], each)) if count else -1
+    names = state.groups.name.data
+    main = min(count, key=lambda each: (-count[each], str(names[each]))) if count else -1
     ends = {order[0], order[-1]}
     return [
         row for row in order
@@ -262,9 +260,7 @@ def _give(work: Carried, curve: int) -> None:
         _cut_one(work, curve, spline, line, set(wanted))
 
 
-def _cut_one(
-    work: Carried, curve: int, spline: SplineBatch, line: int, wanted: set[int]
-) -> None:
+def _cut_one(work: Carried, curve: int, spline: SplineBatch, line: int, wanted: set[int]) -> None:
     """Cut one follower with the plane of one after it, and say which crossing is which."""
     meets: Meets = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)

@@ -12,8 +12,8 @@ import numpy as np
 from assoc_hull.edit.carry_planes import heights
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.spline import derivative, evaluate
 from assoc_hull.geometry.evaluation import segments
+from assoc_hull.geometry.spline import derivative, evaluate
 
 __all__ = ["Image", "Roots", "misfit"]
 
@@ -96,9 +96,7 @@ class Image:
         """Give places of the image, (k, 3), m, by curve and parameter before the mapping."""
         return self.space.places(evaluate(self.batch, curve, t))
 
-    def changed(
-        self, normal: FloatArray, old: float, new: float, near: float
-    ) -> BoolArray:
+    def changed(self, normal: FloatArray, old: float, new: float, near: float) -> BoolArray:
         """Tell which curves pass a plane otherwise than before, (m,) bool.
 
         Parameters
@@ -176,7 +174,7 @@ def misfit(
     """
     first = segments(batch)
     owner = np.searchsorted(batch.start, first, side="right") - 1
-    part = (np.arange(_PROBES) + 1.0) / (_PROBES + 1.0)
+    part: FloatArray = np.arange(1.0, _PROBES + 1.0) / (_PROBES + 1.0)
     many = np.repeat(owner, _PROBES)
     there = _between(batch.knot, first, part)
     source = _between(at, first, part)

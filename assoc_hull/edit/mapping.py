@@ -53,6 +53,7 @@ class Affine:
     shift: FloatArray
 
     def __call__(self, xyz: FloatArray) -> FloatArray:
+        """Map places, (n, 3), m."""
         moved: FloatArray = xyz * self.scale + self.shift
         return moved
 

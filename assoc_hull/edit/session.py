@@ -93,6 +93,8 @@ class Edit:
         """The transaction, for a modification: only while the edit is open."""
         if not self.active:
             raise BadInputError("it is not open", f"in the edit {self._held.name!r}", _USE)
+        if self._held.pending.alone:
+            raise BadInputError(*self._held.pending.not_alone(self._held.name))
         return self._held
 
     @property
@@ -302,16 +304,16 @@ class Edit:
         if isinstance(drivers, (str, Group, Line)) or not isinstance(drivers, Sequence):
             raise BadInputError(f"drivers={drivers!r}", "in transform", "give a list of names")
         tables, found = self._tables, list[int]()
+        names = tables.groups.name.data
         for each in drivers:
-            names = tables.groups.name.data
+            if isinstance(each, Group) and each.tables is not tables:
+                raise ForeignPointError(repr(each))
             name = each.name if isinstance(each, Group) else each
             if isinstance(name, str) and name in names:
                 live = tables.live("lines")
                 found += live[tables.lines.group.data[live] == names.index(name)].tolist()
-            elif not isinstance(each, Group):
-                found.append(self._line(each))
             else:
-                raise ForeignPointError(repr(each))
+                found.append(self._line(name))
         return found
 
     def _point(self, point: Point | str) -> tuple[int, int]:

@@ -13,9 +13,10 @@ from typing import Self
 import numpy as np
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.pending import Pending
 from assoc_hull.edit.quiet import Quiet
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.update import Pending, Settings, update
+from assoc_hull.edit.update import Settings, update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal

@@ -20,6 +20,7 @@ from assoc_hull.edit.cut_followers import cut_followers
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.unplane import bend_lines, let_go
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.make import PointSpec
@@ -63,6 +64,7 @@ def transform(
     """
     state = edit.state
     driver = _drivers(edit, drivers)
+    edit.pending.alone = True
     planes = carry_planes(state, space, np.flatnonzero(driver), follow)
     work = carry_points(edit.maker, space, planes, driver)
     if not _anything(state, work):
@@ -70,9 +72,11 @@ def transform(
         return
     edit.pending.structural = True
     turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
+    bend_lines(work)
     image = cut_drivers(work, edit.document.index)
     cut_followers(work)
-    added = hold_images(_only(work, driver), image, tolerance)
+    added = hold_images(work, image, tolerance)
+    let_go(edit, work)
     _move_planes(edit, planes)
     _publish(edit, work, turned)
     _tell(edit, work, added)
@@ -91,10 +95,7 @@ def _drivers(edit: Transaction, drivers: Sequence[int]) -> np.typing.NDArray[np.
         )  # fmt: skip
     pending = edit.pending
     if edit.journal.entries or pending.values or pending.fields or pending.curves:
-        raise BadInputError(
-            "a transformation and another modification in one edit", f"in the edit {edit.name!r}",
-            "use two edits: the transformation reads the whole hull and sets it anew",
-        )
+        raise BadInputError(*pending.not_alone(edit.name))
     if state.failed:
         keys = ", ".join(str(state.curves.key.data[curve]) for curve in state.failed)
         raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
@@ -114,12 +115,6 @@ def _anything(state: HullState, work: Carried) -> bool:
         and bool((planes.planar[lines] == flat).all())
         and bool((planes.offset[lines[flat]] == table.offset.data[lines[flat]]).all())
     )
-
-
-def _only(work: Carried, driver: np.typing.NDArray[np.bool_]) -> Carried:
-    """Give the same transformation with the drivers' points alone, which are shared with it."""
-    mine = {curve: part for curve, part in work.made.items() if work.drives(curve)}
-    return attrs.evolve(work, made=mine)
 
 
 def _move_planes(edit: Transaction, planes: Planes) -> None:
@@ -198,6 +193,10 @@ def _tell(edit: Transaction, work: Carried, added: int) -> None:
     for line in lines:
         key = str(state.lines.key.data[line])
         (pending.carried if work.driver[line] else pending.cut_again).append(key)
+    for line, away in sorted(work.planes.bent.items()):
+        pending.notes.append(
+            f"{state.lines.name.data[line]} is a curve in space now, {away:.3g} m out of its plane"
+        )
     if added:
         pending.notes.append(f"{added} adopted points hold the drivers to their images")
     size = state.particulars
@@ -205,4 +204,3 @@ def _tell(edit: Transaction, work: Carried, added: int) -> None:
         f"the particulars stay as they are: length {size.length:g}, breadth {size.breadth:g}, "
         f"depth {size.depth:g}, draught {size.draught:g} m"
     )
-

@@ -21,9 +21,10 @@ from assoc_hull.edit.check import (
     plane_normals,
 )
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.field import Field, add_shifts, context, land, sub_steps
+from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.mend import mend
 from assoc_hull.edit.net_change import net_change
+from assoc_hull.edit.pending import Pending
 from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.topology import latent_meetings, settle
@@ -40,7 +41,7 @@ from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
 from assoc_hull.model.state import HullState, curve_node, row_node
 
-__all__ = ["Pending", "Settings", "update"]
+__all__ = ["Settings", "update"]
 
 _NONE: IntArray = np.zeros(0, np.int64)
 _ROUNDS = 6
@@ -62,54 +63,6 @@ class Settings:
 
     policy: Policy = Policy.ALL_OR_NOTHING
     refuse_gaps: bool = True
-
-
-@attrs.define(eq=False)
-class Pending:
-    """What the modifications of a transaction ask for.
-
-    Attributes
-    ----------
-    values : dict of int to (3,), m
-        New places of points.
-    curves : set of int
-        Curves whose recipe changed.
-    computed : set of int
-        Crossings that have come to be computed from another curve than before, or from one.
-    held : set of int
-        Adopted points that a field moves: they do not ride in this update.
-    structural : bool
-        Whether lines, points, roles or associations came or went.
-    moved_curves : set of int
-        Curves that the designer edited: births take their value from these.
-    fields : list of Field
-        Displacements of the hull; several add.
-    born, gone : list of str
-        Keys of curves and crossings that the modifications made or unmade.
-    fresh : list of int
-        Curves that were made in this transaction.
-    notes : list of str
-        What was left alone, and why.
-    relink : set of int
-        Curves whose adopted points are linked to their neighbours anew after the main pass.
-    carried, cut_again : list of str
-        Keys of the lines that a mapping carried, and of those that followed it.
-    """
-
-    values: dict[int, FloatArray] = attrs.field(factory=dict)
-    curves: set[int] = attrs.field(factory=set)
-    computed: set[int] = attrs.field(factory=set)
-    held: set[int] = attrs.field(factory=set)
-    structural: bool = False
-    moved_curves: set[int] = attrs.field(factory=set)
-    fields: list[Field] = attrs.field(factory=list)
-    born: list[str] = attrs.field(factory=list)
-    gone: list[str] = attrs.field(factory=list)
-    fresh: list[int] = attrs.field(factory=list)
-    notes: list[str] = attrs.field(factory=list)
-    relink: set[int] = attrs.field(factory=set)
-    carried: list[str] = attrs.field(factory=list)
-    cut_again: list[str] = attrs.field(factory=list)
 
 
 @attrs.define(eq=False)

@@ -1,0 +1,68 @@
+"""What the modifications of a transaction ask for, until one update carries it out."""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.edit.field import Field
+from assoc_hull.geometry.curves import FloatArray
+
+__all__ = ["Pending"]
+
+
+@attrs.define(eq=False)
+class Pending:
+    """What the modifications of a transaction ask for.
+
+    Attributes
+    ----------
+    values : dict of int to (3,), m
+        New places of points.
+    curves : set of int
+        Curves whose recipe changed.
+    computed : set of int
+        Crossings that have come to be computed from another curve than before, or from one.
+    held : set of int
+        Adopted points that a field moves: they do not ride in this update.
+    structural : bool
+        Whether lines, points, roles or associations came or went.
+    moved_curves : set of int
+        Curves that the designer edited: births take their value from these.
+    fields : list of Field
+        Displacements of the hull; several add.
+    born, gone : list of str
+        Keys of curves and crossings that the modifications made or unmade.
+    fresh : list of int
+        Curves that were made in this transaction.
+    notes : list of str
+        What was left alone, and why.
+    alone : bool
+        Whether a modification is there that no other may stand beside.
+    relink : set of int
+        Curves whose adopted points are linked to their neighbours anew after the main pass.
+    carried, cut_again : list of str
+        Keys of the lines that a mapping carried, and of those that followed it.
+    """
+
+    values: dict[int, FloatArray] = attrs.field(factory=dict)
+    curves: set[int] = attrs.field(factory=set)
+    computed: set[int] = attrs.field(factory=set)
+    held: set[int] = attrs.field(factory=set)
+    structural: bool = False
+    moved_curves: set[int] = attrs.field(factory=set)
+    fields: list[Field] = attrs.field(factory=list)
+    born: list[str] = attrs.field(factory=list)
+    gone: list[str] = attrs.field(factory=list)
+    fresh: list[int] = attrs.field(factory=list)
+    notes: list[str] = attrs.field(factory=list)
+    alone: bool = False
+    relink: set[int] = attrs.field(factory=set)
+    carried: list[str] = attrs.field(factory=list)
+    cut_again: list[str] = attrs.field(factory=list)
+
+    @staticmethod
+    def not_alone(name: str) -> tuple[str, str, str]:
+        """Say that a transformation stands beside something else: what, where, remedy."""
+        what = "a transformation and another modification in one edit"
+        remedy = "use two edits: a transformation reads the whole hull and sets it anew"
+        return what, f"in the edit {name!r}", remedy
