@@ -89,10 +89,25 @@ def _carry_own(work: Carried, curve: int) -> None:
     if not _slides(work, curve):
         work.known[mine] = True
         return
+    ends = rows[[0, -1]]
     smooth = (work.state.rows.sort.data[mine] == Sort.ADOPTED) & (
         work.state.rows.kind.data[mine, 0] == PointKind.SMOOTH
     )
-    work.gone |= set(mine[smooth].tolist())
+    work.gone |= set(mine[smooth & ~np.isin(mine, ends)].tolist())
+    _carry_free_ends(work, rows)
+
+
+def _carry_free_ends(work: Carried, rows: IntArray) -> None:
+    """Carry ends that lie on no boundary curve: they go along with the crossing beside them."""
+    for order in (rows, rows[::-1]):
+        end = int(order[0])
+        if work.state.rows.sort.data[end] == Sort.CROSSING:
+            continue
+        beside = order[(work.state.rows.sort.data[order] == Sort.CROSSING) & work.known[order]]
+        slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
+        place = (work.image[end] + slip)[None]
+        work.value[end] = into_planes(work.state, work.planes, np.array([end]), place)[0]
+        work.known[end] = True
 
 
 def _slides(work: Carried, curve: int) -> bool:
@@ -141,7 +156,8 @@ def _bring_along(work: Carried, curve: int, found: Through) -> None:
     mine = mine[~work.known[mine]]
     if not len(mine):
         return
-    work.made[curve] = Through(list(rows[~own]), list(state.rows.xyz.data[rows[~own]]), [])
+    rest = rows[~own | np.isin(rows, rows[[0, -1]])]
+    work.made[curve] = Through(rest.tolist(), list(state.rows.xyz.data[rest]), [])
     before = loft(through(work, [curve]))
     work.made[curve] = found
     after = loft(through(work, [curve]))
