@@ -78,6 +78,9 @@ class Carried:
         Followers with places at which a driver has come to meet their planes.
     contacts : list of (int, int)
         Followers with new crossings with boundary curves.
+    anew : dict of int to dict of (int, int) to int
+        Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
+        Crossings with drivers by the driver and the meeting, counted along it.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -95,6 +98,7 @@ class Carried:
     gone: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
+    anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -121,6 +125,11 @@ class Carried:
     def drives(self, curve: int) -> bool:
         """Tell whether a curve belongs to a driving line."""
         return bool(self.driver[self.state.line_of(curve)])
+
+    def apart(self, row: int) -> bool:
+        """Tell whether a point lies on a follower that is cut wholly anew."""
+        curves = self.state.rows.curve.data[row].tolist()
+        return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 
     def other(self, row: int, curve: int) -> int:
         """Give the curve on the other side of a crossing, -1 if there is none."""

@@ -86,6 +86,11 @@ def _cut_with(
     if not needed:
         return
     roots = image.meet(normal, offset)
+    if any(_ends_change(work, int(curves[local]), line, local, roots) for local in needed):
+        work.anew[line] = {}
+        for local in some.tolist():
+            _recognise(work, int(curves[local]), line, local, roots)
+        return
     for local in needed:
         _match(work, int(curves[local]), line, local, roots, slid)
 
@@ -97,15 +102,44 @@ def _off(work: Carried, curve: int, line: int) -> bool:
     return not bool(work.direct[rows].all())
 
 
+def _pairs(
+    work: Carried, curve: int, line: int, local: int, roots: Roots
+) -> tuple[IntArray, IntArray, list[tuple[int, int]]]:
+    """Align the old meetings of a driver with a plane with the new ones of its image."""
+    meets: Meets = work.state.curves.meets.data[curve]
+    old = np.flatnonzero(meets.line == line)
+    new = np.flatnonzero(roots.curve == local)
+    carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
+    return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
+
+
+def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) -> bool:
+    """Tell whether a follower would end on a boundary curve more or fewer times."""
+    state = work.state
+    if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
+        return False
+    old, new, pairs = _pairs(work, curve, line, local, roots)
+    lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
+    rows: IntArray = state.curves.meets.data[curve].row[old[lost]]
+    return len(pairs) < len(new) or bool((rows >= 0).any())
+
+
+def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -> None:
+    """Note which crossings of a line that is cut anew are which meetings of a driver."""
+    meets: Meets = work.state.curves.meets.data[curve]
+    old, _, pairs = _pairs(work, curve, line, local, roots)
+    for one, other in pairs:
+        row = int(meets.row[old[one]])
+        if row >= 0:
+            work.anew[line][curve, other] = row
+
+
 def _match(
     work: Carried, curve: int, line: int, local: int, roots: Roots, slid: dict[int, float]
 ) -> None:
     """Say which crossing each meeting of one image with one plane is."""
     meets: Meets = work.state.curves.meets.data[curve]
-    old = np.flatnonzero(meets.line == line)
-    new = np.flatnonzero(roots.curve == local)
-    carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
-    pairs = align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
+    old, new, pairs = _pairs(work, curve, line, local, roots)
     for one, other in pairs:
         row = int(meets.row[old[one]])
         if row >= 0 and not work.direct[row]:
@@ -114,23 +148,9 @@ def _match(
             work.known[row] = work.slid[row] = True
             slid[row] = float(roots.t[new[other]])
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
-    for row in meets.row[old[lost]].tolist():
-        if row >= 0:
-            _lose(work, row)
+    work.gone |= set(meets.row[old[lost]].tolist()) - {-1}
     for other in np.setdiff1d(np.arange(len(new)), [other for _, other in pairs]).tolist():
         _win(work, curve, line, roots, int(new[other]))
-
-
-def _lose(work: Carried, row: int) -> None:
-    """Take a crossing out that has no place any more; the end of a line may not go."""
-    state = work.state
-    line = state.line_of(int(state.rows.curve.data[row, 0]))
-    if state.rows.contact.data[row] and state.lines.boundary.data[line] == BoundaryKind.END:
-        raise BadInputError(
-            f"{address(state, row)}: the boundary leaves the plane of the line, which ended there",
-            "in transform", "remove the line before, or let the planes of followers follow",
-        )  # fmt: skip
-    work.gone.add(row)
 
 
 def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
@@ -138,18 +158,8 @@ def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
 
     At the border of a flat and at a knuckle line the follower gets a contact.
     """
-    state, place = work.state, roots.xyz[at]
-    boundary = int(state.lines.boundary.data[state.line_of(curve)])
-    if boundary == BoundaryKind.END:
-        x, y, z = place.tolist()
-        raise BadInputError(
-            f"{state.lines.name.data[line]} would come to end on "
-            f"{state.lines.name.data[state.line_of(curve)]} at ({x:.3f}, {y:.3f}, {z:.3f}) m too",
-            "in transform",
-            "remove the line before and add it again, or let the planes of followers follow",
-        )
-    if boundary < 0:
-        work.come.append((line, place))
+    if work.state.lines.boundary.data[work.state.line_of(curve)] < 0:
+        work.come.append((line, roots.xyz[at]))
     else:
         _touch(work, curve, line, roots, at)
 
@@ -157,8 +167,10 @@ def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
 def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
     """Make a contact of a follower with a boundary curve that has come to it."""
     state, xyz = work.state, roots.xyz[at]
-    flat = state.lines.boundary.data[state.line_of(curve)] == BoundaryKind.FLAT
-    kind = PointKind.TANGENT if flat else PointKind.KNUCKLE
+    border = state.line_of(curve)
+    kind = PointKind.KNUCKLE
+    if state.lines.boundary.data[border] == BoundaryKind.FLAT:
+        kind = PointKind.TANGENT if work.planes.planar[border] else PointKind.SMOOTH
     sign = int(roots.sign[at])
     spec = CrossingSpec(
         curve, work.piece(line, xyz), xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind
@@ -186,13 +198,14 @@ def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float])
     more = work.extra.get(curve, [])
     rows = np.append(state.curves.rows.data[curve], [row for _, row in more]).astype(np.int64)
     knots = np.append(knots, [t for t, _ in more])
+    apart = {row for row in rows.tolist() if work.apart(row)}
     for row in rows[~work.known[rows]].tolist():
-        if row not in work.gone:
+        if row not in work.gone and row not in apart:
             _settle(work, curve, row)
     kept = [
         (slid.get(row, t), i, row)
         for i, (row, t) in enumerate(zip(rows.tolist(), knots.tolist(), strict=True))
-        if row not in work.gone
+        if row not in work.gone and row not in apart
     ]
     kept.sort()
     order = [row for _, _, row in kept]
@@ -211,9 +224,14 @@ def _settle(work: Carried, curve: int, row: int) -> None:
 
     A crossing that is computed from a follower starts there too.
     """
-    if work.state.rows.contact.data[row] and not work.direct[row]:
-        _lose(work, row)
-    elif work.state.rows.driver.data[row] >= 0 or work.other(row, curve) < 0:
+    table = work.state.rows
+    if table.contact.data[row] and not work.direct[row]:
+        raise BadInputError(
+            f"{address(work.state, row)}: the boundary leaves the plane of the line, and never "
+            "met it in one place", "in transform",
+            "remove the line before, or let the planes of followers follow",
+        )  # fmt: skip
+    if table.driver.data[row] >= 0 or work.other(row, curve) < 0:
         work.known[row] = True
     else:
         work.gone.add(row)

@@ -42,7 +42,13 @@ def cut_followers(work: Carried) -> None:
         A follower is cut from nothing.
     """
     state = work.state
-    curves = [curve for curve in state.live("curves").tolist() if not work.drives(curve)]
+    curves = [
+        curve for curve in state.live("curves").tolist()
+        if not work.drives(curve) and state.line_of(curve) not in work.anew
+    ]  # fmt: skip
+    for row in state.live("rows").tolist():
+        if work.anew and work.apart(row):
+            work.known[row] = False
     for curve in sorted(curves, key=state.rank):
         _check_cut(work, curve)
         _carry_own(work, curve)
@@ -55,7 +61,7 @@ def _crossings(work: Carried, curve: int) -> list[int]:
     """Give the crossings that define a curve and are still there."""
     rows: IntArray = work.state.curves.rows.data[curve]
     mine = rows[work.state.rows.sort.data[rows] == Sort.CROSSING]
-    return [row for row in mine.tolist() if row not in work.gone]
+    return [row for row in mine.tolist() if row not in work.gone and not work.apart(row)]
 
 
 def _check_cut(work: Carried, curve: int) -> None:
@@ -266,7 +272,7 @@ def _give(work: Carried, curve: int) -> None:
     rows = meets.row[meets.row >= 0]
     wanted = [
         row for row in rows[~work.known[rows]].tolist()
-        if row not in work.gone and not _before(work, row, curve)
+        if row not in work.gone and not work.apart(row) and not _before(work, row, curve)
     ]  # fmt: skip
     if not wanted:
         return

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import attrs
 
 from assoc_hull.edit.field import Field
@@ -40,6 +42,8 @@ class Pending:
         Whether a modification is there that no other may stand beside.
     relink : set of int
         Curves whose adopted points are linked to their neighbours anew after the main pass.
+    after : list of callable
+        What is done to the structure when the main pass has run.
     carried, cut_again : list of str
         Keys of the lines that a mapping carried, and of those that followed it.
     """
@@ -57,6 +61,7 @@ class Pending:
     notes: list[str] = attrs.field(factory=list)
     alone: bool = False
     relink: set[int] = attrs.field(factory=set)
+    after: list[Callable[[], None]] = attrs.field(factory=list)
     carried: list[str] = attrs.field(factory=list)
     cut_again: list[str] = attrs.field(factory=list)
 

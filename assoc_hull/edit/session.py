@@ -264,7 +264,7 @@ class Edit:
         ------
         BadInputError
             No driver, a mapping that fails, folds, or moves the centre plane, a follower
-            that no driver defines or that would end on other boundary curves.
+            that no driver defines.
         UnknownNameError
             A driver that does not exist.
 

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.edit.anew import take_out
 from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
 from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_images
@@ -77,6 +78,7 @@ def transform(
     cut_followers(work)
     added = hold_images(work, image, tolerance)
     let_go(edit, work)
+    take_out(edit, work)
     _move_planes(edit, planes)
     _publish(edit, work, turned)
     _tell(edit, work, added)
@@ -138,7 +140,8 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     watched = (state.rows.sort.data[live] == Sort.CROSSING) & (
         state.rows.role.data[live] == Role.WATCHED
     )
-    rows = live[~computed & ~watched]
+    apart = np.array([bool(work.anew) and work.apart(row) for row in live.tolist()], bool)
+    rows = live[~computed & ~watched & ~apart]
     edit.write(rows, work.value[rows], "transform")
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]

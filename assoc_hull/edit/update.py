@@ -164,6 +164,7 @@ def update(
             work.go(rows, np.array(sorted(pending.curves), np.int64))
             _settle(work)
             _relink(work)
+            _follow_up(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -263,6 +264,20 @@ def _relink(work: _Work) -> None:
     if len(curves):
         work.renew()
     held.clear()
+
+
+def _follow_up(work: _Work) -> None:
+    """Do what waits for the main pass, and run a second pass for the curves that it touches."""
+    pending = work.pending
+    if not pending.after:
+        return
+    pending.curves.clear()
+    for act in pending.after:
+        act()
+    work.renew()
+    live = [curve for curve in sorted(pending.curves) if work.state.curves.alive.data[curve]]
+    work.go(_NONE, np.array(live, np.int64))
+    _settle(work)
 
 
 def _check(work: _Work) -> tuple[str, ...]:

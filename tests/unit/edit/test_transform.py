@@ -228,6 +228,48 @@ def test_contacts_come_with_the_flat() -> None:
         ]
 
 
+def hump(xyz: FloatArray) -> FloatArray:
+    """Raise the bottom amidships by 0.9 m, fading upward and along the length."""
+    x, y, z = xyz.T
+    rise = 0.9 * np.exp(-(((x - 55.0) / 22.0) ** 2)) * np.exp(-((z / 4.0) ** 2))
+    return np.column_stack([x, y, z + rise])
+
+
+@pytest.mark.parametrize("name", ["WL 0.625", "WL 0.075"])
+def test_a_line_falls_into_pieces(name: str) -> None:
+    """A waterline that the keel rises above is cut anew: two pieces, one of them the old curve."""
+    hull = ah.examples.wigley() if name == "WL 0.625" else ah.examples.series60(cb=0.70)
+    line = hull.lines[name]
+    curve, crossings = line.curves[0].id, {point.id for point in line.curves[0].points}
+    transformed(hull, hump, MAIN)
+    pieces = hull.lines[name].curves
+    assert len(pieces) == 2
+    assert curve in [piece.id for piece in pieces]
+    assert any(key.endswith("/2") for key in hull.history[-1].born)
+    kept = {point.id for piece in pieces for point in piece.points} & crossings
+    assert len(kept) > len(crossings) // 2
+
+
+def test_a_line_comes_to_end_elsewhere() -> None:
+    """A waterline that the tilted deck edge comes down to ends there."""
+    hull = ah.examples.series60(cb=0.70)
+
+    def tilt(xyz: FloatArray) -> FloatArray:
+        return xyz + np.outer(0.015 * (xyz[:, 0] - 60.0), [0.0, 0.0, 1.0])
+
+    assert "WL 1.41 x deck edge" not in hull.crossings
+    transformed(hull, tilt, MAIN)
+    assert "WL 1.41 x deck edge" in hull.crossings
+
+
+def test_a_line_that_the_hull_leaves_is_named(wigley: ah.Hull) -> None:
+    """A waterline above the deck is refused, with where the hull still is."""
+    text = refused(
+        wigley, lambda edit: edit.transform(scale=[1, 1, 0.6], drivers=MAIN), RefusedEditError
+    )
+    assert "of waterlines meets nothing" in text
+
+
 def test_bent_drivers_become_space_curves() -> None:
     """A section that leaves its plane has none any more; waterlines still end and cross on it."""
     hull = transformed(ah.examples.wigley(), rake, MAIN)
