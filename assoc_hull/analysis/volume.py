@@ -62,7 +62,8 @@ def displaced(state: HullState, draught: float | None = None) -> Displaced:
     curves = [
         curve
         for curve in state.live("curves").tolist()
-        if state.family(state.line_of(curve)).name == "sections"
+        if state.family(line := state.line_of(curve)).name == "sections"
+        and state.lines.planar.data[line]
     ]
     if len(curves) < 2:
         raise BadInputError(f"{len(curves)} section(s)", "in a volume", "give two sections or more")

@@ -21,7 +21,7 @@ from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
 from assoc_hull.model.gaps import tangents
@@ -178,12 +178,14 @@ def _kinds(
 ) -> tuple[np.typing.NDArray[np.int8], FloatArray]:
     """Give each mark its kind; at the border of a flat the direction lies in the flat."""
     kind = np.zeros(len(marks.curve), np.int8)
-    kind[marks.boundary == BoundaryKind.FLAT] = PointKind.TANGENT
+    flat = marks.boundary == BoundaryKind.FLAT
+    flat &= state.lines.planar.data[state.curves.line.data[marks.curve]]
+    kind[flat] = PointKind.TANGENT
     kind[marks.boundary == BoundaryKind.KNUCKLE] = PointKind.KNUCKLE
     direction = np.zeros((len(marks.curve), 3))
-    for i in np.flatnonzero(marks.boundary == BoundaryKind.FLAT).tolist():
-        flat = state.lines.normal.data[state.line_of(int(marks.curve[i]))]
-        along = np.cross(flat, state.lines.normal.data[line])
+    for i in np.flatnonzero(flat).tolist():
+        border = state.lines.normal.data[state.line_of(int(marks.curve[i]))]
+        along = np.cross(border, state.lines.normal.data[line])
         chord = marks.xyz[min(i + 1, len(kind) - 1)] - marks.xyz[max(i - 1, 0)]
         direction[i] = along if float(along @ chord) >= 0.0 else -along
     return kind, direction
@@ -203,10 +205,16 @@ def _pick(
     sine = np.minimum(np.abs((tangent * normal).sum(axis=1)), 1.0)
     theirs = tangents(state, marks.curve, marks.at) * state.lines.normal.data[line]
     slide = _SLIDE / np.maximum(np.abs(theirs.sum(axis=1)), 0.1)
-    fixed = marks.boundary >= 0
+    fixed = _held(state, marks.curve, marks.boundary)
     fixed[[0, -1]] = True
     angle = np.degrees(np.arcsin(sine))
     return choose(Candidates(spline.knot, angle, tangent, fixed, slide), state.tolerances)
+
+
+def _held(state: HullState, curve: IntArray, boundary: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell at which curves a new line is always made: boundary curves, and space curves."""
+    planar = state.lines.planar.data[state.curves.line.data[curve]]
+    return np.asarray((boundary >= 0) | ~planar)
 
 
 def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:
@@ -244,7 +252,7 @@ def _spec(
     state: HullState, curve: int, marks: Marks, i: int, role: Role, kind: int, direction: FloatArray
 ) -> CrossingSpec:
     other = int(marks.curve[i])
-    contact = bool(marks.boundary[i] >= 0)
+    contact = bool(_held(state, marks.curve[[i]], marks.boundary[[i]])[0])
     if state.rank(other) < state.rank(curve):
         return CrossingSpec(
             other, curve, marks.xyz[i], role, int(marks.sign[i]), None, contact, kind, direction

@@ -26,6 +26,7 @@ Thing = Group | Line | Curve | Point | Crossing
 
 _MADE = "as it was made: no edit has reached it"
 _SET = "set by the edit"
+_CARRIED = "carried by the mapping of the edit, or found where a carried line meets a plane"
 _RECIPE = "its points, kinds or end conditions were changed by the edit"
 _FOLLOWED = "followed"
 _CUT_OFF = "evaluated again, and came out with the same bits: nothing was told to its readers"
@@ -230,7 +231,7 @@ class _Teller:
 
     def _what(self, trace: Trace) -> str:
         if trace.seed:
-            return _SET
+            return _CARRIED if self.step.report.carried else _SET
         if trace.node not in self.tracer.moved:
             halted = {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}
             return halted.get(_state(self.state, trace.node), _CUT_OFF)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import attrs
 
 from assoc_hull.edit.field import Field
@@ -54,6 +56,14 @@ class Pending:
         Curves that were made in this transaction.
     notes : list of str
         What was left alone, and why.
+    alone : bool
+        Whether a modification is there that no other may stand beside.
+    relink : set of int
+        Curves whose adopted points are linked to their neighbours anew after the main pass.
+    after : list of callable
+        What is done to the structure when the main pass has run.
+    carried, cut_again : list of str
+        Keys of the lines that a mapping carried, and of those that followed it.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -67,3 +77,15 @@ class Pending:
     gone: list[str] = attrs.field(factory=list)
     fresh: list[int] = attrs.field(factory=list)
     notes: list[str] = attrs.field(factory=list)
+    alone: bool = False
+    relink: set[int] = attrs.field(factory=set)
+    after: list[Callable[[], None]] = attrs.field(factory=list)
+    carried: list[str] = attrs.field(factory=list)
+    cut_again: list[str] = attrs.field(factory=list)
+
+    @staticmethod
+    def not_alone(name: str) -> tuple[str, str, str]:
+        """Say that a transformation stands beside something else: what, where, remedy."""
+        what = "a transformation and another modification in one edit"
+        remedy = "use two edits: a transformation reads the whole hull and sets it anew"
+        return what, f"in the edit {name!r}", remedy

@@ -96,6 +96,8 @@ class EditReport:
         The largest gap at the watched crossings that were checked.
     notes : tuple of str
         What was left alone, and why.
+    carried, cut_again : tuple of str
+        Keys of the lines that a mapping carried, and of those that were cut again from them.
     seconds : dict of str to float
         Time per phase.
     fairness : Fairness or None
@@ -114,6 +116,8 @@ class EditReport:
     largest: Movement | None = None
     largest_gap: float = 0.0
     notes: tuple[str, ...] = ()
+    carried: tuple[str, ...] = ()
+    cut_again: tuple[str, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
     fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
     changed: bool = True
@@ -134,6 +138,8 @@ class EditReport:
                 f"({x:.3f}, {y:.3f}, {z:.3f}) m, {self.largest.point}"
             )
         parts.append(f"largest gap {1e3 * self.largest_gap:.2f} mm")
+        if self.carried:
+            parts.append(f"{len(self.carried)} lines carried, {len(self.cut_again)} cut again")
         for title in ("born", "gone", "mended", "failed", "blocked"):
             found = getattr(self, title)
             if found:

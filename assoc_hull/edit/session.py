@@ -23,14 +23,16 @@ from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
-from assoc_hull.edit.arguments import flag, number, shown, shown_name
+from assoc_hull.edit import transform as _transform
+from assoc_hull.edit.arguments import flag, number, shown
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.given import Given
+from assoc_hull.edit.mapping import Jacobian, Mapping, space_map
 from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
-from assoc_hull.model.address import Place, resolve
-from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, place_of
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.state import HullState
 
 __all__ = ["Edit"]
@@ -93,11 +95,17 @@ class Edit:
         """The transaction, for a modification: only while the edit is open."""
         if not self.active:
             raise BadInputError("it is not open", f"in the edit {self._held.name!r}", _USE)
+        if self._held.pending.alone:
+            raise BadInputError(*self._held.pending.not_alone(self._held.name))
         return self._held
 
     @property
     def _tables(self) -> HullState:
         return self._held.state
+
+    @property
+    def _given(self) -> Given:
+        return Given(self._held.state)
 
     def move(
         self,
@@ -117,7 +125,7 @@ class Edit:
             Other coordinates than those it is free in.
         """
         asked = {"x": x, "y": y, "z": z}
-        row, _ = self._point(point)
+        row, _ = self._given.point(point)
         given = {
             axis: number(value, axis, "in move")
             for axis, value in asked.items()
@@ -127,27 +135,27 @@ class Edit:
 
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
         """Insert a placed point at (x, y, z), m; it is never moved by an update."""
-        row = _points.insert(self._transaction, self._curve(curve), place)
+        row = _points.insert(self._transaction, self._given.curve(curve), place)
         return Point.of(self._tables, row)
 
     def delete(self, point: Point | str) -> None:
         """Delete a placed or adopted point."""
-        _points.delete(self._transaction, self._point(point)[0])
+        _points.delete(self._transaction, self._given.point(point)[0])
 
     def set_kind(
         self, point: Point | str, kind: str, *, direction: ArrayLike | None = None
     ) -> None:
         """Make a point ``"smooth"``, ``"tangent"`` or ``"knuckle"`` on the curve it lies on."""
-        row, side = self._point(point)
+        row, side = self._given.point(point)
         _points.set_kind(self._transaction, row, side, kind, direction)
 
     def pin(self, point: Point | str) -> None:
         """Make an adopted point a placed one."""
-        _points.pin(self._transaction, self._point(point)[0])
+        _points.pin(self._transaction, self._given.point(point)[0])
 
     def unpin(self, point: Point | str) -> None:
         """Make a placed point an adopted one."""
-        _points.unpin(self._transaction, self._point(point)[0])
+        _points.unpin(self._transaction, self._given.point(point)[0])
 
     def pull(
         self,
@@ -158,7 +166,7 @@ class Edit:
         across_flats: bool = False,
     ) -> None:
         """Pull the hull at a point by d (m, outward), fading over (r_x, r_girth) in m."""
-        row, _ = self._point(point)
+        row, _ = self._given.point(point)
         flag(across_flats, "across_flats", "in pull")
         _pull.pull(
             self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats
@@ -179,7 +187,12 @@ class Edit:
         """
         flag(across_flats, "across_flats", "in reshape")
         made = _reshape.reshape(
-            self._transaction, self._curve(curve), points, span, fade, across_flats=across_flats
+            self._transaction,
+            self._given.curve(curve),
+            points,
+            span,
+            fade,
+            across_flats=across_flats,
         )
         return tuple(Point.of(self._tables, row) for row in made)
 
@@ -193,15 +206,15 @@ class Edit:
     ) -> None:
         """Give a curve a tangent or a curvature at its start or finish; free without either."""
         _ends.set_end(
-            self._transaction, self._curve(curve), end, tangent=tangent, curvature=curvature
+            self._transaction, self._given.curve(curve), end, tangent=tangent, curvature=curvature
         )
 
     def set_role(self, crossing: Point | Crossing | str, role: str | None) -> None:
         """Override what a crossing defines; None gives it back to the rule."""
         if isinstance(crossing, Crossing):
-            row = self._place(crossing).row
+            row = self._given.place(crossing).row
         else:
-            row, _ = self._point(crossing)
+            row, _ = self._given.point(crossing)
         _set_role.set_role(self._transaction, row, role)
 
     def renew_roles(self, lines: Sequence[Line | str]) -> int:
@@ -209,16 +222,16 @@ class Edit:
         if isinstance(lines, (str, Line)) or not isinstance(lines, Sequence):
             what = f"the lines are {shown(lines)}"
             raise WrongTypeError(what, "in renew_roles", "give a list of lines")
-        return _renew.renew_roles(self._transaction, [self._line(line) for line in lines])
+        return _renew.renew_roles(self._transaction, [self._given.line(line) for line in lines])
 
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
         """Declare that a generates points on b, and b on a if two-way."""
-        first, second = self._group(a), self._group(b)
+        first, second = self._given.group(a), self._given.group(b)
         _associate.associate(self._transaction, first, second, two_way=two_way)
 
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
-        _associate.dissociate(self._transaction, self._group(a), self._group(b))
+        _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
 
     def rename(self, obj: object, name: str) -> None:
         """Give a line, a point or the hull itself another name; keys stay.
@@ -234,16 +247,7 @@ class Edit:
         if getattr(obj, "document", None) is self._held.document:
             _rename.rename_hull(self._transaction, name)
             return
-        _rename.rename(self._transaction, self._place(obj), name)
-
-    def _place(self, thing: object) -> Place:
-        """Find what a handle or an address leads to."""
-        if isinstance(thing, str):
-            return resolve(self._tables, thing)
-        if isinstance(thing, Group | Line | Curve | Point | Crossing):
-            self._check_own(thing)
-            return place_of(thing)
-        raise WrongTypeError(f"the object is {shown(thing)}", "in an edit", _HANDLE)
+        _rename.rename(self._transaction, self._given.place(obj), name)
 
     def add_line(
         self, group: Group | str, position: float | tuple[float, float], name: str | None = None
@@ -253,7 +257,7 @@ class Edit:
         A diagonal takes ``(height, angle)``: where its plane meets the centre plane, m, and by
         how many degrees it falls outward from the horizontal.
         """
-        title = group if isinstance(group, str) else self._group(group)
+        title = group if isinstance(group, str) else self._given.group(group)
         line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 
@@ -262,67 +266,69 @@ class Edit:
 
         A diagonal keeps its angle; its position is the height at the centre plane.
         """
-        _shift.shift_line(self._transaction, self._line(line), number(position, "position"))
+        _shift.shift_line(self._transaction, self._given.line(line), number(position, "position"))
 
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
-        _lines.remove_line(self._transaction, self._line(line))
+        _lines.remove_line(self._transaction, self._given.line(line))
 
-    def _group(self, group: Group | str) -> str:
-        """Take the name of a group; lines are associated by their groups only."""
-        if isinstance(group, str) and group in self._tables.groups.name.data:
-            return group
-        try:
-            place = self._place(group)
-        except UnknownNameError:
-            return str(group)
-        name = str(self._tables.groups.name.data[place.group])
-        if place.line >= 0:
-            raise BadInputError(
-                f"{shown_name(getattr(group, 'name', group))!r} lies in the group {name!r}",
-                "in an edit",
-                f"associations run between whole groups, and lines join them; say {name!r}",
-            )
-        return name
+    def transform(
+        self,
+        mapping: Mapping | None = None,
+        drivers: Sequence[Group | Line | str] = (),
+        *,
+        scale: ArrayLike | None = None,
+        shift: ArrayLike | None = None,
+        planes: Literal["stay", "follow"] = "stay",
+        jacobian: Jacobian | None = None,
+        tolerance: float = 2e-3,
+    ) -> None:
+        """Carry driving groups or lines by a mapping of space; all other lines follow.
 
-    def _point(self, point: Point | str) -> tuple[int, int]:
-        if isinstance(point, Point):
-            self._check_own(point)
-            return point.row, point.side
-        if not isinstance(point, str):
-            raise WrongTypeError(f"the point is {shown(point)}", "in an edit", _HANDLE)
-        found = resolve(self._tables, point)
-        if found.row < 0:
-            raise UnknownNameError("point", point)
-        return found.row, found.side
+        Parameters
+        ----------
+        mapping : callable or None
+            Takes places (n, 3), m, and gives where they come to; (0, y, z) stays at y = 0.
+        drivers : sequence of Group, Line or str
+            Whose images are taken exactly; their planes go along, and one that is bent out
+            of a plane becomes a space curve. Boundary curves are features of the hull and
+            no cuts of it: they are carried with the drivers, named or not.
+        scale, shift : (3,), (3,), m
+            Instead of a mapping: factors about the origin, then a shift.
+        planes : {"stay", "follow"}
+            Followers are cut again at their own planes, or at parallel ones where the
+            mapping sends their planes to such.
+        jacobian : callable or None
+            Gives d mapping_i / d x_j as (n, 3, 3); central differences over 1 mm if None.
+        tolerance : float, m
+            How far a driver may leave its exact image; adopted points hold it.
 
-    def _curve(self, curve: Curve | str) -> int:
-        if isinstance(curve, Curve):
-            self._check_own(curve)
-            return curve.row
-        if not isinstance(curve, str):
-            raise WrongTypeError(f"the curve is {shown(curve)}", "in an edit", _HANDLE)
-        found = resolve(self._tables, curve)
-        if found.curve >= 0:
-            return found.curve
-        found_pieces = self._tables.lines.curves.data[found.line] if found.line >= 0 else ()
-        pieces: tuple[int, ...] = tuple(found_pieces)
-        if len(pieces) != 1:
-            known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
-            raise UnknownNameError("curve", curve, known)
-        return int(pieces[0])
+        Raises
+        ------
+        BadInputError
+            No driver, a mapping that fails, folds, or moves the centre plane, a follower
+            that no driver defines.
+        UnknownNameError
+            A driver that does not exist.
 
-    def _line(self, line: Line | str) -> int:
-        if isinstance(line, Line):
-            self._check_own(line)
-            return line.row
-        if not isinstance(line, str):
-            raise WrongTypeError(f"the line is {shown(line)}", "in an edit", _HANDLE)
-        found = resolve(self._tables, line)
-        if found.line < 0 or found.curve >= 0:
-            raise UnknownNameError("line", line)
-        return found.line
+        Notes
+        -----
+        It is an edit of its own: nothing else may stand in the same ``with`` block. The
+        particulars stay as they are.
 
-    def _check_own(self, handle: Group | Line | Curve | Point | Crossing) -> None:
-        if handle.tables is not self._tables:
-            raise ForeignPointError(repr(handle))
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> hull = ah.examples.wigley()
+        >>> with hull.edit("10 % broader") as edit:
+        ...     edit.transform(lambda p: p * [1, 1.1, 1], drivers=["sections", "profile"])
+        >>> hull.half_breadth(50.0, 6.25)
+        5.5
+        """
+        space = space_map(mapping, jacobian, scale, shift)
+        if planes not in ("stay", "follow"):
+            raise BadInputError(f"planes={planes!r}", "in transform", "use 'stay' or 'follow'")
+        _transform.transform(
+            self._transaction, space, self._given.driving(drivers), follow=planes == "follow",
+            tolerance=number(tolerance, "tolerance"),
+        )  # fmt: skip

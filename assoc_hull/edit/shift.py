@@ -12,7 +12,7 @@ import numpy as np
 from assoc_hull.edit.branches import track
 from assoc_hull.edit.cut import make_piece, pieces_of
 from assoc_hull.edit.lines import leave_behind
-from assoc_hull.edit.marks import find_marks, spread
+from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.pieces import match_pieces
 from assoc_hull.edit.planes import shifted_plane
 from assoc_hull.edit.remeet import enter_line, strike_line
@@ -25,7 +25,7 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["shift_line"]
+__all__ = ["cut_anew", "rows_of", "shift_line"]
 
 
 def shift_line(edit: Transaction, line: int, position: float) -> None:
@@ -53,15 +53,36 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     position = cut.offset
     marks = find_marks(state, cut.group, cut.normal, position)
     mine = np.array(state.lines.curves.data[line], np.int64)
-    crossings, placed = _rows(state, mine)
+    crossings, placed = rows_of(state, mine)
     known = _followed(state, line, crossings, position)
     edit.refuse_moved(placed)
     edit.pending.structural = True
     leave_behind(edit, crossings, mine)
-    edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
     strike_line(edit, line)
-    _drop_adopted(edit, mine)
     edit.journal.put(state.lines.offset, [line], [position])
+    cut_anew(edit, line, marks, known)
+
+
+def cut_anew(edit: Transaction, line: int, marks: Marks, known: dict[tuple[int, int], int]) -> None:
+    """Cut a line again where its plane now meets the hull; nothing else may read it.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    line : int
+        The line; its plane stands in the tables, and no meeting of other curves names it.
+    marks : Marks
+        Where its plane meets the lines it is cut from.
+    known : dict of (int, int) to int
+        Crossings that keep their identity, by the other curve and the meeting, counted
+        along it.
+    """
+    state = edit.state
+    mine = np.array(state.lines.curves.data[line], np.int64)
+    crossings, placed = rows_of(state, mine)
+    edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
+    _drop_adopted(edit, mine)
     pieces = match_pieces(edit, line, pieces_of(state, line, marks), known)
     for curve, piece in pieces:
         make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
@@ -77,7 +98,7 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
 def _tell(edit: Transaction, before: IntArray, curves: IntArray) -> None:
     """Put the crossings that came and went on the way into the report."""
     keys = edit.state.rows.key.data
-    after = _rows(edit.state, curves)[0]
+    after = rows_of(edit.state, curves)[0]
     edit.pending.born += sorted(keys[row] for row in np.setdiff1d(after, before).tolist())
     edit.pending.gone += sorted(keys[row] for row in np.setdiff1d(before, after).tolist())
 
@@ -89,7 +110,7 @@ def _drop_adopted(edit: Transaction, mine: IntArray) -> None:
     edit.maker.remove_rows(np.flatnonzero(own & (table.sort.data == Sort.ADOPTED)))
 
 
-def _rows(state: HullState, mine: IntArray) -> tuple[IntArray, IntArray]:
+def rows_of(state: HullState, mine: IntArray) -> tuple[IntArray, IntArray]:
     """Give the crossings of the line's curves, and their placed points."""
     table = state.rows
     on = table.alive.data & np.isin(table.curve.data, mine).any(axis=1)

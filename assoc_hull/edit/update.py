@@ -153,6 +153,8 @@ def update(
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
             _settle(work)
+            _relink(work)
+            _follow_up(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -266,6 +268,31 @@ def _settle(work: _Work) -> None:
         work.go(_NONE, curves)
 
 
+def _relink(work: _Work) -> None:
+    """Let adopted points that were carried ride from where they and their neighbours are now."""
+    held, curves = work.pending.held, np.array(sorted(work.pending.relink), np.int64)
+    curves = curves[work.state.curves.alive.data[curves]]
+    ride_links(work.state, curves, work.journal)
+    if len(curves):
+        work.renew()
+    held.clear()
+
+
+def _follow_up(work: _Work) -> None:
+    """Do what waits for the main pass, and run a second pass for the curves that it touches."""
+    pending = work.pending
+    if not pending.after:
+        return
+    pending.curves.clear()
+    for act in pending.after:
+        act()
+    _link_riders(work.state, work.journal, pending)
+    work.renew()
+    live = [curve for curve in sorted(pending.curves) if work.state.curves.alive.data[curve]]
+    work.go(_NONE, np.array(live, np.int64))
+    _settle(work)
+
+
 def _check(work: _Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
@@ -347,6 +374,8 @@ def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
         largest=_largest(state, changed, moved),
         largest_gap=0.0 if work.wide is None else work.wide.largest,
         notes=tuple(work.pending.notes),
+        carried=tuple(work.pending.carried),
+        cut_again=tuple(work.pending.cut_again),
         seconds=work.seconds,
         fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
     )

@@ -1,0 +1,66 @@
+"""Followers that come to end elsewhere on boundary curves: cut wholly anew, as a shifted line.
+
+Such a line is taken out while the others are carried and cut; when they are lofted, its
+plane is met with them, and crossings with drivers that are still there keep their identity.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from assoc_hull.edit.carry import Carried
+from assoc_hull.edit.marks import find_marks
+from assoc_hull.edit.remeet import strike_line
+from assoc_hull.edit.shift import cut_anew, rows_of
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.crossing import meet_planes
+from assoc_hull.model.family import Role
+
+__all__ = ["bring_back", "take_out"]
+
+
+def take_out(edit: Transaction, work: Carried) -> None:
+    """Take lines that are cut anew out of the net, and note that they come back."""
+    state, put = edit.state, edit.journal.put
+    for line in sorted(work.anew, key=lambda line: str(state.lines.key.data[line])):
+        mine = np.array(state.lines.curves.data[line], np.int64)
+        crossings, placed = rows_of(state, mine)
+        edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
+        strike_line(edit, line)
+        put(state.rows.xyz, placed, work.image[placed])
+        put(state.curves.alive, mine, False)
+        put(state.lines.alive, [line], False)
+        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line]))
+
+
+def bring_back(edit: Transaction, line: int, known: dict[tuple[int, int], int]) -> None:
+    """Cut a line that was taken out from the others as they are now.
+
+    Raises
+    ------
+    NoMeetingError
+        The hull does not reach the plane of the line any more.
+    """
+    state, put = edit.state, edit.journal.put
+    edit.document.refresh()
+    normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
+    marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+    put(state.lines.alive, [line], True)
+    put(state.curves.alive, state.lines.curves.data[line], True)
+    cut_anew(edit, line, marks, _still_there(edit, line, known))
+
+
+def _still_there(
+    edit: Transaction, line: int, known: dict[tuple[int, int], int]
+) -> dict[tuple[int, int], int]:
+    """Leave out crossings with curves that, lofted, meet the plane otherwise than their image."""
+    table = edit.state.lines
+    plane = table.normal.data[line].copy(), table.offset.data[[line]].copy()
+    count = {curve: meet_planes(edit.state.spline(curve), *plane).count for curve, _ in known}
+    rows = edit.state.rows
+    return {
+        (curve, root): row for (curve, root), row in known.items()
+        if root < count[curve] and rows.alive.data[row]
+    }  # fmt: skip

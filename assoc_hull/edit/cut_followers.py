@@ -1,0 +1,298 @@
+"""Followers of a transformation: cut again from the drivers, then from one another by rank.
+
+A follower is made through its crossings with drivers and with the followers cut before it.
+Where its plane is kept by the mapping, its own points are carried as they are. Where not,
+another part of the hull comes to lie in the plane: placed points are brought there along
+the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
+line that is cut before passes without defining.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from assoc_hull.edit.carry import Carried, Through, through
+from assoc_hull.edit.carry_planes import into_planes
+from assoc_hull.edit.thread import interval_of
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.crossing import meet_planes
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.spline import loft
+from assoc_hull.model.align import align_roots
+from assoc_hull.model.family import Sort
+from assoc_hull.model.state import Meets
+
+__all__ = ["cut_followers"]
+
+_NEAR = 0.15
+"""No point is added as near as this (m) to another one."""
+
+_ROUNDS = 6
+
+
+def cut_followers(work: Carried) -> None:
+    """Find where all followers pass.
+
+    Raises
+    ------
+    BadInputError
+        A follower is cut from nothing.
+    """
+    state = work.state
+    curves = [
+        curve for curve in state.live("curves").tolist()
+        if not work.drives(curve) and state.line_of(curve) not in work.anew
+    ]  # fmt: skip
+    for row in state.live("rows").tolist():
+        if work.anew and work.apart(row):
+            work.known[row] = False
+    for curve in sorted(curves, key=state.rank):
+        _check_cut(work, curve)
+        _carry_own(work, curve)
+        _give(work, curve)
+    for curve in curves:
+        work.made[curve] = _points(work, curve)
+
+
+def _crossings(work: Carried, curve: int) -> list[int]:
+    """Give the crossings that define a curve and are still there."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    mine = rows[work.state.rows.sort.data[rows] == Sort.CROSSING]
+    return [row for row in mine.tolist() if row not in work.gone and not work.apart(row)]
+
+
+def _check_cut(work: Carried, curve: int) -> None:
+    """See that a follower is defined by a driver, or by a follower cut before it."""
+    state = work.state
+    boundary = state.lines.boundary.data >= 0
+    inner = [
+        row for row in _crossings(work, curve)
+        if not boundary[state.line_of(work.other(row, curve))]
+    ]  # fmt: skip
+    given = [row for row in inner if _before(work, row, curve)]
+    own = len(state.curves.rows.data[curve]) - len(inner)
+    if (inner and not given) or own + len(given) < 2:
+        name = state.lines.name.data[state.line_of(curve)]
+        raise BadInputError(
+            f"{name} follows, but no driver defines it", "in transform",
+            f"name {name} or its group as a driver too, or another group that crosses it",
+        )  # fmt: skip
+
+
+def _before(work: Carried, row: int, curve: int) -> bool:
+    """Tell whether the other curve of a crossing is cut before a follower."""
+    other = work.other(row, curve)
+    return work.drives(other) or work.state.rank(other) < work.state.rank(curve)
+
+
+def _carry_own(work: Carried, curve: int) -> None:
+    """Give the own points of a follower whose plane is kept the places of their images."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    mine = rows[work.state.rows.sort.data[rows] != Sort.CROSSING]
+    if not _slides(work, curve):
+        work.known[mine] = True
+        return
+    ends = rows[[0, -1]]
+    smooth = (work.state.rows.sort.data[mine] == Sort.ADOPTED) & (
+        work.state.rows.kind.data[mine, 0] == PointKind.SMOOTH
+    )
+    work.gone |= set(mine[smooth & ~np.isin(mine, ends)].tolist())
+    _carry_free_ends(work, rows)
+
+
+def _carry_free_ends(work: Carried, rows: IntArray) -> None:
+    """Carry ends that lie on no boundary curve: they go along with the crossing beside them."""
+    for order in (rows, rows[::-1]):
+        end = int(order[0])
+        if work.state.rows.sort.data[end] == Sort.CROSSING:
+            continue
+        beside = order[(work.state.rows.sort.data[order] == Sort.CROSSING) & work.known[order]]
+        slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
+        place = (work.image[end] + slip)[None]
+        work.value[end] = into_planes(work.state, work.planes, np.array([end]), place)[0]
+        work.known[end] = True
+
+
+def _slides(work: Carried, curve: int) -> bool:
+    """Tell whether another part of the hull comes to lie in the plane of a follower."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    own = work.state.rows.sort.data[rows] != Sort.CROSSING
+    new = any(curve in work.state.rows.curve.data[row] for _, row in work.contacts)
+    return new or bool(work.slid[rows].any() or (~work.direct[rows[own]]).any())
+
+
+def _points(work: Carried, curve: int) -> Through:
+    """Put the points of a follower that are known into order.
+
+    Where crossings slid, those of one family and the ends keep their order, and the others
+    are put between them by the least detour.
+    """
+    state = work.state
+    rows: IntArray = state.curves.rows.data[curve]
+    order = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    if not _slides(work, curve):
+        return Through(order, [work.value[row].copy() for row in order], [])
+    new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    base = _base(work, curve, order)
+    found = Through(base, [work.value[row].copy() for row in base], [])
+    for row in [*new, *(each for each in order if each not in set(base))]:
+        _insert(found, row, work.value[row])
+    for place in _coming(work, curve):
+        _insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
+    for row in new:
+        _direct(work, curve, found, row)
+    _bring_along(work, curve, found)
+    _hold(work, curve, found)
+    return found
+
+
+def _bring_along(work: Carried, curve: int, found: Through) -> None:
+    """Bring the own points of a follower to the part of the hull that is now in its plane.
+
+    Each comes to the foot of its image on the curve without it, and as far off that as it
+    was off the curve without it before.
+    """
+    state = work.state
+    rows: IntArray = state.curves.rows.data[curve]
+    own = state.rows.sort.data[rows] != Sort.CROSSING
+    mine = np.array([row for row in rows[own].tolist() if row not in work.gone], np.int64)
+    mine = mine[~work.known[mine]]
+    if not len(mine):
+        return
+    rest = rows[~own | np.isin(rows, rows[[0, -1]])]
+    work.made[curve] = Through(rest.tolist(), list(state.rows.xyz.data[rest]), [])
+    before = loft(through(work, [curve]))
+    work.made[curve] = found
+    after = loft(through(work, [curve]))
+    off = state.rows.xyz.data[mine] - closest(before, 0, state.rows.xyz.data[mine])[1]
+    foot = closest(after, 0, work.image[mine])[1]
+    work.value[mine] = into_planes(state, work.planes, mine, foot + off)
+    work.known[mine] = True
+    for row in mine.tolist():
+        _insert(found, row, work.value[row])
+
+
+def _hold(work: Carried, curve: int, found: Through) -> None:
+    """Hold a follower where lines cut before it pass its plane without defining it."""
+    places = _passed(work, curve)
+    for _ in range(_ROUNDS):
+        if not len(places):
+            return
+        work.made[curve] = found
+        spline = loft(through(work, [curve]))
+        at, _, away = closest(spline, 0, places)
+        segment = np.searchsorted(spline.knot, at, side="right")
+        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption)
+        wide = wide[np.argsort(-away[wide], kind="stable")]
+        first = np.unique(segment[wide], return_index=True)[1]
+        added = [
+            _insert(found, -1, into_own_plane(work, curve, places[i]), least=_NEAR)
+            for i in wide[np.sort(first)].tolist()
+        ]
+        if not any(added):
+            return
+
+
+def _passed(work: Carried, curve: int) -> FloatArray:
+    """Give the places (k, 3), m, where lines cut before a follower pass its plane unheard."""
+    table, meets = work.state.rows, work.state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
+    kept = [row for row in rows.tolist() if row not in work.gone and _before(work, row, curve)]
+    return np.array(work.value[kept]).reshape(-1, 3)
+
+
+def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
+    """Give a new contact with the border of a flat its direction: along the flat."""
+    table = work.state.rows
+    if table.kind.data[row, 1] != PointKind.TANGENT:
+        return
+    flat, own = (work.planes.normal[work.state.line_of(c)] for c in table.curve.data[row].tolist())
+    along = np.cross(flat, own)
+    at = found.row.index(row)
+    chord = found.place[min(at + 1, len(found.place) - 1)] - found.place[max(at - 1, 0)]
+    along = along if float((along * chord).sum()) >= 0.0 else -along
+    work.maker.journal.put(table.direction, [row], [[np.zeros(3), along]])
+
+
+def _coming(work: Carried, curve: int) -> list[FloatArray]:
+    """Give the places at which drivers have come to meet the plane of a follower's piece."""
+    line = work.state.line_of(curve)
+    return [
+        place for other, place in work.come
+        if other == line and work.piece(line, place) == curve
+    ]  # fmt: skip
+
+
+def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
+    """Put a place exactly into the plane of a curve."""
+    line, out = work.state.line_of(curve), place.copy()
+    exact = work.planes.normal[line] == 1.0
+    out[exact] = work.planes.offset[line]
+    return out
+
+
+def _insert(found: Through, row: int, place: FloatArray, least: float = 0.0) -> bool:
+    """Put a point where it makes the least detour, unless one is nearer than `least`."""
+    places = np.array(found.place)
+    if least and float(np.sqrt(((places - place) ** 2).sum(axis=1)).min()) < least:
+        return False
+    index = interval_of(places, place)
+    found.row.insert(index, row)
+    found.place.insert(index, place.copy())
+    return True
+
+
+def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
+    """Give the points of a curve that keep their order: ends, and the family that cuts most."""
+    state = work.state
+    group = {
+        row: int(state.lines.group.data[state.line_of(work.other(row, curve))])
+        for row in order
+        if work.other(row, curve) >= 0 and not state.rows.contact.data[row]
+    }
+    count = Counter(group.values())
+    names = state.groups.name.data
+    main = min(count, key=lambda each: (-count[each], str(names[each]))) if count else -1
+    ends = {order[0], order[-1]}
+    return [
+        row for row in order
+        if row in ends or group.get(row) == main
+        or (state.rows.contact.data[row] and not work.slid[row])
+    ]  # fmt: skip
+
+
+def _give(work: Carried, curve: int) -> None:
+    """Cut a follower with the planes of those that come after it, where these have to slide."""
+    state = work.state
+    meets: Meets = state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    wanted = [
+        row for row in rows[~work.known[rows]].tolist()
+        if row not in work.gone and not work.apart(row) and not _before(work, row, curve)
+    ]  # fmt: skip
+    if not wanted:
+        return
+    work.made[curve] = _points(work, curve)
+    spline = loft(through(work, [curve]), [str(state.curves.key.data[curve])])
+    for line in sorted({state.line_of(work.other(row, curve)) for row in wanted}):
+        _cut_one(work, curve, spline, line, set(wanted))
+
+
+def _cut_one(work: Carried, curve: int, spline: SplineBatch, line: int, wanted: set[int]) -> None:
+    """Cut one follower with the plane of one after it, and say which crossing is which."""
+    meets: Meets = work.state.curves.meets.data[curve]
+    old = np.flatnonzero(meets.line == line)
+    met = meet_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
+    pairs = align_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)
+    found = {int(meets.row[old[one]]): other for one, other in pairs}
+    for row in meets.row[old].tolist():
+        if row in found and row in wanted:
+            place = met.xyz[[found[row]]]
+            work.value[row] = into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.known[row] = work.slid[row] = True
+        elif row >= 0 and row in wanted:
+            work.gone.add(row)

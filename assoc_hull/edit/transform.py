@@ -1,0 +1,209 @@
+"""Global modification: a mapping of space carries the driving lines, the others follow.
+
+The images of the drivers are exact; their planes go where the mapping sends them. The
+followers are cut again, each at its own plane, first from the drivers, then from one
+another in the order of the ranks. Crossings keep their identity by sign and order along
+the images, roles and kinds stay, and what the designer placed is carried by the mapping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.anew import take_out
+from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.carry_planes import Planes, carry_planes
+from assoc_hull.edit.cut_drivers import cut_drivers, hold_images
+from assoc_hull.edit.cut_followers import cut_followers
+from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.topology import unmeet
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.unplane import bend_lines, let_go
+from assoc_hull.errors import BadInputError
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.make import PointSpec
+from assoc_hull.model.network import bits_differ
+from assoc_hull.model.state import HullState, Meets
+
+__all__ = ["transform"]
+
+_TOLERANCE = 2e-3
+"""How far (m) a driver may leave its exact image between the points it is made through."""
+
+
+def transform(
+    edit: Transaction,
+    space: SpaceMap,
+    drivers: Sequence[int],
+    *,
+    follow: bool = False,
+    tolerance: float = _TOLERANCE,
+) -> None:
+    """Carry driving lines by a mapping and cut the others again.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit; nothing else may be in it.
+    space : SpaceMap
+        The mapping.
+    drivers : sequence of int
+        The driving lines. Boundary curves are features of the hull and no cuts of it: they
+        are carried with the drivers, named or not.
+    follow : bool
+        Whether the planes of followers move where the mapping sends them to parallel ones.
+    tolerance : float, m
+        How far a driver may leave its exact image.
+
+    Raises
+    ------
+    BadInputError
+        No driver, a mapping that cannot be used, or lines that cannot follow it.
+    """
+    state = edit.state
+    driver = _drivers(edit, drivers)
+    edit.pending.alone = True
+    planes = carry_planes(state, space, np.flatnonzero(driver), follow)
+    work = carry_points(edit.maker, space, planes, driver)
+    if not _anything(state, work):
+        _tell(edit, work, 0)
+        return
+    edit.pending.structural = True
+    turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
+    bend_lines(work)
+    image = cut_drivers(work, edit.document.index)
+    cut_followers(work)
+    added = hold_images(work, image, tolerance)
+    let_go(edit, work)
+    take_out(edit, work)
+    _move_planes(edit, planes)
+    _publish(edit, work, turned)
+    _tell(edit, work, added)
+
+
+def _drivers(edit: Transaction, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
+    """Check the drivers and the state of the edit; mark the driving lines."""
+    state = edit.state
+    driver = np.zeros(state.lines.count, bool)
+    driver[list(drivers)] = True
+    boundary = state.lines.boundary.data >= 0
+    if not (driver & ~boundary).any():
+        raise BadInputError(
+            "no driver but boundary curves" if driver.any() else "no driver", "in transform",
+            "name groups or lines that carry the hull, for instance ['sections', 'profile']",
+        )  # fmt: skip
+    pending = edit.pending
+    if edit.journal.entries or pending.values or pending.fields or pending.curves:
+        raise BadInputError(*pending.not_alone(edit.name))
+    if state.failed:
+        keys = ", ".join(str(state.curves.key.data[curve]) for curve in state.failed)
+        raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
+    found: np.typing.NDArray[np.bool_] = (driver | boundary) & state.lines.alive.data
+    return found
+
+
+def _anything(state: HullState, work: Carried) -> bool:
+    """Tell whether the mapping moves anything by a bit."""
+    live = state.live("rows")
+    same = not bits_differ(work.value[live] + 0.0, state.rows.xyz.data[live] + 0.0).any()
+    lines = state.live("lines")
+    planes, table = work.planes, state.lines
+    flat = table.planar.data[lines]
+    return not (
+        same
+        and bool((planes.planar[lines] == flat).all())
+        and bool((planes.offset[lines[flat]] == table.offset.data[lines[flat]]).all())
+    )
+
+
+def _move_planes(edit: Transaction, planes: Planes) -> None:
+    table, put = edit.state.lines, edit.journal.put
+    lines = edit.state.live("lines")
+    put(table.planar, lines, planes.planar[lines])
+    put(table.normal, lines, planes.normal[lines])
+    put(table.offset, lines, planes.offset[lines])
+
+
+def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
+    """Hand everything over to the update."""
+    state, pending = edit.state, edit.pending
+    for curve in sorted(work.made):
+        _define(edit, curve, work.made[curve], work.gone)
+    _carry_meetings(edit, work)
+    _remove(edit, work)
+    live = state.live("rows")
+    live = live[live < len(work.value)]
+    computed = state.rows.driver.data[live] >= 0
+    watched = (state.rows.sort.data[live] == Sort.CROSSING) & (
+        state.rows.role.data[live] == Role.WATCHED
+    )
+    apart = np.array([bool(work.anew) and work.apart(row) for row in live.tolist()], bool)
+    rows = live[~computed & ~watched & ~apart]
+    edit.write(rows, work.value[rows], "transform")
+    adopted = state.live("rows")
+    adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
+    fresh = [row for _, row in work.contacts]
+    pending.computed |= set(fresh)
+    pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
+    pending.held |= set(adopted.tolist())
+    pending.curves |= set(state.live("curves").tolist())
+    pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
+    pending.relink |= set(state.live("curves").tolist())
+
+
+def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> None:
+    """Say which points define a curve now; make the new adopted ones."""
+    new = [place for row, place in zip(chosen.row, chosen.place, strict=True) if row < 0]
+    specs = [PointSpec(curve, place, Sort.ADOPTED) for place in new]
+    made = iter(edit.maker.points(specs).tolist())
+    rows = [row if row >= 0 else next(made) for row in chosen.row]
+    rows = [row for row in rows if row not in gone]
+    if rows != edit.state.curves.rows.data[curve].tolist():
+        edit.maker.define(curve, rows)
+
+
+def _carry_meetings(edit: Transaction, work: Carried) -> None:
+    """Let the update look for each meeting where the mapping has carried it."""
+    state = edit.state
+    for curve in state.live("curves").tolist():
+        meets: Meets = state.curves.meets.data[curve]
+        if len(meets.line):
+            carried = work.space.places(meets.xyz)
+            edit.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, xyz=carried)])
+
+
+def _remove(edit: Transaction, work: Carried) -> None:
+    """Take out what has no place any more."""
+    state, keys = edit.state, edit.state.rows.key.data
+    rows = sorted(work.gone, key=lambda row: str(keys[row]))
+    for row in rows:
+        for curve in state.rows.curve.data[row].tolist():
+            if curve >= 0 and state.rows.sort.data[row] == Sort.CROSSING:
+                unmeet(edit.maker, curve, row)
+    edit.maker.remove_rows(rows)
+    edit.pending.gone += [
+        str(keys[row]) for row in rows if state.rows.sort.data[row] == Sort.CROSSING
+    ]
+
+
+def _tell(edit: Transaction, work: Carried, added: int) -> None:
+    """Put into the report what was carried and what was cut again."""
+    state, pending = edit.state, edit.pending
+    lines = sorted(state.live("lines").tolist(), key=lambda line: str(state.lines.key.data[line]))
+    for line in lines:
+        key = str(state.lines.key.data[line])
+        (pending.carried if work.driver[line] else pending.cut_again).append(key)
+    for line, away in sorted(work.planes.bent.items()):
+        pending.notes.append(
+            f"{state.lines.name.data[line]} is a curve in space now, {away:.3g} m out of its plane"
+        )
+    if added:
+        pending.notes.append(f"{added} adopted points hold the drivers to their images")
+    size = state.particulars
+    pending.notes.append(
+        f"the particulars stay as they are: length {size.length:g}, breadth {size.breadth:g}, "
+        f"depth {size.depth:g}, draught {size.draught:g} m"
+    )

@@ -1,0 +1,114 @@
+"""Transformations of random nets after random edits: what must hold, holds, or all is refused."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+import assoc_hull as ah
+from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
+from assoc_hull.model.family import Role, Sort
+from tests.independent import lost_meetings, trouble
+from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, hulls, tasks
+
+
+@attrs.frozen
+class Smooth:
+    """A smooth map: factors, a swelling, a lift and a rake, each of some per cent."""
+
+    scale: tuple[float, float, float]
+    swell: float
+    lift: float
+    rake: float
+
+    def __call__(self, xyz: FloatArray) -> FloatArray:
+        x, y, z = np.asarray(xyz).T
+        bell = np.exp(-(((x - 50.0) / 40.0) ** 2))
+        return np.column_stack(
+            [
+                self.scale[0] * x + self.rake * np.sin(z / 4.0),
+                self.scale[1] * y * (1.0 + self.swell * bell),
+                self.scale[2] * z + self.lift * bell * np.sin(z / 6.0),
+            ]
+        )
+
+
+def maps() -> SearchStrategy[Smooth]:
+    """Give maps, often affine, sometimes of one factor only."""
+    factor = st.just(1.0) | st.floats(0.92, 1.08)
+    little = st.just(0.0) | st.floats(-0.05, 0.05)
+    return st.builds(Smooth, st.tuples(factor, factor, factor), little, little, little)
+
+
+DRIVERS = (("sections",), ("sections", "profile"), ("waterlines",), ("sections", "waterlines"))
+
+
+@given(hulls(), tasks(SHAPES + STRUCTURE, most=2), maps(), st.sampled_from(DRIVERS), st.booleans())
+def test_a_transformed_net_is_sound(
+    hull: ah.Hull, edits: list[Task], mapping: Smooth, drivers: tuple[str, ...], follow: bool
+) -> None:
+    """Consistency, a rebuild of the same bits, undo and redo, also through a file; else no bit.
+
+    What was placed is placed still, and lines, kinds and ends are those of before.
+    """
+    for task in edits:
+        carry_out(hull, task)
+    before, table = hull.fingerprint, hull.state.rows
+    live = hull.state.live("rows")
+    placed = live[table.sort.data[live] == Sort.PLACED]
+    names = sorted(hull.lines)
+    try:
+        with hull.edit("transform") as edit:
+            edit.transform(mapping, drivers, planes="follow" if follow else "stay")
+    except AssocHullError:
+        assert hull.fingerprint == before
+        return
+    assert table.alive.data[placed].all()
+    assert (table.sort.data[placed] == Sort.PLACED).all()
+    assert sorted(hull.lines) == names
+    assert list(trouble(hull)) == []
+    assert list(lost_meetings(hull)) == []
+    assert hull.verify() == ()
+    after = hull.fingerprint
+    again = ah.Hull(read_hull_json(dumps_hull_json(hull.state)))
+    assert again.fingerprint == after
+    hull.undo()
+    assert hull.fingerprint == before
+    hull.redo()
+    assert hull.fingerprint == after
+
+
+@given(hulls(), tasks(SHAPES + STRUCTURE, most=2))
+def test_the_identity_changes_no_bit(hull: ah.Hull, edits: list[Task]) -> None:
+    """After whatever edits, the identity on all groups is no change."""
+    for task in edits:
+        carry_out(hull, task)
+    before = hull.fingerprint
+    with hull.edit("identity") as edit:
+        edit.transform(lambda xyz: xyz, [name for name in hull.groups if name != "boundary"])
+    assert hull.fingerprint == before
+
+
+@given(hulls(), st.tuples(*(st.floats(0.8, 1.25) for _ in range(3))))
+def test_affine_maps_of_all_groups_are_exact(
+    hull: ah.Hull, scale: tuple[float, float, float]
+) -> None:
+    """Shared crossings and own points go where the mapping sends them, to 1e-9 m; roles stay."""
+    table, live = hull.state.rows, hull.state.live("rows")
+    held = live[(table.sort.data[live] != Sort.CROSSING) | (table.role.data[live] == Role.SHARED)]
+    riding = (table.anchor.data[held] >= 0).any(axis=1)
+    held = held[~riding]
+    old, roles = table.xyz.data[held].copy(), table.role.data[live].copy()
+    groups = [name for name, group in hull.groups.items() if group.lines]
+    try:
+        with hull.edit("affine") as edit:
+            edit.transform(scale=scale, drivers=groups)
+    except AssocHullError:
+        return
+    assert np.abs(table.xyz.data[held] - old * scale).max() <= 1e-9
+    assert (table.role.data[live] == roles).all()
