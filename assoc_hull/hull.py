@@ -17,19 +17,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-import assoc_hull.examples  # noqa: F401 - before the package binds this name to what is below
-from assoc_hull.edit.adopt import AdoptionReport, adopt
-from assoc_hull.edit.check_hull import Finding, check
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain import Thing, Why, node_of, why
-from assoc_hull.edit.preview import Preview, preview
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.view import graph_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.breadth import half_breadth
 from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.named import Named
@@ -41,6 +34,10 @@ from assoc_hull.tolerance import Tolerances
 if TYPE_CHECKING:
     import networkx
 
+    from assoc_hull.edit.adopt import AdoptionReport
+    from assoc_hull.edit.check_hull import Finding
+    from assoc_hull.edit.explain import Thing, Why
+    from assoc_hull.edit.preview import Preview
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Examples", "Hull", "examples", "open", "read"]
@@ -69,6 +66,8 @@ class Hull:
         tolerances: Tolerances | None = None,
     ) -> Self:
         """Make a net of given lines; see `assoc_hull.edit.adopt.adopt`."""
+        from assoc_hull.edit.adopt import adopt
+
         state, report = adopt(lines, particulars, associations, tolerances)
         hull = cls(state)
         hull.adoption = report
@@ -155,6 +154,8 @@ class Hull:
         Preview
             The report, or why it would be refused; the change of volume and LCB.
         """
+        from assoc_hull.edit.preview import preview
+
         return preview(
             self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
         )
@@ -179,10 +180,14 @@ class Hull:
 
     def why(self, thing: Thing | str) -> Why:
         """Explain the last change of a point or curve, or of the first curve of a line."""
+        from assoc_hull.edit.explain import node_of, why
+
         return why(self.document, node_of(self.state, thing))
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
+        from assoc_hull.edit.check_hull import check
+
         return check(self.document, notes)
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
@@ -208,6 +213,8 @@ class Hull:
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
+        from assoc_hull.edit.view import graph_of
+
         return graph_of(self.document, around, (up, down), two_way, edit)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
@@ -218,6 +225,8 @@ class Hull:
 
     def half_breadth(self, x: float, z: float) -> float:
         """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.breadth`."""
+        from assoc_hull.model.breadth import half_breadth
+
         return half_breadth(self.state, x, z)
 
     def save(self, path: str | os.PathLike[str]) -> None:
