@@ -16,7 +16,6 @@ from assoc_hull.edit.chain import chain
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.remeet import enter_line
-from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
@@ -176,7 +175,6 @@ def make_piece(
     own = iter(edit.maker.points(stand_in).tolist())
     order = [next(own) if role is Role.WATCHED else int(rows[i]) for i, role in enumerate(roles)]
     edit.maker.define(curve, order)
-    ride_links(state, np.array([curve]), edit.journal)
     for i, role in enumerate(roles):
         if role is Role.SHARED:
             thread(edit.maker, int(chosen.curve[i]), int(rows[i]))

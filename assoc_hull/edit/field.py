@@ -108,6 +108,10 @@ class Field(Protocol):
     def across_flats(self) -> bool:
         """Whether flats are moved too."""
 
+    @property
+    def strict(self) -> bool:
+        """Whether nothing but its own points may move: no gap is mended, each is told."""
+
     def shift(self, ground: FieldContext, part: float) -> Shift:
         """Give the displacements for a part (of 1) of the whole field."""
 

@@ -11,7 +11,6 @@ import numpy as np
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.keep import drift
 from assoc_hull.edit.remeet import strike_line
-from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import NameTakenError, TooFewPointsError
@@ -77,7 +76,6 @@ def leave_behind(edit: Transaction, crossings: IntArray, going: IntArray) -> Non
             touched.setdefault(curve, []).append(new)
     for curve in sorted(touched):
         prune(edit, curve, np.array(touched[curve]))
-        ride_links(state, np.array([curve]), edit.journal)
         edit.pending.curves.add(curve)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.edit.outward import turn_outward
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
@@ -25,7 +26,7 @@ def hull_normals(state: HullState) -> FloatArray:
     crossing = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
     normal = np.zeros((table.count, 3))
     normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
-    normal = _outward(state, normal)
+    normal = turn_outward(state, normal, tangent)
     for curve in state.live("curves").tolist():
         _interpolate(state, curve, normal)
     return normal
@@ -58,14 +59,6 @@ def _present(state: HullState, curve: int) -> SplineBatch:
     spline = state.spline(curve)
     same = len(spline.knot) == len(state.curves.rows.data[curve])
     return spline if same else loft_curves(state, np.array([curve]))
-
-
-def _outward(state: HullState, normal: FloatArray) -> FloatArray:
-    """Turn normals away from the line of the deck in the centre plane."""
-    xyz = state.rows.xyz.data
-    top = max(state.particulars.depth, float(xyz[state.live("rows"), 2].max(initial=0.0)))
-    away = normal[:, 1] * xyz[:, 1] + normal[:, 2] * (xyz[:, 2] - top)
-    return np.where((away < 0.0)[:, None], -normal, normal)
 
 
 def _interpolate(state: HullState, curve: int, normal: FloatArray) -> None:

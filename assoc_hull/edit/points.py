@@ -156,7 +156,6 @@ def _in_line(state: HullState, curve: int, xyz: FloatArray) -> FloatArray:
 
 def _changed(edit: Transaction, curve: int) -> None:
     """Note that other points define a curve now."""
-    ride_links(edit.state, np.array([curve]), edit.journal)
     edit.pending.structural = True
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)

@@ -32,6 +32,8 @@ class Pull:
         Towards the border of a flat the field fades to nil within this distance.
     across_flats : bool
         Whether flats are moved too.
+    strict : bool
+        Never: what lies around follows.
     """
 
     row: int
@@ -40,6 +42,7 @@ class Pull:
     radius: tuple[float, float]
     flat_fade: float
     across_flats: bool
+    strict: bool = False
 
     def shift(self, ground: FieldContext, part: float) -> Shift:
         """Give the displacements for a part of the whole pull."""

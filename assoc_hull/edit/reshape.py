@@ -19,7 +19,6 @@ from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_
 from assoc_hull.edit.normals import hull_normals
 from assoc_hull.edit.points import pin
 from assoc_hull.edit.reshape_field import Reshape
-from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
@@ -99,8 +98,9 @@ def reshape(
         Where the curve may change: x for waterlines, buttocks and boundary curves, z for
         sections.
     fade : "auto", (r_x, r_g) in m, or None
-        How the change fades; None: only this curve's own points move, and gaps are what
-        they become.
+        How the change fades; None, the strict form: only this curve's own points move. No
+        gap is mended in such an edit: those over their limit refuse it, or are kept as
+        defects with ``gaps="report"``.
     across_flats : bool
         Whether the edit may move flats.
 
@@ -353,8 +353,6 @@ def _place(
         edit.pending.structural = True
         edit.pending.curves.add(curve)
         made.append(row)
-    if made:
-        ride_links(state, np.array([curve]), edit.journal)
     return made
 
 

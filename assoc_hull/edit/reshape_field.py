@@ -61,6 +61,11 @@ class Reshape:
     flat: FloatArray
     across_flats: bool
 
+    @property
+    def strict(self) -> bool:
+        """Whether the curve's own points move and no other."""
+        return self.radius is None
+
     def shift(self, ground: FieldContext, part: float) -> Shift:
         """Give the displacements for a part of the whole change."""
         own = part * (self.places - self.start)

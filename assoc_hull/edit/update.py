@@ -194,6 +194,7 @@ def update(
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
     rows, away = _set_values(document.state, journal, pending)
     if pending.structural:
+        _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
     work = _Work(document, name, journal, pending, settings, network)
@@ -231,6 +232,12 @@ def _set_values(
     journal.put(state.rows.xyz, rows[differs], value[differs])
     step = value[differs] - old[differs]
     return rows[differs], np.sqrt((step * step).sum(axis=1))
+
+
+def _link_riders(state: HullState, journal: Journal, pending: Pending) -> None:
+    """Link adopted points to their neighbours, which may be others than before."""
+    curves = np.array(sorted(pending.curves | set(pending.fresh)), np.int64)
+    ride_links(state, curves[state.curves.alive.data[curves]], journal)
 
 
 def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -298,7 +305,7 @@ def _check(work: _Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
-    if len(wide.rows):
+    if len(wide.rows) and not any(field.strict for field in work.pending.fields):
         touched, moved = mend(Maker(work.state, work.journal), wide.mend)
         if len(touched):
             work.mended += [work.state.curves.key.data[curve] for curve in touched.tolist()]

@@ -97,7 +97,9 @@ class Tracer:
         return found
 
     def _sources(self, node: int) -> list[int]:
-        found = np.unique(self.cause.source[self.cause.reader == node]).tolist()
+        """Give what made a node be evaluated; not what went there and came back meanwhile."""
+        every = np.unique(self.cause.source[self.cause.reader == node]).tolist()
+        found = [each for each in every if each in self.moved] or every
         return sorted(found, key=lambda each: (-_size(self.moved.get(each, 0.0)), each))
 
 

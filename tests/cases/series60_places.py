@@ -11,10 +11,12 @@ import assoc_hull as ah
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.order import folds
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.handles import Curve, Point
 
 PAIRS = (("sections", "waterlines"), ("sections", "buttocks"), ("waterlines", "buttocks"))
+BoolArray = np.typing.NDArray[np.bool_]
 Act = Callable[[Edit, int], None]
 
 
@@ -30,15 +32,17 @@ class Row:
     largest_gap: float
     mended: int
     inflections: float
+    folds: int
 
     def __str__(self) -> str:
         return (
             f"{self.kind:24s} {self.accepted:3d}/{self.places:<3d} {self.relofts:8.1f} "
-            f"{1e3 * self.largest_gap:8.2f} {self.mended:7d} {self.inflections:11.2f}"
+            f"{1e3 * self.largest_gap:8.2f} {self.mended:7d} {self.inflections:11.2f} "
+            f"{self.folds:6d}"
         )
 
 
-HEAD = "edit                     accepted re-lofts   gap mm  mended inflections"
+HEAD = "edit                     accepted re-lofts   gap mm  mended inflections  folds"
 
 
 def family(hull: ah.Hull, curve: int) -> str:
@@ -60,11 +64,30 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     return np.array(sorted(found, key=lambda row: rows.key.data[row]), np.int64)
 
 
+def at_ends(hull: ah.Hull, rows: IntArray) -> BoolArray:
+    """Tell which crossings lie within 5 % of the length from either end."""
+    x, length = hull.state.rows.xyz.data[rows, 0], hull.particulars.length
+    return np.asarray((x < 0.05 * length) | (x > 0.95 * length))
+
+
+def at_bilge(hull: ah.Hull, rows: IntArray) -> BoolArray:
+    """Tell which lie amidships in the lower quarter, outside two thirds of the half-breadth."""
+    xyz, ship = hull.state.rows.xyz.data[rows], hull.particulars
+    middle = np.abs(xyz[:, 0] - 0.5 * ship.length) < 0.25 * ship.length
+    return np.asarray(middle & (xyz[:, 2] < 0.25 * ship.depth) & (xyz[:, 1] > ship.breadth / 3.0))
+
+
 def places(hull: ah.Hull, pairs: tuple[tuple[str, str], ...], count: int, seed: int) -> list[int]:
-    """Draw places evenly from the pairs; ends of the ship and the bilge come with the draw."""
+    """Draw places evenly from the pairs: of each, one at the ends, one at the bilge, the rest."""
     rng = np.random.default_rng(seed)
-    each = count // len(pairs)
-    return [int(row) for pair in pairs for row in rng.permutation(shared_rows(hull, pair))[:each]]
+    found: list[int] = []
+    for pair in pairs:
+        rows = rng.permutation(shared_rows(hull, pair))
+        first = [rows[there(hull, rows)][:1] for there in (at_ends, at_bilge)]
+        chosen = np.concatenate([*first, rows])
+        once = chosen[np.sort(np.unique(chosen, return_index=True)[1])]
+        found += once[: count // len(pairs)].tolist()
+    return found
 
 
 def normal_step(hull: ah.Hull, row: int) -> FloatArray:
@@ -109,10 +132,16 @@ def reshape(
     return act
 
 
+def folded(hull: ah.Hull, names: tuple[str, ...]) -> int:
+    """Count the places where re-lofted curves turn back on themselves."""
+    number = {key: i for i, key in enumerate(hull.state.curves.key.data)}
+    return sum(len(folds(hull.state.spline(number[name])).curve) for name in names)
+
+
 def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
     """Try an edit at every place, each from the same hull; undo what was accepted."""
     refused: list[str] = []
-    counts = np.zeros(4)
+    counts, bent = np.zeros(4), 0
     for row in at:
         try:
             with hull.edit(kind) as edit:
@@ -125,9 +154,10 @@ def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
         more = sum(count for _, count in report.inflections)
         counts += [len(report.relofted), 0.0, len(report.mended), more]
         counts[1] = max(counts[1], report.largest_gap)
+        bent += folded(hull, report.relofted)
         hull.undo()
     done = max(1, len(at) - len(refused))
     return Row(
         kind, len(at), len(at) - len(refused), tuple(refused), counts[0] / done, counts[1],
-        int(counts[2]), counts[3] / done,
+        int(counts[2]), counts[3] / done, bent,
     )  # fmt: skip

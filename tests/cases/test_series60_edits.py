@@ -12,6 +12,7 @@ from tests.cases import series60_places as places
 
 PLACES = 24
 SEED = 1
+SEEDS = (1, 2, 3)
 
 
 def _pairs(name: str) -> tuple[tuple[str, str], ...]:
@@ -31,13 +32,13 @@ def _cases(hull: ah.Hull) -> list[tuple[str, places.Act, tuple[tuple[str, str], 
     return cases
 
 
-@pytest.fixture(scope="module")
-def table(series60_70: ah.Hull) -> list[places.Row]:
+@pytest.fixture(scope="module", params=SEEDS)
+def table(request: pytest.FixtureRequest, series60_70: ah.Hull) -> list[places.Row]:
     """Run every kind of edit at its places."""
     before = series60_70.fingerprint
     rows = []
     for kind, act, pairs in _cases(series60_70):
-        at = places.places(series60_70, pairs, PLACES, SEED)
+        at = places.places(series60_70, pairs, PLACES, request.param)
         rows.append(places.run(series60_70, kind, act, at))
     assert series60_70.fingerprint == before
     print("\n" + "\n".join([places.HEAD, *map(str, rows)]))
@@ -88,24 +89,46 @@ def test_a_pull_gives_its_normal_displacement_within_1_percent(series60_70: ah.H
         assert moved == pytest.approx(0.02, rel=0.01)
 
 
-def test_the_strict_form_is_refused_with_its_gap_and_can_be_reported(series60_70: ah.Hull) -> None:
-    """fade=None moves the curve alone; with gaps='report' the defects stay and check names them."""
-    act = places.reshape(series60_70, "waterlines", 0.050, None)
-    refused = []
-    for row in places.places(series60_70, _pairs("waterlines"), PLACES, SEED):
+def test_no_edit_folds_a_curve(table: list[places.Row]) -> None:
+    """Counted on every re-lofted curve after each accepted edit."""
+    assert {row.kind: row.folds for row in table} == dict.fromkeys((r.kind for r in table), 0)
+
+
+@pytest.mark.parametrize("name", ["waterlines", "buttocks", "sections"])
+def test_the_strict_form_is_refused_with_its_gap_and_can_be_reported(
+    series60_70: ah.Hull, name: str
+) -> None:
+    """fade=None moves the curve alone and mends nothing: a gap over its limit is refused.
+
+    With gaps='report' the defects stay, and check names each. Where a strict re-shape is
+    accepted, no gap is over its limit and nothing was mended.
+    """
+    act = places.reshape(series60_70, name, 0.050, None)
+    before, wide = series60_70.fingerprint, 0
+    for row in places.places(series60_70, _pairs(name), PLACES, SEED):
         try:
             with series60_70.edit("strict") as edit:
                 act(edit, row)
         except ah.RefusedEditError as error:
-            refused.append((row, str(error)))
-        else:
-            series60_70.undo()
-    wide = [(row, text) for row, text in refused if "mm apart at" in text]
-    assert wide
-    with series60_70.edit("strict", gaps="report") as edit:
-        act(edit, wide[0][0])
-    assert any(finding.kind == "gap" for finding in series60_70.check())
-    series60_70.undo()
+            if "mm apart at" in str(error):
+                wide += 1
+                assert _reported(series60_70, act, row)
+            continue
+        assert edit.report is not None
+        assert edit.report.mended == ()
+        series60_70.undo()
+    print(f"\nstrict re-shape of {name} by 50 mm: {wide} of {PLACES} refused for a gap")
+    assert wide >= 12
+    assert series60_70.fingerprint == before
+
+
+def _reported(hull: ah.Hull, act: places.Act, row: int) -> bool:
+    """Keep the defects of an edit, and tell whether a check names them."""
+    with hull.edit("strict", gaps="report") as edit:
+        act(edit, row)
+    named = any(finding.kind == "gap" for finding in hull.check())
+    hull.undo()
+    return named
 
 
 def test_dragging_a_driven_crossing_names_its_driver(series60_70: ah.Hull) -> None:

@@ -44,6 +44,18 @@ def test_every_adopted_point_is_linked_to_its_driven_neighbours(
         assert unlinked(hull) == []
 
 
+def test_points_beside_the_crossings_of_a_cut_line_are_linked_to_these(
+    series60_70: ah.Hull,
+) -> None:
+    """A line cut from others comes between their adopted points and what these rode with."""
+    assert unlinked(series60_70) == []
+    with series60_70.edit("cut") as edit:
+        edit.add_line("buttocks", 3.0)
+    assert unlinked(series60_70) == []
+    series60_70.undo()
+    assert unlinked(series60_70) == []
+
+
 def test_points_made_by_mending_are_linked() -> None:
     """They ride from then on."""
     hull = fresh(4)
