@@ -8,25 +8,31 @@ Examples
 ('y',)
 """
 
-from assoc_hull.errors import (
-    AssocHullError,
-    BadInputError,
-    ForeignPointError,
-    FreedomError,
-    NoMeetingError,
-    PointRoleError,
-    RefusedEditError,
-    RingError,
-    UnknownNameError,
-)
-from assoc_hull.geometry.curves import PointKind
-from assoc_hull.geometry.plane import Plane
-from assoc_hull.hull import Hull, examples, open, read
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
-from assoc_hull.model.source import LineSource
-from assoc_hull.model.state import Association, Ends, Particulars
-from assoc_hull.tolerance import Tolerances
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+import assoc_hull.examples  # else its first import would bind this name again
+
+if TYPE_CHECKING:
+    from assoc_hull.errors import (
+        AssocHullError,
+        BadInputError,
+        ForeignPointError,
+        FreedomError,
+        NoMeetingError,
+        PointRoleError,
+        RefusedEditError,
+        RingError,
+        UnknownNameError,
+    )
+    from assoc_hull.geometry.curves import PointKind
+    from assoc_hull.geometry.plane import Plane
+    from assoc_hull.hull import Hull, examples, open, read
+    from assoc_hull.model.family import BoundaryKind
+    from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
+    from assoc_hull.model.source import LineSource
+    from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.tolerance import Tolerances
 
 __all__ = [
     "AssocHullError",
@@ -59,3 +65,43 @@ __all__ = [
 ]
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "errors": (
+        "AssocHullError",
+        "BadInputError",
+        "ForeignPointError",
+        "FreedomError",
+        "NoMeetingError",
+        "PointRoleError",
+        "RefusedEditError",
+        "RingError",
+        "UnknownNameError",
+    ),
+    "geometry.curves": ("PointKind",),
+    "geometry.plane": ("Plane",),
+    "hull": ("Hull", "examples", "open", "read"),
+    "model.family": ("BoundaryKind",),
+    "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
+    "model.source": ("LineSource",),
+    "model.state": ("Association", "Ends", "Particulars"),
+    "tolerance": ("Tolerances",),
+}
+"""Modules and what is public of them."""
+
+if not TYPE_CHECKING:
+    # What only lofts and cuts does not wait for the modules of whole hulls.
+    _home = {name: module for module, names in _HOMES.items() for name in names}
+    del assoc_hull, examples  # the subpackage; below the name means the hulls that ship
+
+    def __getattr__(name: str) -> object:
+        """Import a public name when it is first used."""
+        if name not in _home:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        found = getattr(import_module(f"{__name__}.{_home[name]}"), name)
+        globals()[name] = found
+        return found
+
+    def __dir__() -> list[str]:
+        """Name what is public, whether it has been used or not."""
+        return sorted({*globals(), *__all__})

@@ -15,8 +15,6 @@ True
 
 from __future__ import annotations
 
-import difflib
-
 import attrs
 
 __all__ = [
@@ -116,6 +114,8 @@ class UnknownNameError(AssocHullError, KeyError):
     known: tuple[str, ...] = ()
 
     def __str__(self) -> str:
+        import difflib  # a message only: what merely starts does not wait for it
+
         near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
         hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
         return f"there is no {self.kind} named {self.name!r}; {hint}"

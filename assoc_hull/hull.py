@@ -17,20 +17,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-import assoc_hull.examples  # noqa: F401 - before the package binds this name to what is below
 from assoc_hull.arguments import file_path, flag, instance, integer, not_negative, number, text
-from assoc_hull.edit.adopt import AdoptionReport, adopt
-from assoc_hull.edit.check_hull import Finding, check
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.explain import Thing, Why, node_of, why
-from assoc_hull.edit.preview import Preview, preview
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.view import graph_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.breadth import half_breadth
 from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.named import Named
@@ -42,6 +35,10 @@ from assoc_hull.tolerance import Tolerances
 if TYPE_CHECKING:
     import networkx
 
+    from assoc_hull.edit.adopt import AdoptionReport
+    from assoc_hull.edit.check_hull import Finding
+    from assoc_hull.edit.explain import Thing, Why
+    from assoc_hull.edit.preview import Preview
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Examples", "Hull", "examples", "open", "read"]
@@ -70,6 +67,8 @@ class Hull:
         tolerances: Tolerances | None = None,
     ) -> Self:
         """Make a net of given lines; see `assoc_hull.edit.adopt.adopt`."""
+        from assoc_hull.edit.adopt import adopt
+
         state, report = adopt(lines, particulars, associations, tolerances)
         hull = cls(state)
         hull.adoption = report
@@ -157,6 +156,8 @@ class Hull:
         Preview
             The report, or why it would be refused; the change of volume and LCB.
         """
+        from assoc_hull.edit.preview import preview
+
         return preview(
             self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
         )
@@ -193,10 +194,14 @@ class Hull:
         UnknownNameError, ForeignPointError, BadInputError
             Nothing that this hull has, or a group.
         """
+        from assoc_hull.edit.explain import node_of, why
+
         return why(self.document, node_of(self.state, thing))
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
+        from assoc_hull.edit.check_hull import check
+
         return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
@@ -222,6 +227,8 @@ class Hull:
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
+        from assoc_hull.edit.view import graph_of
+
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
         return graph_of(self.document, around, hops, flag(two_way, "two_way", "in graph"), edit)
 
@@ -233,6 +240,8 @@ class Hull:
 
     def half_breadth(self, x: float, z: float) -> float:
         """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.breadth`."""
+        from assoc_hull.model.breadth import half_breadth
+
         where = "in half_breadth"
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
 

@@ -2,19 +2,30 @@
 
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 
+import assoc_hull
+
 HEAVY = ["dask", "matplotlib", "networkx", "numba", "scipy.interpolate", "starlette"]
+
+
+LATE = ["edit.adopt", "edit.check_hull", "edit.explain", "edit.preview", "io", "plot"]
+
+
+def modules_after(statement: str) -> set[str]:
+    """The modules that a fresh Python holds after a statement."""
+    script = f"{statement}; import sys; print(*sys.modules, sep='\\n')"
+    command = [sys.executable, "-c", script]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    return set(run.stdout.split())
 
 
 @pytest.fixture(scope="module")
 def loaded() -> set[str]:
     """The modules that a fresh Python holds after `import assoc_hull`."""
-    script = "import assoc_hull, sys; print(*sys.modules, sep='\\n')"
-    command = [sys.executable, "-c", script]
-    run = subprocess.run(command, capture_output=True, text=True, check=True)
-    return set(run.stdout.split())
+    return modules_after("import assoc_hull; assoc_hull.Hull")
 
 
 def test_the_package_itself_is_loaded(loaded: set[str]) -> None:
@@ -26,3 +37,38 @@ def test_the_package_itself_is_loaded(loaded: set[str]) -> None:
 def test_importing_the_package_leaves_heavy_libraries_alone(library: str, loaded: set[str]) -> None:
     """Only the command that needs a heavy library pays for it."""
     assert library not in loaded
+
+
+@pytest.mark.parametrize("module", LATE)
+def test_a_hull_loads_what_few_sessions_need_when_they_do(module: str, loaded: set[str]) -> None:
+    """Making nets, explaining and previewing wait until they are asked for."""
+    assert f"assoc_hull.{module}" not in loaded
+
+
+def test_lofting_loads_geometry_only() -> None:
+    """Whoever lofts and cuts curves does not wait for the modules of whole hulls."""
+    found = modules_after("from assoc_hull.geometry.spline import loft")
+    units = {name.split(".")[1] for name in found if name.startswith("assoc_hull.")}
+    assert units == {"errors", "examples", "geometry", "tolerance"}
+
+
+def test_every_public_name_has_its_home() -> None:
+    """What is imported late is what is public, and is there."""
+    homes = {name: module for module, names in assoc_hull._HOMES.items() for name in names}
+    assert {*homes, "__version__"} == set(assoc_hull.__all__)
+    for name, module in homes.items():
+        there = getattr(import_module(f"assoc_hull.{module}"), name)
+        assert getattr(assoc_hull, name) is there
+
+
+def test_an_unknown_name_is_refused() -> None:
+    """As by any other module."""
+    with pytest.raises(AttributeError, match="no attribute 'Ship'"):
+        getattr(assoc_hull, "Ship")  # noqa: B009 - the type checker knows it is not there
+
+
+def test_the_examples_stay_what_they_are() -> None:
+    """Importing the modules behind them does not bind the name to the subpackage."""
+    script = "import assoc_hull.examples.wigley; print(assoc_hull.examples.wigley.__self__)"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert "Examples" in run.stdout
