@@ -22,6 +22,7 @@ __all__ = [
     "find_unmet",
     "measure_gaps",
     "plane_normals",
+    "splines_of",
 ]
 
 _CENTRE = 1e-6
@@ -53,13 +54,22 @@ class Wide:
     mend: IntArray
 
 
+def splines_of(state: HullState, curves: IntArray) -> SplineBatch | None:
+    """Give the splines of curves as one batch, for the findings below; None of no curves."""
+    if not len(curves):
+        return None
+    return SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+
+
 def find_folds(
-    state: HullState, curves: IntArray, before: dict[int, SplineBatch]
+    state: HullState,
+    curves: IntArray,
+    batch: SplineBatch | None,
+    before: dict[int, SplineBatch],
 ) -> tuple[str, ...]:
     """Say where curves turn back on themselves and did not before the edit."""
-    if not len(curves):
+    if batch is None:
         return ()
-    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
     found = folds(batch)
     if not len(found.curve):
         return ()
@@ -87,12 +97,11 @@ def curve_title(state: HullState, curve: int) -> str:
     return name if len(pieces) < 2 else f"{name} [{pieces.index(curve) + 1}]"
 
 
-def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
+def find_unbounded(
+    state: HullState, curves: IntArray, batch: SplineBatch | None
+) -> tuple[str, ...]:
     """Say which curves hold numbers that are not finite."""
-    if not len(curves):
-        return ()
-    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    if np.isfinite(batch.leave).all():
+    if batch is None or np.isfinite(batch.leave).all():
         return ()
     return tuple(
         f"{curve_title(state, curve)} has a derivative that is not finite"
@@ -101,13 +110,16 @@ def find_unbounded(state: HullState, curves: IntArray) -> tuple[str, ...]:
     )
 
 
-def find_beyond(state: HullState, curves: IntArray) -> tuple[str, ...]:
+def find_beyond(state: HullState, curves: IntArray, batch: SplineBatch | None) -> tuple[str, ...]:
     """Say which curves have points beyond the centre plane: only y >= 0 is stored."""
+    if batch is None:
+        return ()
+    lowest = np.minimum.reduceat(batch.xyz[:, 1], batch.start[:-1])
+    beyond = np.flatnonzero(lowest < -_CENTRE)
     return tuple(
         f"{curve_title(state, curve)} passes the centre plane by {-low:.3g} m: "
         "make the move smaller"
-        for curve in curves.tolist()
-        if (low := float(state.spline(curve).xyz[:, 1].min())) < -_CENTRE
+        for curve, low in zip(curves[beyond].tolist(), lowest[beyond].tolist(), strict=True)
     )
 
 

@@ -19,6 +19,7 @@ from assoc_hull.edit.check import (
     find_unmet,
     measure_gaps,
     plane_normals,
+    splines_of,
 )
 from assoc_hull.edit.check_sense import find_turned
 from assoc_hull.edit.document import Document
@@ -81,6 +82,8 @@ class _Work:
         """Curves evaluated in any pass, in order, each once."""
         nodes = np.concatenate([_NONE, *(part.evaluated for part in self.passes)])
         curves: IntArray = nodes[(nodes & 1) == 1] >> 1
+        if len(self.passes) == 1:
+            return curves  # in one pass no node stands twice
         once: IntArray = curves[np.sort(np.unique(curves, return_index=True)[1])]
         return once
 
@@ -308,9 +311,10 @@ def _check(work: _Work) -> tuple[str, ...]:
             wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
-    findings = find_unbounded(work.state, clean)
-    findings += find_folds(work.state, clean, work.network.before)
-    findings += find_turned(work.state, clean) + find_beyond(work.state, clean)
+    batch = splines_of(work.state, clean)
+    findings = find_unbounded(work.state, clean, batch)
+    findings += find_folds(work.state, clean, batch, work.network.before)
+    findings += find_turned(work.state, clean) + find_beyond(work.state, clean, batch)
     findings += tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
     if work.pending.structural:
         findings += find_unmet(work.state, clean)
@@ -357,7 +361,8 @@ def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
 def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
     state, parts = work.state, work.passes
     curves = work.touched()
-    curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
+    if work.pending.fresh:
+        curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
     after = {curve: state.spline(curve) for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())

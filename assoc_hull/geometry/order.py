@@ -85,7 +85,9 @@ def folds(batch: SplineBatch) -> Folds:
     # Between two curves of the batch there are chords too; `inside` leaves them out.
     chord, worst = np.diff(batch.xyz, axis=0), np.full(len(batch.knot), np.inf)
     leave, arrive = batch.leave, batch.arrive
-    smooth = inside[:-1] & inside[1:] & (leave[1:-1] == arrive[1:-1]).all(axis=1)
+    smooth = inside[:-1] & inside[1:]
+    for axis in range(3):
+        smooth &= leave[1:-1, axis] == arrive[1:-1, axis]
     back = ~(dot(chord[:-1], chord[1:]) >= 0.0)
     _note(worst[1:-1], chord[:-1], chord[1:], smooth & back)
     _note(worst[:-1], leave[:-1], chord, inside & ~(dot(leave[:-1], chord) > 0.0))

@@ -291,14 +291,24 @@ def on_knots(
             f"in a batch of {batch.count} curves",
             "count from 0",
         )
-    low, high = batch.start.take(curve), batch.start.take(curve + 1) - 1
-    t = _inside(t, batch.knot.take(high))
-    high -= 1
-    low = _search(batch, low, high, t) if guess is None else _guessed(batch, low, high, t, guess)
-    begin, end = batch.knot.take(low), batch.knot.take(low + 1)
+    low, last = batch.start.take(curve), batch.start.take(curve + 1) - 1
+    if guess is None:
+        t = _inside(t, batch.knot.take(last))
+        segment = _search(batch, low, last - 1, t)
+        begin, end = batch.knot.take(segment), batch.knot.take(segment + 1)
+    else:
+        segment = low + guess
+        begin, end = (batch.knot.take(at, mode="clip") for at in (segment, segment + 1))
+        right = (begin <= t) & (t < end) & (segment >= low) & (segment < last)
+        rest = np.flatnonzero(~right)
+        if len(rest):
+            t = t.copy()
+            t[rest] = _inside(t[rest], batch.knot.take(last[rest]), rest)
+            segment[rest] = _search(batch, low[rest], last[rest] - 1, t[rest])
+            begin[rest], end[rest] = batch.knot[segment[rest]], batch.knot[segment[rest] + 1]
     length = end - begin
     fraction = np.where(t == end, 1.0, (t - begin) / length)
-    return low, fraction, length
+    return segment, fraction, length
 
 
 def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
@@ -311,27 +321,13 @@ def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) ->
     return low
 
 
-def _guessed(
-    batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray, guess: NDArray[np.integer]
-) -> IntArray:
-    """Take what was guessed right, or one too low, and search the rest."""
-    found = np.minimum(np.maximum(low + guess, low), high)
-    found += (batch.knot.take(found + 1) <= t) & (found < high)
-    wrong = batch.knot.take(found) > t
-    wrong |= (batch.knot.take(found + 1) <= t) & (found < high)
-    rest = np.flatnonzero(wrong)
-    if len(rest):
-        found[rest] = _search(batch, low[rest], high[rest], t[rest])
-    return found
-
-
-def _inside(t: FloatArray, end: FloatArray) -> FloatArray:
+def _inside(t: FloatArray, end: FloatArray, place: IntArray | None = None) -> FloatArray:
     outside = ~((t >= -_OVERSHOOT) & (t <= end + _OVERSHOOT))
     if outside.any():
         worst = int(np.flatnonzero(outside)[0])
         raise BadInputError(
             f"parameter {t[worst]} lies outside 0 to {end[worst]} m",
-            f"at place {worst} of the parameters",
+            f"at place {worst if place is None else place[worst]} of the parameters",
             "ask within the curve",
         )
     result: FloatArray = np.clip(t, 0.0, end)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.node import Network
+from assoc_hull.graph.node import Network, distinct
 
 __all__ = ["closure"]
 
@@ -25,9 +25,10 @@ def closure(network: Network, seeds: IntArray) -> IntArray:
     (n,) int
         Ascending. No run from these seeds evaluates any other node in its main pass.
     """
-    found = np.unique(seeds)
-    front = found
+    found = front = distinct(seeds)
     while len(front):
-        front = np.setdiff1d(network.readers(front).reader, found)
-        found = np.union1d(found, front)
+        reached = distinct(network.readers(front).reader)
+        place = found.searchsorted(reached)
+        front = reached[found.take(place, mode="clip") != reached]
+        found = distinct(np.concatenate([found, front]))
     return found

@@ -20,7 +20,7 @@ import numpy as np
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Evaluation, Network, Readers
+from assoc_hull.graph.node import Evaluation, Network, Readers, distinct
 
 __all__ = ["Pass", "Policy", "run"]
 
@@ -79,7 +79,7 @@ class _Agenda:
         if not len(pairs.reader):
             return
         self.pushes.append(pairs)
-        self.add(np.unique(pairs.reader))
+        self.add(distinct(pairs.reader))
 
     def add(self, nodes: IntArray) -> None:
         """Put nodes on the agenda."""
@@ -88,13 +88,13 @@ class _Agenda:
         if lowest == highest:
             self.waiting[lowest].append(nodes)
             return
-        for value in np.unique(level).tolist():
+        for value in distinct(level).tolist():
             self.waiting[value].append(nodes[level == value])
 
     def pop(self) -> IntArray:
         """Take the lowest level off, each node once, in ascending order."""
         parts = self.waiting.pop(min(self.waiting))
-        return parts[0] if len(parts) == 1 else np.unique(np.concatenate(parts))
+        return parts[0] if len(parts) == 1 else distinct(np.concatenate(parts))
 
 
 def run(
@@ -135,7 +135,7 @@ def run(
     agenda = _Agenda(network)
     agenda.push(seeds)
     if len(also):
-        agenda.add(np.unique(also))
+        agenda.add(distinct(also))
     done: list[IntArray] = []
     results: list[Evaluation] = []
     failed: dict[int, str] = {}

@@ -32,7 +32,6 @@ class _Piece:
     met: Meetings
     local: IntArray
     segment: IntArray
-    xyz: FloatArray
     planes: PlaneSet
 
     def same(self, other: _Piece) -> bool:
@@ -73,6 +72,8 @@ class Found:
     bounds: list[int]
     _pieces: tuple[_Piece, ...]
     _order: IntArray | None
+    _own: tuple[IntArray, IntArray]
+    """Coordinates along the normal of the own plane: numbers into the flat `xyz`, and `curve`."""
 
 
 @attrs.frozen(eq=False)
@@ -147,37 +148,43 @@ def cut_curves(
         if partners:
             mine = np.flatnonzero(groups == group)
             batch = SplineBatch.join([splines[i] for i in mine.tolist()])
-            pieces += [_cut(state, lines[mine], mine, batch, planes) for planes in partners]
-    return _merge(tuple(pieces), len(curves), known)
+            pieces += [_cut(mine, batch, planes) for planes in partners]
+    return _merge(state, lines, tuple(pieces), known)
 
 
-def _cut(
-    state: HullState, lines: IntArray, mine: IntArray, batch: SplineBatch, planes: PlaneSet
-) -> _Piece:
-    """Meet one set of planes; the place lies exactly in the curve's own plane too."""
+def _cut(mine: IntArray, batch: SplineBatch, planes: PlaneSet) -> _Piece:
+    """Meet one set of planes."""
     met = meet_planes(batch, planes.normal, planes.offsets)
-    xyz = met.xyz.copy()
-    normal, offset = state.lines.normal.data[lines], state.lines.offset.data[lines]
-    if (normal == normal[0]).all():
-        for axis in np.flatnonzero(normal[0] == 1.0).tolist():
-            xyz[:, axis] = offset.take(met.curve)
-    else:
-        exact = (normal == 1.0)[met.curve]
-        xyz[exact] = np.broadcast_to(offset[met.curve][:, None], xyz.shape)[exact]
     segment = met.segment - batch.start.take(met.curve)
-    return _Piece(met, mine.take(met.curve), segment, xyz, planes)
+    return _Piece(met, mine.take(met.curve), segment, planes)
 
 
-def _merge(pieces: tuple[_Piece, ...], count: int, known: Found | None) -> Found:
-    """Sort the meetings of all pieces by curve; along a curve the order of the pieces stays."""
+def _merge(
+    state: HullState, lines: IntArray, pieces: tuple[_Piece, ...], known: Found | None
+) -> Found:
+    """Sort the meetings of all pieces by curve; along a curve the order of the pieces stays.
+
+    The places are put exactly into the plane of their own curve too.
+    """
+    count = len(lines)
     if not pieces:
         none = Meets.none()
-        whole = none.line.copy()
-        bounds = [0] * (count + 1)
-        return Found(whole, none.line, none.sign, whole, none.parameter, none.xyz, bounds, (), None)
+        whole, bounds = none.line.copy(), [0] * (count + 1)
+        return Found(
+            whole,
+            none.line,
+            none.sign,
+            whole,
+            none.parameter,
+            none.xyz,
+            bounds,
+            (),
+            None,
+            (whole, whole),
+        )
     if known is not None and all(a.same(b) for a, b in zip(pieces, known._pieces, strict=True)):
         curve, line, sign = known.curve, known.line, known.sign
-        bounds, order = known.bounds, known._order
+        bounds, order, own = known.bounds, known._order, known._own
     else:
         curve = _all([piece.local for piece in pieces], None)
         order = np.argsort(curve, kind="stable") if len(pieces) > 1 else None
@@ -185,11 +192,15 @@ def _merge(pieces: tuple[_Piece, ...], count: int, known: Found | None) -> Found
         line = _all([piece.planes.lines.take(piece.met.plane) for piece in pieces], order)
         sign = _all([piece.met.sign for piece in pieces], order)
         bounds = np.searchsorted(curve, np.arange(count + 1)).tolist()
+        flat = np.flatnonzero((state.lines.normal.data[lines] == 1.0).take(curve, axis=0))
+        own = flat, curve.take(flat // 3)
     segment = _all([piece.segment for piece in pieces], order)
     parameter = _all([piece.met.t for piece in pieces], order)
-    xyz = _all([piece.xyz for piece in pieces], order)
+    xyz = np.concatenate([piece.met.xyz for piece in pieces], out=np.empty((len(curve), 3)))
+    xyz = xyz if order is None else xyz.take(order, axis=0)
+    xyz.reshape(-1)[own[0]] = state.lines.offset.data[lines].take(own[1])
     freeze(line, sign, parameter, xyz)
-    return Found(curve, line, sign, segment, parameter, xyz, bounds, pieces, order)
+    return Found(curve, line, sign, segment, parameter, xyz, bounds, pieces, order, own)
 
 
 def _all(

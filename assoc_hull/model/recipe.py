@@ -9,7 +9,14 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import (
+    CurveData,
+    FloatArray,
+    IntArray,
+    PointKind,
+    SplineBatch,
+    freeze,
+)
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.state import Ends, HullState
 
@@ -31,6 +38,8 @@ class _Plan:
     part: IntArray
     end_kind: np.typing.NDArray[np.int8]
     end_vector: FloatArray
+    nowhere: FloatArray
+    """The directions where no point is given one."""
 
 
 def same_objects(one: Sequence[object], other: Sequence[object]) -> bool:
@@ -80,11 +89,13 @@ def curve_data(
         if recall is not None:
             remember(recall, key, plan)
     points = state.rows
+    kind = points.kind.data.reshape(-1).take(plan.part)
+    directed = bool((kind == PointKind.TANGENT).any())
     return CurveData(
         plan.start,
         points.xyz.data.take(plan.row, axis=0),
-        points.kind.data.reshape(-1).take(plan.part),
-        points.direction.data.reshape(-1, 3).take(plan.part, axis=0),
+        kind,
+        points.direction.data.reshape(-1, 3).take(plan.part, axis=0) if directed else plan.nowhere,
         plan.end_kind,
         plan.end_vector,
     )
@@ -97,8 +108,9 @@ def _plan(rows: list[IntArray], side: list[IntArray], ends: list[Ends]) -> _Plan
     kind = np.array([end.kind for end in ends], np.int8)
     vector = np.array([end.vector for end in ends], np.float64)
     part = 2 * row + np.concatenate(side)
-    freeze(start, row, part, kind, vector)
-    return _Plan(rows, side, ends, start, row, part, kind, vector)
+    nowhere = np.zeros((len(row), 3))
+    freeze(start, row, part, kind, vector, nowhere)
+    return _Plan(rows, side, ends, start, row, part, kind, vector, nowhere)
 
 
 @attrs.frozen(eq=False)
