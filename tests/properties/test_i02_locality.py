@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import attrs
+import numpy as np
 import pytest
 from hypothesis import given, settings
 
 import assoc_hull as ah
+from assoc_hull.edit.field import FieldContext, Shift
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.state import HullState
 from tests.cases import series60_places as places
 from tests.independent import Snapshot, relofted, snapshot
 from tests.net_strategies import (
@@ -77,6 +83,50 @@ def test_writing_the_value_that_is_there_changes_nothing() -> None:
     assert edit.report is not None
     assert edit.report.relofted == ()
     assert_local(hull, before)
+
+
+@attrs.define(eq=False)
+class Swing:
+    """A field that moves a point away in its first sub-step, and back to the bit in its last."""
+
+    row: int
+    place: FloatArray
+    across_flats: bool = False
+    calls: int = 0
+
+    def shift(self, ground: FieldContext, part: float) -> Shift:
+        """15 cm when asked for the whole, so that there are sub-steps; then 20 mm."""
+        self.calls += 1
+        away = {1: 0.15, 2: 0.02, 3: -0.02}[self.calls]
+        return Shift(np.array([self.row]), np.array([[0.0, away, 0.0]]), np.zeros(0, np.int64))
+
+    def exact(self) -> tuple[IntArray, FloatArray]:
+        """Where it lay."""
+        return np.array([self.row]), self.place[None]
+
+    def left(self, state: HullState, done: float) -> float:
+        """As much as was not done."""
+        return 1.0 - done
+
+
+@pytest.mark.parametrize("number", [0, 2, 4])
+def test_what_goes_away_and_comes_back_in_one_edit_has_not_changed(number: int) -> None:
+    """Each sub-step passes on what differs from the one before; revisions tell the net change."""
+    hull = fresh(number)
+    before, start = snapshot(hull), hull.fingerprint
+    point = next(
+        each
+        for each in live_points(hull, "crossing")
+        if each.crossing_role == "shared" and each.free == ("y",) and each.y > 0.5
+    )
+    with Transaction(hull.document, "swing") as transaction:
+        transaction.pending.fields.append(Swing(point.row, point.position.copy()))
+    assert transaction.report is not None
+    assert len(transaction.report.relofted) >= 2
+    assert hull.fingerprint == start
+    assert hull.verify() == ()
+    assert_local(hull, before)
+    assert not len(hull.document.history[-1].curves)
 
 
 @pytest.mark.parametrize("family", ["waterlines", "buttocks", "sections"])

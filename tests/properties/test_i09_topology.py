@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from itertools import pairwise
 
 import attrs
@@ -151,8 +152,11 @@ def test_births_and_deaths_are_reported_and_ids_never_come_back(
         assert hull.fingerprint == fingerprint
 
 
+BENDS = ("insert", "insert", "insert", "move", "set_end", "reshape", "pull")
+
+
 @settings(max_examples=40)
-@given(hulls(), tasks((*SHAPES, *ROUGH), largest=0.8, most=4))
+@given(hulls(), tasks((*SHAPES, *BENDS), largest=1.5, most=4, acts=1))
 def test_a_crossing_is_passed_in_one_sense_all_its_life(hull: ah.Hull, edits: list[Task]) -> None:
     """By both of its curves, over rough edits of every kind: the sense is part of its id."""
     born = senses(hull)
@@ -169,6 +173,18 @@ def test_lines_that_come_and_go_turn_no_crossing_round(hull: ah.Hull, edits: lis
     assert_senses_kept(hull, born)
     for task in edits:
         if carry_out(hull, task) is not None:
+            assert_senses_kept(hull, born)
+
+
+@pytest.mark.parametrize("number", [5, 10])
+def test_points_far_beside_a_curve_turn_no_crossing_round(number: int) -> None:
+    """Of forty points a metre off, some would: these are refused, the rest keep all senses."""
+    rng = random.Random(number)
+    for _ in range(40):
+        hull = fresh(number)
+        born, (which, other) = senses(hull), (rng.randrange(2**16), rng.randrange(2**16))
+        act = Act("insert", which, other, rng.choice((-1.2, -0.75, 0.75, 1.2)))
+        if carry_out(hull, Task((act,), "report")) is not None:
             assert_senses_kept(hull, born)
 
 
