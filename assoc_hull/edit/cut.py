@@ -21,6 +21,7 @@ from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
@@ -158,11 +159,15 @@ def make_piece(
     state = edit.state
     kind, direction = _kinds(state, line, marks)
     spline = loft(CurveData.single(marks.xyz, kind, direction))
-    picked = _pick(state, line, marks, spline)
+    ruled = _pick(state, line, marks, spline)
+    picked = _hold(state, marks, kind, direction, ruled)
     if curve is None:
         curve = edit.maker.curve(line, Ends())
     chosen = marks.take(np.flatnonzero(picked))
-    roles = _roles(state, line, chosen, keep)
+    roles = [
+        role if ruled[i] else Role.WATCHED
+        for i, role in zip(np.flatnonzero(picked), _roles(state, line, chosen, keep), strict=True)
+    ]
     specs = [
         _spec(state, curve, chosen, i, role, int(kind[picked][i]), direction[picked][i])
         for i, role in enumerate(roles)
@@ -236,6 +241,28 @@ def _pick(
     fixed[[0, -1]] = True
     angle = np.degrees(np.arcsin(sine))
     return choose(Candidates(spline.knot, angle, tangent, fixed, slide), state.tolerances)
+
+
+def _hold(
+    state: HullState,
+    marks: Marks,
+    kind: np.typing.NDArray[np.int8],
+    direction: FloatArray,
+    ruled: np.typing.NDArray[np.bool_],
+) -> np.typing.NDArray[np.bool_]:
+    """Add the marks that a line through those of the rule alone would pass too far off.
+
+    Without them a short piece between two ends would be straight, and its crossings lost.
+    """
+    picked = ruled.copy()
+    while not picked.all():
+        rest = np.flatnonzero(~picked)
+        spline = loft(CurveData.single(marks.xyz[picked], kind[picked], direction[picked]))
+        away = closest(spline, 0, marks.xyz[rest])[2]
+        if float(away.max()) <= state.tolerances.adoption:
+            break
+        picked[rest[int(away.argmax())]] = True
+    return picked
 
 
 def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:

@@ -13,7 +13,7 @@ from assoc_hull.edit.branches import track
 from assoc_hull.edit.cut import make_piece, new_plane, pieces_of
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.marks import find_marks, spread
-from assoc_hull.edit.pieces import match_pieces
+from assoc_hull.edit.pieces import gather, match_pieces
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import unmeet
@@ -66,6 +66,7 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
     _bring_along(edit, line, known)
+    gather(edit, line, pieces, known)
     enter_line(edit, line)
     _carry(edit, np.array([curve for curve, _ in pieces]), placed)
     _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))

@@ -1,0 +1,183 @@
+"""Branch identity on a hull with a bulb: a waterline and a buttock shifted through it.
+
+What is true follows from the function of the hull (`true_branches`). The lines of the net
+may pass the true ones by the tolerance of adoption; so where the truth has an event within
+that distance of a place, the line is shifted there but nothing is compared until the next.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.tolerance import Tolerances
+from tests.cases.bulb import bulb_hull
+from tests.cases.true_branches import Branch, branches_of
+
+CLOSE = Tolerances().adoption
+"""Events nearer (m) to a place than this may have happened on the net or not."""
+
+BEFORE = {"waterlines": ("deck edge",), "buttocks": ("profile",)}
+"""Boundary curves that lie along the planes of a family."""
+
+
+@attrs.frozen
+class Seen:
+    """What was found at a place: each branch's crossing, and each piece's curve and branches."""
+
+    crossings: dict[str, str]
+    pieces: dict[str, frozenset[str]]
+
+    @property
+    def ids(self) -> set[str]:
+        """The crossings and curves that are there."""
+        return {*self.crossings.values(), *self.pieces}
+
+
+def heirs(
+    before: dict[str, frozenset[str]], now: dict[str, frozenset[str]]
+) -> dict[str, str | None]:
+    """Say for each piece which earlier one it is: the one it shares most branches with."""
+    shared = sorted(
+        ((-len(was & part), list(before).index(old), new) for new, part in now.items()
+         for old, was in before.items() if was & part),
+    )  # fmt: skip
+    found: dict[str, str | None] = dict.fromkeys(now)
+    for _, number, new in shared:
+        old = list(before)[number]
+        if found[new] is None and old not in found.values():
+            found[new] = old
+    return found
+
+
+class Watch:
+    """Looks at a line while it is shifted, and compares with the truth."""
+
+    def __init__(self, hull: ah.Hull, line: str) -> None:
+        self.hull, self.line = hull, line
+        group = hull.lines[line].group.name
+        axis = {"waterlines": 2, "buttocks": 1}[group]
+        self.branches = {
+            name: branches_of(each.group.name, each.position or 0.0, name, axis)
+            for name, each in hull.lines.items()
+            if each.group.name != group and name not in BEFORE[group]
+        }
+        self.seen = self.look(float(hull.lines[line].position or 0.0))
+        self.ever, self.born, self.gone = set(self.seen.ids), list[str](), list[str]()
+
+    def every(self) -> list[Branch]:
+        """Give all branches of all lines."""
+        return [branch for some in self.branches.values() for branch in some]
+
+    def events(self) -> list[float]:
+        """Give the places of the moving plane at which branches begin or end."""
+        return sorted(end for branch in self.every() for end in (branch.low, branch.high))
+
+    def clear(self, place: float) -> bool:
+        """Tell whether no event is close to a place."""
+        return all(abs(end - place) > CLOSE for end in self.events())
+
+    def true(self, place: float) -> set[str]:
+        """Name the branches that a plane meets."""
+        return {branch.name for branch in self.every() if branch.low < place < branch.high}
+
+    def look(self, place: float) -> Seen:
+        """Give the branch of every crossing; each true branch has one."""
+        found: dict[str, str] = {}
+        pieces: dict[str, frozenset[str]] = {}
+        for curve in self.hull.lines[self.line].curves:
+            mine: set[str] = set()
+            for point in curve.points:
+                other = point.parent_curve
+                if other is not None:
+                    name = self.branch(other.line.name, point.position, place)
+                    assert name not in found, (place, name, point.id, found[name])
+                    found[name] = point.id
+                    mine.add(name)
+            pieces[curve.id] = frozenset(mine)
+        assert set(found) == self.true(place), place
+        assert sorted(map(sorted, pieces.values())) == sorted(map(sorted, self.runs(place))), place
+        return Seen(found, pieces)
+
+    def runs(self, place: float) -> list[set[str]]:
+        """Give the branches that a plane meets, piece by piece of its true line."""
+        met = [each for each in self.every() if each.low < place < each.high]
+        along = {each.name: float(each.where(place)[0]) for each in met}
+        if "profile" not in self.branches:
+            return [set(along)]
+        ends = sorted(along[each.name] for each in self.branches["profile"] if each in met)
+        return [
+            {name for name, x in along.items() if first <= x <= last}
+            for first, last in zip(ends[::2], ends[1::2], strict=True)
+        ]
+
+    def branch(self, line: str, at: FloatArray, place: float) -> str:
+        """Name the branch of a line that a crossing is on."""
+        alive = [each for each in self.branches[line] if each.low < place < each.high]
+        assert alive, (place, line)
+        away = [float(np.linalg.norm(each.where(place) - at)) for each in alive]
+        assert min(away) < 0.1, (place, line, at)
+        return alive[int(np.argmin(away))].name
+
+    def shift(self, place: float) -> None:
+        """Shift the line, and compare what came and went with the truth where that is sure."""
+        with self.hull.edit("shift") as edit:
+            edit.shift_line(self.line, place)
+        assert edit.report is not None
+        self.born += edit.report.born
+        self.gone += edit.report.gone
+        assert not set(edit.report.born) & self.ever
+        self.ever |= set(edit.report.born)
+        if self.clear(place):
+            self.compare(place)
+
+    def compare(self, place: float) -> None:
+        """A branch that was there keeps its crossing; one that was not has a new one."""
+        before, now = self.seen, self.look(place)
+        for name, key in now.crossings.items():
+            if name in before.crossings:
+                assert key == before.crossings[name], (place, name)
+            else:
+                assert key in self.born, (place, name)
+        for key, heir in heirs(before.pieces, now.pieces).items():
+            assert key == heir if heir else key in self.born, (place, key)
+        assert sorted(self.born) == sorted(now.ids - before.ids), place
+        assert sorted(self.gone) == sorted(before.ids - now.ids), place
+        self.seen, self.born, self.gone = now, [], []
+
+
+def there_and_back(low: float, high: float, step: float) -> list[float]:
+    """Give the places of a line that is shifted up and back in steps, without the first."""
+    count = round((high - low) / step)
+    up = [low + (high - low) * i / count for i in range(count + 1)]
+    return [*up[1:], *up[-2::-1]]
+
+
+def watch(hull: ah.Hull, group: str, places: list[float]) -> Watch:
+    """Shift a new line from place to place; undo all at the end."""
+    with hull.edit("cut") as edit:
+        edit.add_line(group, places[-1], "moved")
+    start, watched = hull.fingerprint, Watch(hull, "moved")
+    assert watched.clear(places[-1])
+    for place in places:
+        watched.shift(place)
+    assert hull.check() == ()
+    assert hull.verify() == ()
+    hull.undo(len(places))
+    assert hull.fingerprint == start
+    return watched
+
+
+@pytest.mark.parametrize("step", [0.5, 0.1, 0.01], ids=["50 cm", "10 cm", "1 cm"])
+def test_a_waterline_through_the_neck_and_over_the_bulb(step: float) -> None:
+    """Every crossing and piece is what the truth says, up and back down."""
+    watch(bulb_hull(), "waterlines", there_and_back(4.155, 6.155, step))
+
+
+@pytest.mark.parametrize("step", [0.5, 0.1, 0.01], ids=["50 cm", "10 cm", "1 cm"])
+def test_a_buttock_from_the_centre_plane_out_through_the_neck(step: float) -> None:
+    """Every crossing and piece is what the truth says, out and back."""
+    watch(bulb_hull(), "buttocks", there_and_back(0.203, 0.803, step))
