@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.edit.arguments import line_name, word
 from assoc_hull.edit.chain import chain
+from assoc_hull.edit.facets import through_facets
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.remeet import enter_line
@@ -22,7 +23,7 @@ from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
 from assoc_hull.model.gaps import tangents
@@ -115,8 +116,18 @@ def add_line(
 def pieces_of(state: HullState, line: int, marks: Marks) -> list[Marks]:
     """Put marks in order, piece by piece; sections upward, other lines from aft forward."""
     axis = 2 if state.family(line).axis == 0 else 0
-    ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
+    trails = through_facets(state, marks, state.lines.normal.data[line])
+    if trails is None:
+        ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
+    else:
+        ordered = _run_on(marks.xyz[:, axis], trails.open)
     return [marks.take(piece) for piece in ordered]
+
+
+def _run_on(along: FloatArray, trails: list[IntArray]) -> list[IntArray]:
+    """Let every piece run on along an axis, and begin with the one that begins first."""
+    ways = [trail if along[trail[0]] <= along[trail[-1]] else trail[::-1] for trail in trails]
+    return sorted(ways, key=lambda way: float(along[way[0]]))
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:
