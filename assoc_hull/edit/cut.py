@@ -14,6 +14,8 @@ import numpy as np
 from assoc_hull.edit.arguments import line_name, word
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.facets import through_facets
+from assoc_hull.edit.hairpin import turning_points
+from assoc_hull.edit.headings import headings
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.remeet import enter_line
@@ -24,6 +26,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
 from assoc_hull.model.gaps import tangents
@@ -191,13 +194,31 @@ def make_piece(
     ]
     own = iter(edit.maker.points(stand_in).tolist())
     order = [next(own) if role is Role.WATCHED else int(rows[i]) for i, role in enumerate(roles)]
-    edit.maker.define(curve, order)
+    edit.maker.define(curve, _rounded(edit, curve, chosen, order))
     ride_links(state, np.array([curve]), edit.journal)
     for i, role in enumerate(roles):
         if role is Role.SHARED:
             thread(edit.maker, int(chosen.curve[i]), int(rows[i]))
             edit.pending.curves.add(int(chosen.curve[i]))
     return curve
+
+
+def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> list[int]:
+    """Add points to the turns at which a new curve would fold."""
+    state, line = edit.state, edit.state.line_of(curve)
+    spline = loft(CurveData.single(marks.xyz, *_kinds(state, line, marks)))
+    if not len(folds(spline)):
+        return rows
+    heading = headings(state, marks, state.lines.normal.data[line])
+    turns = turning_points(spline, heading)
+    points = [PointSpec(curve, _in_plane(state, line, at), Sort.ADOPTED) for _, at in turns]
+    added = edit.maker.points(points)
+    return np.insert(np.array(rows), [before for before, _ in turns], added).tolist()
+
+
+def _in_plane(state: HullState, line: int, place: FloatArray) -> FloatArray:
+    exact = state.lines.normal.data[line] == 1.0
+    return np.where(exact, state.lines.offset.data[line], place)
 
 
 def _rows(

@@ -14,7 +14,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.tolerance import Tolerances
-from tests.cases.bulb import bulb_hull
+from tests.cases.bulb import breadth_at, bulb_hull
 from tests.cases.true_branches import Branch, branches_of
 
 CLOSE = Tolerances().adoption
@@ -119,7 +119,7 @@ class Watch:
         alive = [each for each in self.branches[line] if each.low < place < each.high]
         assert alive, (place, line)
         away = [float(np.linalg.norm(each.where(place) - at)) for each in alive]
-        assert min(away) < 0.1, (place, line, at)
+        assert abs(float(breadth_at(at[:1], at[2:])[0] - at[1])) < 2.0 * CLOSE, (place, line, at)
         return alive[int(np.argmin(away))].name
 
     def shift(self, place: float) -> None:
