@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import attrs
 import numpy as np
 
 from assoc_hull.edit.arguments import line_name, word
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.facets import through_facets
-from assoc_hull.edit.hairpin import turning_points
+from assoc_hull.edit.hairpin import closing_point, turning_points
 from assoc_hull.edit.headings import headings
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
@@ -35,6 +36,9 @@ from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import Ends, HullState
 
 __all__ = ["add_line", "make_piece", "new_plane", "pieces_of"]
+
+_RING = 4
+"""A ring of fewer marks than this makes no curve."""
 
 _SLIDE = 0.1
 """Room (m) for a crossing whose driver passes the new plane squarely; more if obliquely."""
@@ -110,21 +114,40 @@ def add_line(
         else _free_name(state, number, f"{family.prefix} {position:g}")
     )
     line = edit.maker.line(number, title, (normal, position))
-    for piece in pieces_of(state, line, marks):
+    for piece in pieces_of(edit, line, marks):
         make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
     enter_line(edit, line)
     return line
 
 
-def pieces_of(state: HullState, line: int, marks: Marks) -> list[Marks]:
-    """Put marks in order, piece by piece; sections upward, other lines from aft forward."""
+def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
+    """Put marks in order, piece by piece; sections upward, other lines from aft forward.
+
+    A ring, that ends on no boundary curve, begins and ends between its two nearest marks.
+    """
+    state = edit.state
     axis = 2 if state.family(line).axis == 0 else 0
     trails = through_facets(state, marks, state.lines.normal.data[line])
     if trails is None:
         ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
-    else:
-        ordered = _run_on(marks.xyz[:, axis], trails.open)
-    return [marks.take(piece) for piece in ordered]
+        return [marks.take(piece) for piece in ordered]
+    rings = [_opened(marks.xyz, ring) for ring in trails.rings if len(ring) >= _RING]
+    name = state.lines.name.data[line]
+    for ring in trails.rings:
+        x, y, z = marks.xyz[ring].mean(axis=0).tolist()
+        done = "begins and ends between two crossings" if len(ring) >= _RING else "is left out"
+        edit.pending.notes.append(
+            f"{name}: a ring of {len(ring)} meetings round ({x:.3f}, {y:.3f}, {z:.3f}) m {done}"
+        )
+    parts = _run_on(marks.xyz[:, axis], trails.open)
+    found = [marks.take(part) for part in parts]
+    return found + [attrs.evolve(marks.take(ring), ring=True) for ring in rings]
+
+
+def _opened(xyz: FloatArray, ring: IntArray) -> IntArray:
+    """Let a ring begin and end at its two nearest neighbours."""
+    step = xyz[ring] - xyz[np.roll(ring, 1)]
+    return np.roll(ring, -int((step * step).sum(axis=1).argmin()))
 
 
 def _run_on(along: FloatArray, trails: list[IntArray]) -> list[IntArray]:
@@ -204,13 +227,16 @@ def make_piece(
 
 
 def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> list[int]:
-    """Add points to the turns at which a new curve would fold."""
+    """Add points to the turns at which a new curve would fold, and where a ring closes."""
     state, line = edit.state, edit.state.line_of(curve)
-    spline = loft(CurveData.single(marks.xyz, *_kinds(state, line, marks)))
-    if not len(folds(spline)):
+    data = CurveData.single(marks.xyz, *_kinds(state, line, marks))
+    if not len(folds(loft(data))) and not marks.ring:
         return rows
     heading = headings(state, marks, state.lines.normal.data[line])
-    turns = turning_points(spline, heading)
+    turns = turning_points(data, heading)
+    if marks.ring:
+        close = closing_point(marks.xyz, heading)
+        turns = [(0, close), *turns, (len(rows), close)]
     points = [PointSpec(curve, _in_plane(state, line, at), Sort.ADOPTED) for _, at in turns]
     added = edit.maker.points(points)
     return np.insert(np.array(rows), [before for before, _ in turns], added).tolist()

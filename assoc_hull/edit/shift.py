@@ -60,7 +60,7 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     strike_line(edit, line)
     _drop_adopted(edit, mine)
     edit.journal.put(state.lines.offset, [line], [position])
-    pieces = match_pieces(edit, line, pieces_of(state, line, marks), known)
+    pieces = match_pieces(edit, line, pieces_of(edit, line, marks), known)
     for curve, piece in pieces:
         make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
     kept = set(known.values())

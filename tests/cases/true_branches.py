@@ -13,6 +13,8 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import root
 
 from tests.cases.bulb import (
     ALONG,
@@ -21,11 +23,12 @@ from tests.cases.bulb import (
     Floats,
     breadth_at,
     contour,
+    gradient,
     onto,
     pieces,
 )
 
-__all__ = ["Branch", "branches_of"]
+__all__ = ["Branch", "branches_of", "neck", "on_ring"]
 
 COARSE, FINE = 0.01, 1e-4
 
@@ -80,6 +83,21 @@ def branches_of(group: str, position: float, name: str, axis: int) -> list[Branc
             number = len(found) + 1
             found.append(Branch(f"{name} #{number}", number, stretch[:, axis].copy(), stretch))
     return found
+
+
+def neck() -> float:
+    """Give the breadth (m) at which a buttock falls in two: that of the saddle of the neck."""
+    found = root(lambda at: gradient(breadth_at, at[None])[0], np.array([86.0, 2.7]), tol=1e-12)
+    assert found.success
+    return float(breadth_at(found.x[:1], found.x[1:])[0])
+
+
+def on_ring(breadth: float, places: Floats) -> NDArray[np.bool_]:
+    """Tell which places (n, 3) of a buttock are on the ring round the bulb, not on the rest."""
+    rest = contour(breadth)
+    step = places[:, None, ::2] - rest[None]
+    near = np.hypot(step[:, :, 0], step[:, :, 1]).min(axis=1)
+    return np.asarray(near > 0.06)
 
 
 def _lift(at: Floats) -> Floats:
