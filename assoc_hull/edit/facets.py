@@ -87,7 +87,7 @@ def through_facets(state: HullState, marks: Marks, normal: FloatArray) -> Trails
 
 
 def _facets(state: HullState, marks: Marks) -> _Facets:
-    """Number the facets by the planes below them, family by family."""
+    """Give each facet a number a family: that of the planes below it."""
     lines = state.curves.line.data[marks.curve]
     plain = marks.boundary < 0
     groups = np.unique(state.lines.group.data[lines[plain]])
@@ -126,9 +126,9 @@ def _begins(
 def _ways(marks: Marks, facets: _Facets, first: IntArray, last: IntArray) -> FloatArray:
     """Give the way from each mark to each other (m), much longer where it leaps over planes."""
     step = marks.xyz[first][:, None] - marks.xyz[last][None]
-    away: FloatArray = np.sqrt((step * step).sum(axis=2))
+    away = np.sqrt((step * step).sum(axis=2))
     leap = np.abs(facets.go[first][:, None] - facets.come[last][None]).sum(axis=2)
-    cost = away * (1.0 + _ASTRAY * leap)
+    cost: FloatArray = away * (1.0 + _ASTRAY * leap)
     cost[first[:, None] == last[None]] = _NEVER
     return cost
 

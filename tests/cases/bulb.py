@@ -17,7 +17,10 @@ from scipy.optimize import brentq
 import assoc_hull as ah
 from assoc_hull.model.source import LineSource
 
-__all__ = ["DEPTH", "FORWARD", "breadth_at", "bulb_hull", "contour", "girth", "stations", "zeros"]
+__all__ = [
+    "ALONG", "DEPTH", "UP", "breadth_at", "bulb_hull", "contour", "girth", "gradient", "onto",
+    "outline", "pieces",
+]  # fmt: skip
 
 Floats = NDArray[np.float64]
 
@@ -117,20 +120,24 @@ def pieces(of: Callable[[Floats], Floats], places: Floats) -> list[Floats]:
 
 
 def girth(x: float) -> Callable[[Floats], Floats]:
-    """Give the half-breadth of a section as a function of the height."""
+    """Give the half-breadth of a section (m) as a function of the height."""
     return lambda z: breadth_at(0.0 * z + x, z)
+
+
+def outline(height: float) -> Callable[[Floats], Floats]:
+    """Give the half-breadth of a waterline (m) as a function of the length."""
+    return lambda x: breadth_at(x, 0.0 * x + height)
 
 
 def _boundaries() -> list[LineSource]:
     """Make the profile, with knuckles at the keel's ends, and the deck edge."""
     end, knuckle = ah.BoundaryKind.END, ah.PointKind.KNUCKLE
-    stem = contour(0.0)[::4]
-    stem = np.vstack([stem, contour(0.0)[-1]]) if len(contour(0.0)) % 4 != 1 else stem
-    centre = np.vstack([[0.0, DEPTH], [0.0, 0.0], stem])
+    stem = contour(0.0)
+    centre = np.vstack([[0.0, DEPTH], [0.0, 0.0], stem[:-1:4], stem[-1]])
     kind = np.zeros(len(centre), np.int64)
     kind[1:3] = knuckle
     profile = np.column_stack([centre[:, 0], np.zeros(len(centre)), centre[:, 1]])
-    x = pieces(lambda x: breadth_at(x, 0.0 * x + DEPTH), ALONG)[0]
+    x = pieces(outline(DEPTH), ALONG)[0]
     deck = np.column_stack([x, breadth_at(x, 0.0 * x + DEPTH), np.full(len(x), DEPTH)])
     return [
         LineSource.make(
@@ -141,22 +148,18 @@ def _boundaries() -> list[LineSource]:
     ]  # fmt: skip
 
 
-def bulb_hull(
-    levels: tuple[float, ...] = LEVELS, buttocks: tuple[float, ...] = BUTTOCKS
-) -> ah.Hull:
-    """Make the net: sections, waterlines at heights and buttocks at breadths (m)."""
+def bulb_hull() -> ah.Hull:
+    """Make the net: profile, deck edge, sections, waterlines and buttocks."""
     lines = _boundaries()
     for i, x in enumerate(stations().tolist(), 1):
-        for z in pieces(lambda z, x=x: breadth_at(0.0 * z + x, z), UP):
-            points = np.column_stack(
-                [np.full(len(z), x), np.maximum(breadth_at(0.0 * z + x, z), 0), z]
-            )
+        for z in pieces(girth(x), UP):
+            points = np.column_stack([np.full(len(z), x), girth(x)(z), z])
             lines.append(LineSource.make("sections", f"ST {i}", points))
-    for height in levels:
-        for x in pieces(lambda x, z=height: breadth_at(x, 0.0 * x + z), ALONG):
-            points = np.column_stack([x, breadth_at(x, 0.0 * x + height), np.full(len(x), height)])
+    for height in LEVELS:
+        for x in pieces(outline(height), ALONG):
+            points = np.column_stack([x, outline(height)(x), np.full(len(x), height)])
             lines.append(LineSource.make("waterlines", f"WL {height:g}", points))
-    for breadth in buttocks:
+    for breadth in BUTTOCKS:
         at = contour(breadth)
         at = np.vstack([at[:-1:4], at[-1]])
         points = np.column_stack([at[:, 0], np.full(len(at), breadth), at[:, 1]])

@@ -9,6 +9,7 @@ the function of the hull, in steps of 1 cm, of 0.1 mm where they turn. The kerne
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 
 import attrs
@@ -23,8 +24,10 @@ from tests.cases.bulb import (
     Floats,
     breadth_at,
     contour,
+    girth,
     gradient,
     onto,
+    outline,
     pieces,
 )
 
@@ -112,19 +115,15 @@ def _traced(group: str, position: float, name: str) -> list[tuple[Floats, Projec
     """Give the pieces of a line in the centre plane, how to stay on it, and its points."""
     if name == "profile":
         post = np.column_stack([0.0 * UP, UP])
-        return [(post, _same, _flat), (contour(0.0), lambda at: onto(0.0, at), _flat)]
+        return [(post, _same, _flat), (contour(0.0), partial(onto, 0.0), _flat)]
     if group == "buttocks":
-        return [(contour(position), lambda at: onto(position, at), lambda at: _flat(at, position))]
-    found = []
-    if group == "sections":
-        parts = pieces(lambda z: breadth_at(0.0 * z + position, z), UP)
-    else:
-        height = DEPTH if name == "deck edge" else position
-        parts = pieces(lambda x: breadth_at(x, 0.0 * x + height), ALONG)
-    for part in parts:
+        return [(contour(position), partial(onto, position), partial(_flat, breadth=position))]
+    upright = group == "sections"
+    still = DEPTH if name == "deck edge" else position
+    found: list[tuple[Floats, Project, Project]] = []
+    for part in pieces(girth(still), UP) if upright else pieces(outline(still), ALONG):
         s = np.linspace(part[0], part[-1], int(np.ceil((part[-1] - part[0]) / COARSE)) + 1)
-        still = np.full(len(s), position if group == "sections" else height)
-        line = np.column_stack([still, s] if group == "sections" else [s, still])
+        line = np.column_stack([0.0 * s + still, s] if upright else [s, 0.0 * s + still])
         found.append((line, _same, _lift))
     return found
 
