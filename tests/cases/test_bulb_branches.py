@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.tolerance import Tolerances
-from tests.cases.bulb import breadth_at, bulb_hull
+from tests.cases.bulb import breadth_at, bulb_hull, contour
 from tests.cases.true_branches import Branch, branches_of, neck, on_ring
 
 CLOSE = Tolerances().adoption
@@ -221,3 +222,60 @@ def test_a_buttock_from_the_centre_plane_out_through_the_neck(
 ) -> None:
     """Out and back: it comes to meet lines in the neck twice more, and parts from a ring."""
     watch(ah.open(path), "buttocks", there_and_back(low, high, step))
+
+
+def raise_bulb(hull: ah.Hull, by: float) -> EditReport:
+    """Move the top of the bulb in the centre plane up or down (m)."""
+    with hull.edit("raise the bulb", gaps="report") as edit:
+        for point in hull.lines["profile"].curves[0].points:
+            other = point.parent_curve
+            across = other is not None and other.line.group.name == "sections"
+            if across and 94.5 < point.x < 97.5 and 5.0 < point.z < 6.1:
+                edit.move(point, z=point.z + by)
+    assert edit.report is not None
+    return edit.report
+
+
+def test_a_profile_that_comes_to_meet_a_waterline_is_told_and_cut_anew_on_a_shift(
+    path: Path,
+) -> None:
+    """The edit makes no piece, says where one is missing; shifting the line bears it."""
+    hull = ah.open(path)
+    with hull.edit("cut") as edit:
+        edit.add_line("waterlines", 6.07, "moved")
+    notes = raise_bulb(hull, 0.12).notes
+    assert [note.startswith("profile has come to meet the plane of moved") for note in notes] == [
+        True,
+        True,
+    ]
+    assert len(hull.lines["moved"].curves) == 1
+    with hull.edit("shift") as edit:
+        edit.shift_line("moved", 6.06)
+    assert len(hull.lines["moved"].curves) == 2
+    assert hull.verify() == ()
+
+
+def test_a_profile_that_leaves_a_piece_without_ends_is_refused(path: Path) -> None:
+    """The error names the piece, and the hull is as it was."""
+    hull = ah.open(path)
+    with hull.edit("cut") as edit:
+        edit.add_line("waterlines", 5.97, "moved")
+    before = hull.fingerprint
+    with pytest.raises(ah.RefusedEditError, match=r"moved \[2\] has no end any more"):
+        raise_bulb(hull, -0.08)
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize("breadth", [0.2603, 0.303, 0.803, 0.93, 0.98, 1.2, 1.4])
+def test_a_buttock_follows_the_line_of_equal_breadth(path: Path, breadth: float) -> None:
+    """The points of its first curve are in the order of the true line; a ring is told."""
+    hull = ah.open(path)
+    with hull.edit("cut") as edit:
+        edit.add_line("buttocks", breadth, "moved")
+    true = contour(breadth)
+    curve = hull.lines["moved"].curves[0]
+    at = [int(np.hypot(*(true - point.position[::2]).T).argmin()) for point in curve.defining]
+    assert at == sorted(at)
+    assert edit.report is not None
+    rings = [note for note in edit.report.notes if "a ring of" in note]
+    assert len(rings) == len(hull.lines["moved"].curves) - 1 == int(breadth > neck())

@@ -88,9 +88,14 @@ def branches_of(group: str, position: float, name: str, axis: int) -> list[Branc
     return found
 
 
+def _slope(at: Floats) -> Floats:
+    found: Floats = gradient(breadth_at, at[None])[0]
+    return found
+
+
 def neck() -> float:
     """Give the breadth (m) at which a buttock falls in two: that of the saddle of the neck."""
-    found = root(lambda at: gradient(breadth_at, at[None])[0], np.array([86.0, 2.7]), tol=1e-12)
+    found = root(_slope, np.array([86.0, 2.7]), tol=1e-12)
     assert found.success
     return float(breadth_at(found.x[:1], found.x[1:])[0])
 
