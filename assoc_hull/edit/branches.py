@@ -1,34 +1,29 @@
-"""Which meeting is which while a plane moves: large shifts are taken in sub-steps.
+"""Which meeting is which while a plane moves along its normal, however far.
 
-Between two positions of a plane the meetings of a curve are paired only if their number
-and signs agree, or exactly one adjacent pair has come or gone; else the step is halved.
-Ordinals along the curve were measured to be wrong at every birth and death.
+The curve itself keeps its shape; so the meetings with the moving plane slide along the
+stretches on which its height over the plane rises or falls. Where the height turns, two
+stretches meet: there a pair of meetings is born or dies. A meeting before and one after are
+the same just if they lie on one stretch. Ordinals along the curve were measured to be wrong
+at every birth and death, and steps of whatever length leap over a death and a birth at once.
 """
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
-from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.bernstein import heights
+from assoc_hull.geometry.crossing import Meetings, meet_planes
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.monotone import nodes_of
 from assoc_hull.model.align import align_roots
 
 __all__ = ["track"]
 
 _LEAST = 1e-4
-"""Steps shorter than this (m) are taken as they are."""
+"""The height turns only where it goes back by more than this (m)."""
 
 
-@attrs.frozen(eq=False)
-class _Roots:
-    sign: np.typing.NDArray[np.int8]
-    xyz: FloatArray
-
-
-def track(
-    spline: SplineBatch, normal: FloatArray, start: float, stop: float, step: float = 0.1
-) -> dict[int, int]:
+def track(spline: SplineBatch, normal: FloatArray, start: float, stop: float) -> dict[int, int]:
     """Follow the meetings of a curve with a plane that is shifted along its normal.
 
     Parameters
@@ -39,8 +34,6 @@ def track(
         Unit normal of the plane.
     start, stop : float, m
         Offsets of the plane.
-    step : float, m
-        Longest step.
 
     Returns
     -------
@@ -59,40 +52,47 @@ def track(
     >>> track(curve, np.array([0.0, 0, 1]), 1.5, 2.6)
     {2: 0}
     """
-    count = max(1, int(np.ceil(abs(stop - start) / step)))
-    places = np.linspace(start, stop, count + 1)
-    roots = _roots(spline, normal, places)
-    path = {i: i for i in range(len(roots[0].sign))}
-    for i in range(count):
-        link = _link(spline, normal, (places[i], roots[i]), (places[i + 1], roots[i + 1]))
-        path = {first: link[here] for first, here in path.items() if here in link}
+    turns = _turns(spline, normal)
+    before, after = (meet_planes(spline, normal, np.array([at])) for at in (start, stop))
+    here, there = np.searchsorted(turns, before.t), np.searchsorted(turns, after.t)
+    path: dict[int, int] = {}
+    for stretch in np.intersect1d(here, there).tolist():
+        path |= _paired(
+            before, np.flatnonzero(here == stretch), after, np.flatnonzero(there == stretch)
+        )
     return path
 
 
-def _roots(spline: SplineBatch, normal: FloatArray, places: FloatArray) -> list[_Roots]:
-    order = np.argsort(places, kind="stable")
-    met = meet_planes(spline, normal, places[order])
-    found: list[_Roots] = [_Roots(met.sign[:0], met.xyz[:0])] * len(places)
-    for rank, place in enumerate(order.tolist()):
-        mine = met.plane == rank
-        found[place] = _Roots(met.sign[mine], met.xyz[mine])
-    return found
+def _paired(before: Meetings, first: IntArray, after: Meetings, second: IntArray) -> dict[int, int]:
+    """Pair the meetings on one stretch: one each, but where the height hardly goes back."""
+    pairs = align_roots(
+        before.sign[first], before.xyz[first], after.sign[second], after.xyz[second]
+    )
+    return {int(first[i]): int(second[j]) for i, j in pairs}
 
 
-def _link(
-    spline: SplineBatch,
-    normal: FloatArray,
-    before: tuple[float, _Roots],
-    after: tuple[float, _Roots],
-) -> dict[int, int]:
-    """Pair the meetings of two positions, halving the step while that is ambiguous."""
-    (low, old), (high, new) = before, after
-    change = abs(len(old.sign) - len(new.sign))
-    plain = np.array_equal(old.sign, new.sign) or change in (1, 2)
-    if plain or abs(high - low) <= _LEAST:
-        return dict(align_roots(old.sign, old.xyz, new.sign, new.xyz))
-    middle = 0.5 * (low + high)
-    between = middle, _roots(spline, normal, np.array([middle]))[0]
-    first = _link(spline, normal, before, between)
-    second = _link(spline, normal, between, after)
-    return {i: second[j] for i, j in first.items() if j in second}
+def _turns(spline: SplineBatch, normal: FloatArray) -> FloatArray:
+    """Give the parameters at which the height of a curve turns, ascending, m."""
+    segments = np.arange(len(spline.knot) - 1)
+    fraction, height = nodes_of(heights(spline, normal), segments)
+    begin, end = spline.knot[:-1], spline.knot[1:]
+    at = (begin + (end - begin) * fraction).T.ravel()
+    kept = _extremes(height.T.ravel().tolist())
+    return at[np.array(kept[1:-1], np.int64)]
+
+
+def _extremes(height: list[float]) -> list[int]:
+    """Give the first place, those where the height turns for good, and the last."""
+    kept, sense = [0], 0
+    best = 0
+    for i in range(1, len(height)):
+        step = height[i] - height[best]
+        if sense == 0:
+            if abs(step) > _LEAST:
+                sense, best = (1 if step > 0.0 else -1), i
+        elif step * sense >= 0.0:
+            best = i
+        elif abs(step) > _LEAST:
+            kept.append(best)
+            sense, best = -sense, i
+    return [*kept, len(height) - 1]

@@ -9,11 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.chain import chain
+from assoc_hull.edit.facets import through_facets
+from assoc_hull.edit.hairpin import closing_point, turning_points
+from assoc_hull.edit.headings import headings
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.planes import new_plane, ready_group
@@ -21,7 +25,9 @@ from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
 from assoc_hull.model.gaps import tangents
@@ -30,6 +36,9 @@ from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import Ends, HullState
 
 __all__ = ["add_line", "make_piece", "pieces_of"]
+
+_RING = 4
+"""A ring of fewer marks than this makes no curve."""
 
 _SLIDE = 0.1
 """Room (m) for a crossing whose driver passes the new plane squarely; more if obliquely."""
@@ -77,17 +86,46 @@ def add_line(
     if title is None:
         title = _free_name(state, cut.group, f"{family.prefix} {cut.title}")
     line = edit.maker.line(cut.group, title, (cut.normal, cut.offset), key=cut.key)
-    for piece in pieces_of(state, line, marks):
+    for piece in pieces_of(edit, line, marks):
         make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
     enter_line(edit, line)
     return line
 
 
-def pieces_of(state: HullState, line: int, marks: Marks) -> list[Marks]:
-    """Put marks in order, piece by piece; sections upward, other lines from aft forward."""
+def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
+    """Put marks in order, piece by piece; sections upward, other lines from aft forward.
+
+    A ring, that ends on no boundary curve, begins and ends between its two nearest marks.
+    """
+    state = edit.state
     axis = 2 if state.family(line).axis == 0 else 0
-    ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
-    return [marks.take(piece) for piece in ordered]
+    trails = through_facets(state, marks, state.lines.normal.data[line])
+    if trails is None:
+        ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
+        return [marks.take(piece) for piece in ordered]
+    rings = [_opened(marks.xyz, ring) for ring in trails.rings if len(ring) >= _RING]
+    name = state.lines.name.data[line]
+    for ring in trails.rings:
+        x, y, z = marks.xyz[ring].mean(axis=0).tolist()
+        done = "begins and ends between two crossings" if len(ring) >= _RING else "is left out"
+        edit.pending.notes.append(
+            f"{name}: a ring of {len(ring)} meetings round ({x:.3f}, {y:.3f}, {z:.3f}) m {done}"
+        )
+    parts = _run_on(marks.xyz[:, axis], trails.open)
+    found = [marks.take(part) for part in parts]
+    return found + [attrs.evolve(marks.take(ring), ring=True) for ring in rings]
+
+
+def _opened(xyz: FloatArray, ring: IntArray) -> IntArray:
+    """Let a ring begin and end at its two nearest neighbours."""
+    step = xyz[ring] - xyz[np.roll(ring, 1)]
+    return np.roll(ring, -int((step * step).sum(axis=1).argmin()))
+
+
+def _run_on(along: FloatArray, trails: list[IntArray]) -> list[IntArray]:
+    """Let every piece run on along an axis, and begin with the one that begins first."""
+    ways = [trail if along[trail[0]] <= along[trail[-1]] else trail[::-1] for trail in trails]
+    return sorted(ways, key=lambda way: float(along[way[0]]))
 
 
 def _free_name(state: HullState, group: int, wish: str) -> str:
@@ -130,11 +168,15 @@ def make_piece(
     state = edit.state
     kind, direction = _kinds(state, line, marks)
     spline = loft(CurveData.single(marks.xyz, kind, direction))
-    picked = _pick(state, line, marks, spline)
+    ruled = _pick(state, line, marks, spline)
+    picked = _hold(state, marks, kind, direction, ruled)
     if curve is None:
         curve = edit.maker.curve(line, Ends())
     chosen = marks.take(np.flatnonzero(picked))
-    roles = _roles(state, line, chosen, keep)
+    roles = [
+        role if ruled[i] else Role.WATCHED
+        for i, role in zip(np.flatnonzero(picked), _roles(state, line, chosen, keep), strict=True)
+    ]
     specs = [
         _spec(state, curve, chosen, i, role, int(kind[picked][i]), direction[picked][i])
         for i, role in enumerate(roles)
@@ -147,12 +189,33 @@ def make_piece(
     ]
     own = iter(edit.maker.points(stand_in).tolist())
     order = [next(own) if role is Role.WATCHED else int(rows[i]) for i, role in enumerate(roles)]
-    edit.maker.define(curve, order)
+    edit.maker.define(curve, _rounded(edit, curve, chosen, order))
     for i, role in enumerate(roles):
         if role is Role.SHARED:
             thread(edit.maker, int(chosen.curve[i]), int(rows[i]))
             edit.pending.curves.add(int(chosen.curve[i]))
     return curve
+
+
+def _rounded(edit: Transaction, curve: int, marks: Marks, rows: list[int]) -> list[int]:
+    """Add points to the turns at which a new curve would fold, and where a ring closes."""
+    state, line = edit.state, edit.state.line_of(curve)
+    data = CurveData.single(marks.xyz, *_kinds(state, line, marks))
+    if not len(folds(loft(data))) and not marks.ring:
+        return rows
+    heading = headings(state, marks, state.lines.normal.data[line])
+    turns = turning_points(data, heading)
+    if marks.ring:
+        close = closing_point(marks.xyz, heading)
+        turns = [(0, close), *turns, (len(rows), close)]
+    points = [PointSpec(curve, _in_plane(state, line, at), Sort.ADOPTED) for _, at in turns]
+    added = edit.maker.points(points)
+    return np.insert(np.array(rows), [before for before, _ in turns], added).tolist()
+
+
+def _in_plane(state: HullState, line: int, place: FloatArray) -> FloatArray:
+    exact = state.lines.normal.data[line] == 1.0
+    return np.where(exact, state.lines.offset.data[line], place)
 
 
 def _rows(
@@ -215,6 +278,28 @@ def _held(state: HullState, curve: IntArray, boundary: IntArray) -> np.typing.ND
     """Tell at which curves a new line is always made: boundary curves, and space curves."""
     planar = state.lines.planar.data[state.curves.line.data[curve]]
     return np.asarray((boundary >= 0) | ~planar)
+
+
+def _hold(
+    state: HullState,
+    marks: Marks,
+    kind: np.typing.NDArray[np.int8],
+    direction: FloatArray,
+    ruled: np.typing.NDArray[np.bool_],
+) -> np.typing.NDArray[np.bool_]:
+    """Add the marks that a line through those of the rule alone would pass too far off.
+
+    Without them a short piece between two ends would be straight, and its crossings lost.
+    """
+    picked = ruled.copy()
+    while not picked.all():
+        rest = np.flatnonzero(~picked)
+        spline = loft(CurveData.single(marks.xyz[picked], kind[picked], direction[picked]))
+        away = closest(spline, 0, marks.xyz[rest])[2]
+        if float(away.max()) <= state.tolerances.adoption:
+            break
+        picked[rest[int(away.argmax())]] = True
+    return picked
 
 
 def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:

@@ -32,6 +32,8 @@ class Marks:
         A `BoundaryKind`, or -1 on other lines.
     root : (k,) int
         Which of the curve's meetings with the plane it is, counted along the curve.
+    ring : bool
+        Whether the last is followed by the first.
     """
 
     curve: IntArray
@@ -40,6 +42,7 @@ class Marks:
     sign: IntArray
     boundary: IntArray
     root: IntArray
+    ring: bool = False
 
     def take(self, chosen: IntArray) -> Marks:
         """Give some of the marks, in the order of the indices."""
@@ -50,6 +53,7 @@ class Marks:
             self.sign[chosen],
             self.boundary[chosen],
             self.root[chosen],
+            self.ring,
         )
 
 

@@ -10,9 +10,12 @@ import numpy as np
 
 from assoc_hull.edit.marks import Marks
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import CurveData, SplineBatch
+from assoc_hull.geometry.spline import loft
 from assoc_hull.model.state import Ends, HullState
 
-__all__ = ["match_pieces"]
+__all__ = ["gather", "match_pieces"]
 
 
 def match_pieces(
@@ -103,3 +106,40 @@ def _take_over(
         pair[side] = curve
         edit.journal.put(state.rows.curve, [row], [pair])
         edit.journal.put(state.rows.spot, [row], [(place, place)])
+
+
+def gather(
+    edit: Transaction, line: int, pieces: list[tuple[int, Marks]], known: dict[tuple[int, int], int]
+) -> None:
+    """Let followed crossings that mark no piece go over to the piece they have come to.
+
+    These are the crossings with lines of higher rank, from which the line is not cut.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    line : int
+        The line.
+    pieces : list of (int, Marks)
+        Its curves, and where each passes.
+    known : dict of (int, int) to int
+        Crossings by the other curve and its meeting with the line's plane; their spots are
+        there already.
+    """
+    state = edit.state
+    marked = {
+        mark
+        for _, piece in pieces
+        for mark in zip(piece.curve.tolist(), piece.root.tolist(), strict=True)
+    }
+    rows = [row for mark, row in sorted(known.items()) if mark not in marked]
+    if not rows or not pieces:
+        return
+    shapes = SplineBatch.join([loft(CurveData.single(piece.xyz)) for _, piece in pieces])
+    spots = state.rows.spot.data[rows, 0]
+    away = np.array([closest(shapes, i, spots)[2] for i in range(len(pieces))])
+    for row, nearest in zip(rows, away.argmin(axis=0).tolist(), strict=True):
+        pair = state.rows.curve.data[row].tolist()
+        pair[int(state.line_of(pair[1]) == line)] = pieces[nearest][0]
+        edit.journal.put(state.rows.curve, [row], [pair])

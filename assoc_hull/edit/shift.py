@@ -13,7 +13,7 @@ from assoc_hull.edit.branches import track
 from assoc_hull.edit.cut import make_piece, pieces_of
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.marks import Marks, find_marks, spread
-from assoc_hull.edit.pieces import match_pieces
+from assoc_hull.edit.pieces import gather, match_pieces
 from assoc_hull.edit.planes import shifted_plane
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
@@ -83,12 +83,13 @@ def cut_anew(edit: Transaction, line: int, marks: Marks, known: dict[tuple[int, 
     crossings, placed = rows_of(state, mine)
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
     _drop_adopted(edit, mine)
-    pieces = match_pieces(edit, line, pieces_of(state, line, marks), known)
+    pieces = match_pieces(edit, line, pieces_of(edit, line, marks), known)
     for curve, piece in pieces:
         make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
     _bring_along(edit, line, known)
+    gather(edit, line, pieces, known)
     enter_line(edit, line)
     _carry(edit, np.array([curve for curve, _ in pieces]), placed)
     _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))

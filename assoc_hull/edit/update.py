@@ -24,6 +24,7 @@ from assoc_hull.edit.check import (
 from assoc_hull.edit.check_sense import find_turned
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
+from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
 from assoc_hull.edit.mend import mend
 from assoc_hull.edit.net_change import net_change
 from assoc_hull.edit.pending import Pending, Settings
@@ -69,6 +70,7 @@ class _Work:
     born: list[str] = attrs.field(factory=list)
     gone: list[str] = attrs.field(factory=list)
     mended: list[str] = attrs.field(factory=list)
+    ends: list[tuple[int, int]] = attrs.field(factory=list)
     seconds: dict[str, float] = attrs.field(factory=dict)
     failed: dict[int, str] = attrs.field(factory=dict)
     wide: Wide | None = None
@@ -259,7 +261,9 @@ def _settle(work: _Work) -> None:
         latent = latent_meetings(work.state, work.touched())
         if not alignments and not latent:
             return
+        work.ends += ends_at_risk(work.state, alignments)
         change = settle(maker, alignments, latent, work.pending.moved_curves)
+        work.pending.notes += note_new_ends(work.state, alignments)
         work.born += change.born
         work.gone += change.gone
         curves = np.array(change.curves, np.int64)
@@ -316,6 +320,7 @@ def _check(work: _Work) -> tuple[str, ...]:
     findings += find_folds(work.state, clean, batch, work.network.before)
     findings += find_turned(work.state, clean) + find_beyond(work.state, clean, batch)
     findings += tuple(unreached(work.state, work.pending.fields, work.pending.values.keys()))
+    findings += find_endless(work.state, work.ends)
     if work.pending.structural:
         findings += find_unmet(work.state, clean)
     if work.settings.refuse_gaps:

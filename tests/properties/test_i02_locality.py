@@ -93,6 +93,7 @@ class Swing:
     place: FloatArray
     across_flats: bool = False
     calls: int = 0
+    strict: bool = False
 
     def shift(self, ground: FieldContext, part: float) -> Shift:
         """15 cm when asked for the whole, so that there are sub-steps; then 20 mm."""
