@@ -34,7 +34,7 @@ def repository_files() -> Iterator[Path]:
     for folder, folders, names in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name == ".ci" or name[0] != "."]
         folders[:] = [name for name in folders if name not in MADE]
-        yield from (Path(folder, name) for name in names)
+        yield from (Path(folder, name) for name in names if name != ".git")
 
 
 def local_places(text: bytes) -> list[str]:
