@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import time
 
-import attrs
 import numpy as np
 
 from assoc_hull.edit.check import (
-    Wide,
     find_beyond,
     find_folds,
     find_unbounded,
     find_unmet,
     measure_gaps,
-    plane_normals,
     splines_of,
 )
 from assoc_hull.edit.check_sense import find_turned
@@ -26,25 +23,22 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
 from assoc_hull.edit.mend import mend
-from assoc_hull.edit.net_change import net_change
+from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.rejoin import rejoin
-from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
+from assoc_hull.edit.report import Step
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.topology import latent_meetings, settle
-from assoc_hull.edit.trouble import blocked_nodes, note_states
+from assoc_hull.edit.work import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Readers
-from assoc_hull.graph.plan import closure
-from assoc_hull.graph.run import Pass, run
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
 from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
-from assoc_hull.model.state import HullState, curve_node, row_node
+from assoc_hull.model.state import HullState
 
 __all__ = ["update"]
 
@@ -54,82 +48,6 @@ _ROUNDS = 6
 
 _MORE, _CLOSE = 4, 2e-3
 """Sub-steps a field may have in addition, and the part it may lack without needing one."""
-
-
-@attrs.define(eq=False)
-class _Work:
-    """One update while it runs."""
-
-    document: Document
-    name: str
-    journal: Journal
-    pending: Pending
-    settings: Settings
-    network: HullNetwork
-    passes: list[Pass] = attrs.field(factory=list)
-    born: list[str] = attrs.field(factory=list)
-    gone: list[str] = attrs.field(factory=list)
-    mended: list[str] = attrs.field(factory=list)
-    ends: list[tuple[int, int]] = attrs.field(factory=list)
-    seconds: dict[str, float] = attrs.field(factory=dict)
-    failed: dict[int, str] = attrs.field(factory=dict)
-    wide: Wide | None = None
-    planned: int = 0
-
-    @property
-    def state(self) -> HullState:
-        return self.document.state
-
-    def evaluated(self) -> IntArray:
-        """Curves evaluated in any pass, in order, each once."""
-        nodes = np.concatenate([_NONE, *(part.evaluated for part in self.passes)])
-        curves: IntArray = nodes[(nodes & 1) == 1] >> 1
-        if len(self.passes) == 1:
-            return curves  # in one pass no node stands twice
-        once: IntArray = curves[np.sort(np.unique(curves, return_index=True)[1])]
-        return once
-
-    def touched(self) -> IntArray:
-        """Curves evaluated in any pass or made in this edit, but for those removed since."""
-        fresh = np.array(self.pending.fresh, np.int64)
-        curves = np.concatenate([self.evaluated(), fresh]) if len(fresh) else self.evaluated()
-        alive: IntArray = curves[self.state.curves.alive.data[curves]]
-        return alive
-
-    def go(self, rows: IntArray, curves: IntArray) -> None:
-        """Run one pass from points that were set and curves whose recipe changed."""
-        if not self.passes:
-            plan = closure(self.network, np.concatenate([row_node(rows), curve_node(curves)]))
-            self.planned = int((plan & 1).sum())
-        held = row_node(np.array(sorted(self.pending.held), np.int64))
-        blocked = blocked_nodes(self.network, self.state.failed)
-        result = run(
-            self.network, row_node(rows), self.journal, self.settings.policy,
-            also=self._also(curves), held=np.concatenate([held, blocked]),
-        )  # fmt: skip
-        self.passes.append(result)
-        self.failed |= result.failed
-        note_states(self.network, result, self.journal)
-        freed = blocked
-        if len(blocked):
-            freed = np.setdiff1d(blocked, blocked_nodes(self.network, self.state.failed))
-        if len(freed):
-            self.passes.append(
-                run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
-            )
-
-    def _also(self, curves: IntArray) -> IntArray:
-        """Give the nodes to evaluate although nothing they read has changed; each only once."""
-        rows, table = np.array(sorted(self.pending.computed), np.int64), self.state.rows
-        self.pending.computed.clear()
-        rows = rows[table.alive.data[rows] & (table.driver.data[rows] >= 0)]
-        return np.concatenate([curve_node(curves), row_node(rows)])
-
-    def renew(self) -> None:
-        """Derive the look-ups anew after crossings or points came or went."""
-        self.pending.structural = True
-        self.document.refresh()
-        self.network.index = self.document.index
 
 
 def update(
@@ -151,7 +69,7 @@ def update(
         _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
-    work = _Work(document, name, journal, pending, settings, network)
+    work = Work(document, name, journal, pending, settings, network)
     try:
         if pending.fields:
             rows, away = _run_fields(work, rows, origin)
@@ -171,7 +89,7 @@ def update(
     if findings:
         raise RefusedEditError(name, findings)
     work.seconds |= {"run": ran - begin, "check": time.perf_counter() - ran}
-    return _step(work, rows, away)
+    return step_of(work, rows, away)
 
 
 def _set_values(
@@ -196,7 +114,7 @@ def _link_riders(state: HullState, journal: Journal, pending: Pending) -> None:
     ride_links(state, curves[state.curves.alive.data[curves]], journal)
 
 
-def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
+def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArray, FloatArray]:
     """Run the fields, in sub-steps where they are large; give all points that were set.
 
     `origin` holds where all points lay before; the distances are from there.
@@ -240,7 +158,7 @@ def _run_fields(work: _Work, rows: IntArray, origin: FloatArray) -> tuple[IntArr
     return every, np.sqrt((moved * moved).sum(axis=1))
 
 
-def _part(work: _Work, step: int, steps: int) -> float:
+def _part(work: Work, step: int, steps: int) -> float:
     """Give the part of the fields to run in a sub-step; nil when they are where they should be.
 
     A field that knows what it lacks spreads that over the sub-steps left, and has a few more.
@@ -252,7 +170,7 @@ def _part(work: _Work, step: int, steps: int) -> float:
     return float(np.clip(left / max(steps - step, 1), -1.0 / steps, 1.0 / steps))
 
 
-def _settle(work: _Work) -> None:
+def _settle(work: Work) -> None:
     """Let crossings come and go until every meeting has its place."""
     for _ in range(_ROUNDS):
         alignments, work.network.realigned = work.network.realigned, []
@@ -275,7 +193,7 @@ def _settle(work: _Work) -> None:
         work.go(_NONE, curves)
 
 
-def _relink(work: _Work) -> None:
+def _relink(work: Work) -> None:
     """Let adopted points that were carried ride from where they and their neighbours are now."""
     held, curves = work.pending.held, np.array(sorted(work.pending.relink), np.int64)
     curves = curves[work.state.curves.alive.data[curves]]
@@ -285,7 +203,7 @@ def _relink(work: _Work) -> None:
     held.clear()
 
 
-def _follow_up(work: _Work) -> None:
+def _follow_up(work: Work) -> None:
     """Do what waits for the main pass, and run a second pass for the curves that it touches."""
     pending = work.pending
     if not pending.after:
@@ -300,7 +218,7 @@ def _follow_up(work: _Work) -> None:
     _settle(work)
 
 
-def _check(work: _Work) -> tuple[str, ...]:
+def _check(work: Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
     wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
@@ -328,7 +246,7 @@ def _check(work: _Work) -> tuple[str, ...]:
     return findings
 
 
-def _gap_text(work: _Work, index: int) -> str:
+def _gap_text(work: Work, index: int) -> str:
     wide = work.wide
     assert wide is not None
     row = int(wide.rows[index])
@@ -338,64 +256,3 @@ def _gap_text(work: _Work, index: int) -> str:
         f"at ({x:.3f}, {y:.3f}, {z:.3f}) m, over the limit of {1e3 * wide.limit[index]:.1f} mm; "
         "make the move smaller, use a field, or ask for gaps='report'"
     )
-
-
-def _step(work: _Work, rows: IntArray, away: FloatArray) -> Step:
-    """Put the finished step together."""
-    parts, fresh = work.passes, np.array(work.pending.fresh, np.int64)
-    changed, moved = [row_node(rows), curve_node(fresh)], [away, np.full(len(fresh), np.nan)]
-    for part in parts:
-        told = np.isfinite(part.moved) | ((part.changed & 1) == 1)
-        changed.append(part.changed[told])
-        moved.append(part.moved[told])
-    nodes, distance = np.concatenate(changed), np.concatenate(moved)
-    if len(parts) > 1 or work.pending.structural:
-        every = np.concatenate([nodes, *(part.changed for part in parts)])
-        known = np.concatenate([distance, *(part.moved for part in parts)])
-        nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)
-    cause = Readers(
-        np.concatenate([part.cause.reader for part in parts]),
-        np.concatenate([part.cause.source for part in parts]),
-    )
-    return Step(
-        work.name, work.journal, cause, nodes, distance, row_node(rows),
-        work.pending.structural, _report(work, nodes, distance),
-    )  # fmt: skip
-
-
-def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
-    state, parts = work.state, work.passes
-    curves = work.touched()
-    if work.pending.fresh:
-        curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
-    key = state.curves.key.data
-    after = {curve: state.spline(curve) for curve in curves.tolist()}
-    keys = tuple(key[curve] for curve in curves.tolist())
-    return EditReport(
-        work.name,
-        planned=work.planned,
-        relofted=keys,
-        cut_off=sum(len(part.cut_off) for part in parts),
-        born=(*work.pending.born, *work.born),
-        gone=(*work.pending.gone, *work.gone),
-        mended=tuple(work.mended),
-        failed=tuple(f"{work.network.name(node)}: {why}" for node, why in work.failed.items()),
-        blocked=tuple(work.network.name(node) for part in parts for node in part.blocked.tolist()),
-        largest=_largest(state, changed, moved),
-        largest_gap=0.0 if work.wide is None else work.wide.largest,
-        notes=tuple(work.pending.notes),
-        carried=tuple(work.pending.carried),
-        cut_again=tuple(work.pending.cut_again),
-        seconds=work.seconds,
-        fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
-    )
-
-
-def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement | None:
-    points = ((changed & 1) == 0) & np.isfinite(moved)
-    if not points.any():
-        return None
-    best = int(np.nanargmax(moved[points]))
-    row = int(changed[points][best]) >> 1
-    place = tuple(state.rows.xyz.data[row].tolist())
-    return Movement(state.rows.key.data[row], float(moved[points][best]), place)

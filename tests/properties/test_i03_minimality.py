@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit import update
+from assoc_hull.edit import work
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run as engine
 from assoc_hull.graph.run import Pass
@@ -37,7 +37,7 @@ def passes() -> Iterator[list[Pass]]:
         heard.append(run(*given, **named))  # type: ignore[arg-type]
         return heard[-1]
 
-    with mock.patch.object(update, "run", listen):
+    with mock.patch.object(work, "run", listen):
         yield heard
 
 

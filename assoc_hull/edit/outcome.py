@@ -1,0 +1,76 @@
+"""The finished step of an update, and its report."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.edit.check import plane_normals
+from assoc_hull.edit.net_change import net_change
+from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
+from assoc_hull.edit.work import Work
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.graph.node import Readers
+from assoc_hull.model.state import HullState, curve_node, row_node
+
+__all__ = ["step_of"]
+
+
+def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
+    """Put the finished step together."""
+    parts, fresh = work.passes, np.array(work.pending.fresh, np.int64)
+    changed, moved = [row_node(rows), curve_node(fresh)], [away, np.full(len(fresh), np.nan)]
+    for part in parts:
+        told = np.isfinite(part.moved) | ((part.changed & 1) == 1)
+        changed.append(part.changed[told])
+        moved.append(part.moved[told])
+    nodes, distance = np.concatenate(changed), np.concatenate(moved)
+    if len(parts) > 1 or work.pending.structural:
+        every = np.concatenate([nodes, *(part.changed for part in parts)])
+        known = np.concatenate([distance, *(part.moved for part in parts)])
+        nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)
+    cause = Readers(
+        np.concatenate([part.cause.reader for part in parts]),
+        np.concatenate([part.cause.source for part in parts]),
+    )
+    return Step(
+        work.name, work.journal, cause, nodes, distance, row_node(rows),
+        work.pending.structural, _report(work, nodes, distance),
+    )  # fmt: skip
+
+
+def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
+    state, parts = work.state, work.passes
+    curves = work.touched()
+    if work.pending.fresh:
+        curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
+    key = state.curves.key.data
+    after = {curve: state.spline(curve) for curve in curves.tolist()}
+    keys = tuple(key[curve] for curve in curves.tolist())
+    return EditReport(
+        work.name,
+        planned=work.planned,
+        relofted=keys,
+        cut_off=sum(len(part.cut_off) for part in parts),
+        born=(*work.pending.born, *work.born),
+        gone=(*work.pending.gone, *work.gone),
+        mended=tuple(work.mended),
+        failed=tuple(f"{work.network.name(node)}: {why}" for node, why in work.failed.items()),
+        blocked=tuple(work.network.name(node) for part in parts for node in part.blocked.tolist()),
+        largest=_largest(state, changed, moved),
+        largest_gap=0.0 if work.wide is None else work.wide.largest,
+        notes=tuple(work.pending.notes),
+        carried=tuple(work.pending.carried),
+        cut_again=tuple(work.pending.cut_again),
+        seconds=work.seconds,
+        fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
+    )
+
+
+def _largest(state: HullState, changed: IntArray, moved: FloatArray) -> Movement | None:
+    points = ((changed & 1) == 0) & np.isfinite(moved)
+    if not points.any():
+        return None
+    best = int(np.nanargmax(moved[points]))
+    row = int(changed[points][best]) >> 1
+    place = tuple(state.rows.xyz.data[row].tolist())
+    return Movement(state.rows.key.data[row], float(moved[points][best]), place)
