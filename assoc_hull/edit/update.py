@@ -33,7 +33,6 @@ from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Readers
-from assoc_hull.graph.plan import closure
 from assoc_hull.graph.run import Pass, Policy, run
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
@@ -148,8 +147,8 @@ class _Work:
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
         if not self.passes:
-            plan = closure(self.network, np.concatenate([row_node(rows), curve_node(curves)]))
-            self.planned = int((plan & 1).sum())
+            seeds = np.concatenate([row_node(rows), curve_node(curves)])
+            self.planned = self.network.reached(seeds)
         held = row_node(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run(
@@ -307,7 +306,7 @@ def _settle(work: _Work) -> None:
 def _check(work: _Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
-    wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
+    wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):
         touched, moved = mend(Maker(work.state, work.journal), wide.mend)
         if len(touched):
@@ -316,7 +315,7 @@ def _check(work: _Work) -> tuple[str, ...]:
             work.go(moved, touched)
             _settle(work)
             curves = work.touched()
-            wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
+            wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)
@@ -371,7 +370,7 @@ def _report(work: _Work, changed: IntArray, moved: FloatArray) -> EditReport:
     if work.pending.fresh:
         curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
-    after = {curve: state.spline(curve) for curve in curves.tolist()}
+    after = {curve: state.curves.spline.data[curve] for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())
     return EditReport(
         work.name,
