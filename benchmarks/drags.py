@@ -4,13 +4,16 @@ The history is let go every 500 drags, between two drags: every step keeps all v
 changed, so that undo need not compute, and 20,000 of them fill the memory of a large machine.
 
 On a machine that others use as well the slowest drags are those during which it worked for
-others; the time of the processor, printed too, leaves out the waiting for it.
+others. Three figures tell these from slow drags of our own: the time of the processor, which
+leaves out the waiting for it; how many drags were interrupted, as the operating system counts
+(involuntary context switches); and the wall time of the drags that were not.
 """
 
 from __future__ import annotations
 
 import gc
 import tracemalloc
+from collections.abc import Callable
 from time import perf_counter, thread_time
 
 import attrs
@@ -25,6 +28,8 @@ __all__ = ["figures"]
 
 DRAGS, QUICK = 20_000, 2_000
 KEPT = 500
+_ENOUGH = 1_000
+"""So many drags that were not interrupted say something of the slowest thousandth."""
 
 
 class Collections:
@@ -53,15 +58,14 @@ def figures(quick: bool = False) -> list[Figure]:
     finally:
         gc.callbacks.remove(watch)
         gc.unfreeze()
-    found = [Figure("median", 1e3 * float(np.median(taken[0])), "ms")]
-    for clock, times in zip(("", ", processor time"), taken, strict=True):
-        goal = 3.0 if clock == "" else None
-        p50, p99, p999 = np.percentile(times, [50, 99, 99.9]).tolist()
-        found += [
-            Figure(f"p99 / median{clock}", p99 / p50),
-            Figure(f"p99.9 / median{clock}", p999 / p50, goal=goal, sense="most"),
-            Figure(f"largest / median{clock}", float(times.max()) / p50),
-        ]
+    wall, worked, switches = taken
+    found = [Figure("median", 1e3 * float(np.median(wall)), "ms")]
+    found += _quantiles(wall, "")
+    found += _quantiles(worked, ", processor time")
+    quiet = wall[switches == 0]
+    found.append(Figure("interrupted by other work", len(wall) - len(quiet), "drags"))
+    if len(quiet) >= _ENOUGH:
+        found += _quantiles(quiet, ", not interrupted", goal=None)
     found += [
         Figure("garbage collections inside", watch.count, "", 0.0, "equal"),
         Figure("kept in the history for each", kept / 1024, "KiB"),
@@ -69,13 +73,36 @@ def figures(quick: bool = False) -> list[Figure]:
     return [attrs.evolve(each, name=f"{taken.shape[1]} drags: {each.name}") for each in found]
 
 
+def _quantiles(
+    times: np.typing.NDArray[np.float64], which: str, goal: float | None = 3.0
+) -> list[Figure]:
+    p50, p99, p999 = np.percentile(times, [50, 99, 99.9]).tolist()
+    return [
+        Figure(f"p99 / median{which}", p99 / p50),
+        Figure(f"p99.9 / median{which}", p999 / p50, goal=goal, sense="most"),
+        Figure(f"largest / median{which}", float(times.max()) / p50),
+    ]
+
+
+def _switch_counter() -> Callable[[], float]:
+    """Count how often this thread was interrupted, if the operating system tells."""
+    try:
+        import resource
+    except ModuleNotFoundError:
+        return lambda: 0.0
+    who = getattr(resource, "RUSAGE_THREAD", resource.RUSAGE_SELF)
+    return lambda: float(resource.getrusage(who).ru_nivcsw)
+
+
 def _run(drag: Dragging, count: int, watch: Collections) -> np.typing.NDArray[np.float64]:
-    taken = np.empty((2, count))
+    """Give wall time, time of the processor (s) and interruptions of each drag."""
+    taken, switches = np.empty((3, count)), _switch_counter()
     for number in range(count):
         watch.inside = True
-        begin, worked = perf_counter(), thread_time()
+        before, begin, worked = switches(), perf_counter(), thread_time()
         drag()
-        taken[:, number] = perf_counter() - begin, thread_time() - worked
+        taken[:2, number] = perf_counter() - begin, thread_time() - worked
+        taken[2, number] = switches() - before
         watch.inside = False
         gc.collect(1)  # what had to wait comes now, as when a program waits for the pointer
         if number % KEPT == KEPT - 1:

@@ -11,6 +11,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.index import Index, Objects
 from assoc_hull.model.state import HullState
 
 __all__ = [
@@ -58,7 +59,8 @@ def splines_of(state: HullState, curves: IntArray) -> SplineBatch | None:
     """Give the splines of curves as one batch, for the findings below; None of no curves."""
     if not len(curves):
         return None
-    return SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    spline = state.curves.spline.data
+    return SplineBatch.join([spline[curve] for curve in curves.tolist()])
 
 
 def find_folds(
@@ -154,16 +156,16 @@ def measure_gaps(
     state: HullState,
     curves: IntArray,
     journal: Journal,
-    guess: np.typing.NDArray[np.integer] | None = None,
+    index: Index | None = None,
 ) -> Wide:
     """Measure the watched gaps of curves, store them, and give those over their limit.
 
-    `guess` may say where crossings lie, as for `assoc_hull.model.gaps.gap_at`.
+    `index` may say which crossings are watched and in which segments they lie.
     """
-    rows = watched_on(state, curves)
+    rows = watched_on(state, curves) if index is None else _watched(state, curves, index)
     if not len(rows):
         return Wide(rows, np.zeros(0), np.zeros(0), 0.0, rows)
-    known = guess if guess is not None and len(guess) == state.rows.count else None
+    known = index.guess if index is not None and len(index.guess) == state.rows.count else None
     gap = gap_at(state, rows, known)
     journal.put(state.rows.gap, rows, gap)
     journal.put(state.rows.xyz, rows, state.rows.spot.data[rows, 0])
@@ -171,6 +173,14 @@ def measure_gaps(
     wide = gap > limit
     mend = _to_mend(state, rows, gap / limit) if wide.any() else rows[:0]
     return Wide(rows[wide], gap[wide], limit[wide], float(gap.max()), mend)
+
+
+def _watched(state: HullState, curves: IntArray, index: Index) -> IntArray:
+    """Give the watched crossings of curves: the same as before while these meet the same."""
+    met, table = state.curves.meets.data, state.rows
+    rows = Objects([met[curve].row for curve in curves.tolist()])
+    stamp = rows, table.role.writes, table.sort.writes, table.alive.writes
+    return index.answer(("watched", curves.tobytes()), stamp, lambda: watched_on(state, curves))
 
 
 def _to_mend(state: HullState, rows: IntArray, part: FloatArray) -> IntArray:

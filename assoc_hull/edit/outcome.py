@@ -44,7 +44,7 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
     if work.pending.fresh:
         curves = curves[np.sort(np.unique(curves, return_index=True)[1])]
     key = state.curves.key.data
-    after = {curve: state.spline(curve) for curve in curves.tolist()}
+    after = {curve: state.curves.spline.data[curve] for curve in curves.tolist()}
     keys = tuple(key[curve] for curve in curves.tolist())
     return EditReport(
         work.name,

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import attrs
-import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Readers
+from assoc_hull.graph.node import Readers, distinct
 
 __all__ = ["EditReport", "Fairness", "Movement", "Step"]
 
@@ -183,9 +182,9 @@ class Step:
     @property
     def rows(self) -> IntArray:
         """Points that changed."""
-        return np.unique(self.changed[(self.changed & 1) == 0] >> 1)
+        return distinct(self.changed[(self.changed & 1) == 0] >> 1)
 
     @property
     def curves(self) -> IntArray:
         """Curves that changed."""
-        return np.unique(self.changed[(self.changed & 1) == 1] >> 1)
+        return distinct(self.changed[(self.changed & 1) == 1] >> 1)

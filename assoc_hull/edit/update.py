@@ -221,7 +221,7 @@ def _follow_up(work: Work) -> None:
 def _check(work: Work) -> tuple[str, ...]:
     """Check what was evaluated; mend gaps once; give all findings that refuse the edit."""
     curves = work.touched()
-    wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
+    wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     if len(wide.rows) and not any(field.strict for field in work.pending.fields):
         touched, moved = mend(Maker(work.state, work.journal), wide.mend)
         if len(touched):
@@ -230,7 +230,7 @@ def _check(work: Work) -> tuple[str, ...]:
             work.go(moved, touched)
             _settle(work)
             curves = work.touched()
-            wide = measure_gaps(work.state, curves, work.journal, work.network.index.guess)
+            wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)

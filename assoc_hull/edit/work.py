@@ -11,7 +11,6 @@ from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.trouble import blocked_nodes, note_states
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.plan import closure
 from assoc_hull.graph.run import Pass, run
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import HullState, curve_node, row_node
@@ -87,8 +86,8 @@ class Work:
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
         if not self.passes:
-            plan = closure(self.network, np.concatenate([row_node(rows), curve_node(curves)]))
-            self.planned = int((plan & 1).sum())
+            seeds = np.concatenate([row_node(rows), curve_node(curves)])
+            self.planned = self.network.reached(seeds)
         held = row_node(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run(

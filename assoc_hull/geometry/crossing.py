@@ -27,7 +27,7 @@ from assoc_hull.geometry.backend import compiled
 from assoc_hull.geometry.bernstein import Heights, heights
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.evaluation import positions
-from assoc_hull.geometry.monotone import CONTACT, Parts, checked_planes, find_parts, nodes_of
+from assoc_hull.geometry.monotone import CONTACT, Parts, Roots, checked_planes, find_parts, nodes_of
 from assoc_hull.geometry.roots import bracketed_roots
 from assoc_hull.geometry.tridiagonal import slots_of
 
@@ -113,29 +113,29 @@ def meet_planes(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> 
     normal, offsets = checked_planes(normal, offsets)
     kernels = compiled()
     find = _find if kernels is None else kernels.meet
-    parts, owner, plane, t, xyz = find(batch, normal, offsets)
-    segment = parts.segment.take(owner)
+    found = find(batch, normal, offsets)
     axis = _coordinate_axis(normal)
     if axis is not None:
-        np.multiply(offsets.take(plane), normal[axis], out=xyz[axis])
-    curve = slots_of(batch.start).curve.take(segment)
-    falls = parts.below_end < parts.below_begin
-    sign = np.where(falls, np.int8(-1), np.int8(1)).take(owner)
-    tangential = _tangential(batch, normal, parts, owner, curve, plane, offsets)
-    return Meetings(curve, plane, segment, t, xyz.T, sign, tangential)
+        np.multiply(offsets.take(found.plane), normal[axis], out=found.points[axis])
+    tangential = _tangential(batch, normal, found, offsets)
+    return Meetings(
+        found.curve, found.plane, found.segment, found.t, found.points.T, found.sign, tangential
+    )
 
 
-def _find(
-    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
-) -> tuple[Parts, IntArray, IntArray, FloatArray, FloatArray]:
-    """Find parts, and owner, plane, parameter and point of every meeting, with numpy."""
+def _find(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
+    """Find all meetings with numpy."""
     course = heights(batch, normal)
     parts = find_parts(batch, course, offsets)
     owner, plane = _expand(batch, parts, len(offsets))
     segment = parts.segment.take(owner)
     fraction = _fractions(course, parts, owner, offsets.take(plane))
     t = _parameters(batch, segment, fraction)
-    return parts, owner, plane, t, positions(batch, segment, fraction)
+    curve = slots_of(batch.start).curve.take(segment)
+    falls = parts.below_end < parts.below_begin
+    sign = np.where(falls, np.int8(-1), np.int8(1)).take(owner)
+    points = positions(batch, segment, fraction)
+    return Roots(parts, owner, plane, segment, curve, sign, t, points, near=True)
 
 
 def _coordinate_axis(normal: FloatArray) -> int | None:
@@ -185,16 +185,13 @@ def _fractions(course: Heights, parts: Parts, owner: IntArray, offset: FloatArra
 
 
 def _tangential(
-    batch: SplineBatch,
-    normal: FloatArray,
-    parts: Parts,
-    owner: IntArray,
-    curve: IntArray,
-    plane: IntArray,
-    offsets: FloatArray,
+    batch: SplineBatch, normal: FloatArray, found: Roots, offsets: FloatArray
 ) -> NDArray[np.bool_]:
     """Mark neighbouring meetings between which the curve hardly leaves the plane."""
+    parts, owner, curve, plane = found.parts, found.owner, found.curve, found.plane
     result = np.zeros(len(owner), np.bool_)
+    if not found.near:
+        return result
     same = plane[1:] == plane[:-1]
     same &= curve[1:] == curve[:-1]
     pairs = same.nonzero()[0]

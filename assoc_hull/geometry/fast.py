@@ -19,11 +19,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.fast_loft import loft_curves
-from assoc_hull.geometry.fast_meet import meet_curves, place_points
+from assoc_hull.geometry.fast_meet import meet_curves, place_points, tell_meetings
 from assoc_hull.geometry.fast_roots import find_roots
-from assoc_hull.geometry.monotone import CONTACT, Parts
+from assoc_hull.geometry.monotone import CONTACT, Parts, Roots
 from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.spline import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.tridiagonal import MOST_LEVELS
@@ -87,9 +87,7 @@ def loft(data: CurveData) -> SplineBatch | None:
     return SplineBatch(data.start, knot, block[:3].T, block[3:6].T, block[6:].T)
 
 
-def meet(
-    batch: SplineBatch, normal: FloatArray, offsets: FloatArray
-) -> tuple[Parts, IntArray, IntArray, FloatArray, FloatArray]:
+def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
     """Find the meetings of curves with planes.
 
     Parameters
@@ -103,37 +101,33 @@ def meet(
 
     Returns
     -------
-    parts : Parts
-        Monotone parts of segments.
-    owner, plane : (k,) int
-        The part and the plane of each meeting.
-    t : (k,), m
-        Its chord-length parameter.
-    points : (3, k), m
-        The point.
+    Roots
+        All meetings, and the monotone parts of segments that they lie in.
 
     Examples
     --------
     >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
-    >>> meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))[3]
+    >>> meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5])).t
     array([2.5])
     """
     parts = normal.tolist()
     axis = parts.index(1.0) if parts.count(0.0) == 2 and 1.0 in parts else -1
-    knot, offsets = _plain(batch.knot), _plain(offsets)
+    start, knot, offsets = _plain(batch.start), _plain(batch.knot), _plain(offsets)
     vectors = _plain(batch.xyz.T), _plain(batch.leave.T), _plain(batch.arrive.T)
     with Workspace() as workspace:
         scratch = workspace.array(4, len(knot))
         places, numbers, owner, plane, cubics = meet_curves(
-            _plain(batch.start), knot, *vectors, _plain(normal), axis, offsets, CONTACT, scratch
+            start, knot, *vectors, _plain(normal), axis, offsets, CONTACT, scratch
         )
     roots = find_roots(cubics, STEPS, FLOOR, RELATIVE, MOST_TRIALS)
     t, points = np.empty(len(roots)), np.empty((3, len(roots)))
-    place_points(knot, *vectors, places[0], owner, roots, t, points)
+    told, sign = np.empty((2, len(roots)), np.int64), np.empty(len(roots), np.int8)
+    near = tell_meetings(start, places, numbers[3], offsets, owner, plane, CONTACT, told, sign)
+    place_points(knot, *vectors, told[0], roots, t, points)
     segment, order, below_begin, below_end = places
     lower, upper, begin, end = numbers
     parts = Parts(segment, order, lower, upper, begin, end, below_begin, below_end)
-    return parts, owner, plane, t, points
+    return Roots(parts, owner, plane, told[0], told[1], sign, t, points, near)
 
 
 def warm() -> None:

@@ -68,22 +68,30 @@ def _set_states(
     end_kind: Flags,
     end_vector: FloatArray,
     state: Flags,
-) -> bool:
-    """Set what fixes each derivative, as in `spline`; False if that is not known."""
+) -> int:
+    """Set what fixes each derivative, as in `spline`.
+
+    Gives -1 if that is not known, 0 if all points between the ends are smooth, else 1.
+    """
+    unknown = 0
     for i in range(begin, end):
-        if kind[i] < 0 or kind[i] > 2:
-            return False
+        unknown += (kind[i] < 0) | (kind[i] > 2)
         state[i] = kind[i]
+    if unknown:
+        return -1
+    bound = 0
+    for i in range(begin + 1, end - 1):
+        bound += kind[i] != 0
     for side in range(2):
         given = end_kind[curve, side]
         if given < 0 or given > 2:
-            return False
+            return -1
         # Free, tangent, curvature: loose, given, curved.
         state[begin if side == 0 else end - 1] = (2, 1, 3)[given]
         for k in range(3):
             if given == 2 and not abs(end_vector[curve, side, k]) < np.inf:
-                return False
-    return True
+                return -1
+    return 1 if bound else 0
 
 
 @jit
@@ -142,6 +150,7 @@ def _set_known(
     curve: int,
     begin: int,
     end: int,
+    bound: int,
     state: Flags,
     direction: FloatArray,
     end_vector: FloatArray,
@@ -152,9 +161,13 @@ def _set_known(
     leave: FloatArray,
     arrive: FloatArray,
 ) -> bool:
-    """Set the known derivatives of one curve; the others are nil already."""
+    """Set the known derivatives of one curve; the others are nil already.
+
+    Without `bound` only the ends are looked at.
+    """
     last = end - 1
-    for i in range(begin, end):
+    step = 1 if bound else last - begin
+    for i in range(begin, end, step):
         if state[i] == 1:
             x, y, z = direction[i, 0], direction[i, 1], direction[i, 2]
             if i in (begin, last):
@@ -166,7 +179,7 @@ def _set_known(
                 )
             if not _set_unit(x, y, z, i, leave, arrive):
                 return False
-    for i in range(begin, end):
+    for i in range(begin, end, step):
         if state[i] != 2:
             continue
         if i < last:
@@ -202,10 +215,18 @@ def _set_curved_end(
 
 @jit
 def _detach_known(
-    begin: int, end: int, state: Flags, leave: FloatArray, arrive: FloatArray, rows: FloatArray
+    begin: int,
+    end: int,
+    bound: int,
+    state: Flags,
+    leave: FloatArray,
+    arrive: FloatArray,
+    rows: FloatArray,
 ) -> None:
     """Move what is known to the right-hand sides of its neighbours."""
     for i in range(begin, end):
+        if not bound and begin + 1 < i < end - 2:
+            continue
         if state[i] == 1 or state[i] == 2:
             for k in range(5):
                 rows[k, i] = 0.0
@@ -334,16 +355,20 @@ def loft_curves(
         if end - begin < 2:
             return False
         chord[begin] = 1.0
-    if not (chord.min() >= coincident and chord.max() < np.inf):
+    wrong = 0
+    for i in range(len(chord)):
+        wrong += not ((chord[i] >= coincident) & (chord[i] < np.inf))
+    if wrong:
         return False
     _set_rows(chord, slope, rows)
     tables, scale = np.empty((most_levels + 1, 5, most + 1)), np.empty(most + 1)
     for curve in range(len(start) - 1):
         begin, end = start[curve], start[curve + 1]
-        if not _set_states(curve, begin, end, kind, end_kind, end_vector, state):
+        bound = _set_states(curve, begin, end, kind, end_kind, end_vector, state)
+        if bound < 0:
             return False
         if not _set_known(
-            curve, begin, end, state, direction, end_vector, chord, slope,
+            curve, begin, end, bound, state, direction, end_vector, chord, slope,
             least_cosine, no_direction, leave, arrive,
         ):  # fmt: skip
             return False
@@ -351,7 +376,7 @@ def loft_curves(
             _set_curved_end(curve, begin, begin + 1, end_vector, chord, slope, rows)
         if state[end - 1] == 3:
             _set_curved_end(curve, end - 1, end - 1, end_vector, chord, slope, rows)
-        _detach_known(begin, end, state, leave, arrive, rows)
+        _detach_known(begin, end, bound, state, leave, arrive, rows)
         _solve_curve(begin, end, rows, tables, most_levels, scale, leave, arrive)
         _set_knots(begin, end, chord, knot)
     return True

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.jit import jit
 
-__all__ = ["meet_curves", "place_points"]
+__all__ = ["meet_curves", "place_points", "tell_meetings"]
 
 Flags = NDArray[np.int8]
 PLAIN, BENT, LYING = 0, 1, 2
@@ -326,20 +326,48 @@ def meet_curves(
 
 
 @jit
+def tell_meetings(
+    start: IntArray,
+    places: IntArray,
+    ends: FloatArray,
+    offsets: FloatArray,
+    owner: IntArray,
+    plane: IntArray,
+    contact: float,
+    tables: IntArray,
+    sign: Flags,
+) -> bool:
+    """Set segment and curve, the rows of `tables`, and sign of each meeting.
+
+    Gives whether between any two neighbours of one curve and plane a part ends near it.
+    """
+    near, curve = False, 0
+    for m in range(len(owner)):
+        part = owner[m]
+        segment = places[SEGMENT, part]
+        while segment >= start[curve + 1]:
+            curve += 1
+        tables[0, m], tables[1, m] = segment, curve
+        sign[m] = -1 if places[BELOW_END, part] < places[BELOW_BEGIN, part] else 1
+        if m > 0 and plane[m] == plane[m - 1] and tables[1, m - 1] == curve:
+            near |= abs(ends[owner[m - 1]] - offsets[plane[m]]) < contact
+    return near
+
+
+@jit
 def place_points(
     knot: FloatArray,
     xyz: FloatArray,
     leave: FloatArray,
     arrive: FloatArray,
     segment: IntArray,
-    owner: IntArray,
     roots: FloatArray,
     t: FloatArray,
     points: FloatArray,
 ) -> None:
     """Set parameters (k,) and points (3, k) of meetings at fractions `roots` of segments."""
     for m in range(len(roots)):
-        i, u = segment[owner[m]], roots[m]
+        i, u = segment[m], roots[m]
         length = knot[i + 1] - knot[i]
         t[m] = knot[i + 1] if u == 1.0 else min(length * u + knot[i], knot[i + 1])
         for k in range(3):

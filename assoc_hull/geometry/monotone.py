@@ -20,6 +20,7 @@ from math import isfinite
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.bernstein import Heights, stationary, value
@@ -27,7 +28,15 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.plane import unit_normal
 from assoc_hull.geometry.tridiagonal import slots_of
 
-__all__ = ["CONTACT", "Parts", "checked_planes", "find_parts", "nodes_of", "planes_containing"]
+__all__ = [
+    "CONTACT",
+    "Parts",
+    "Roots",
+    "checked_planes",
+    "find_parts",
+    "nodes_of",
+    "planes_containing",
+]
 
 CONTACT = 1e-9
 """Closer than this (m) a curve touches a plane, or lies in it."""
@@ -57,6 +66,39 @@ class Parts:
     end: FloatArray
     below_begin: IntArray
     below_end: IntArray
+
+
+@attrs.frozen(eq=False)
+class Roots:
+    """All meetings of curves with planes, sorted by curve, plane and parameter.
+
+    Attributes
+    ----------
+    parts : Parts
+        Monotone parts of segments.
+    owner, plane : (k,) int
+        The part and the plane of each meeting.
+    segment, curve : (k,) int
+        Its segment and its curve.
+    sign : (k,) int8
+        +1 where the curve rises through the plane, -1 where it falls.
+    t : (k,), m
+        Its chord-length parameter.
+    points : (3, k), m
+        The point.
+    near : bool
+        Whether two neighbours may be one contact; False only if none are.
+    """
+
+    parts: Parts
+    owner: IntArray
+    plane: IntArray
+    segment: IntArray
+    curve: IntArray
+    sign: NDArray[np.int8]
+    t: FloatArray
+    points: FloatArray
+    near: bool
 
 
 def checked_planes(normal: FloatArray, offsets: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -38,12 +38,17 @@ class _Entry(Protocol):
 
 
 class ArrayColumn:
-    """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use."""
+    """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use.
+
+    `writes` rises whenever anything is written: what was derived from the column is true as
+    long as it stands.
+    """
 
     def __init__(self, dtype: DTypeLike, shape: tuple[int, ...], fill: float | bool = 0) -> None:
         self.store: NDArray[Any] = np.full((16, *shape), fill, dtype)
         self.fill = fill
         self.data = self.store[:0]
+        self.writes = 0
 
     def resize(self, count: int) -> None:
         """Bring the column to `count` rows; new ones hold the fill value."""
@@ -57,6 +62,7 @@ class ArrayColumn:
             self.store[old:count] = self.fill
         self.data = self.store[:count]
         self.data.setflags(write=False)
+        self.writes += 1
 
     def parts(self) -> NDArray[Any]:
         """Give the first two axes as one, to be written to: row r, part p is at r * parts + p."""
@@ -112,9 +118,11 @@ class _ArrayEntry:
 
     def undo(self) -> None:
         self.column.store[self.index] = self.old
+        self.column.writes += 1
 
     def redo(self) -> None:
         self.column.store[self.index] = self.new
+        self.column.writes += 1
 
     def idle(self) -> bool:
         return self.old.tobytes() == self.new.tobytes()
@@ -157,9 +165,11 @@ class _PartEntry:
 
     def undo(self) -> None:
         _scatter(self.column.parts(), self.part, self.old.values())
+        self.column.writes += 1
 
     def redo(self) -> None:
         _scatter(self.column.parts(), self.part, self.new.values())
+        self.column.writes += 1
 
     def idle(self) -> bool:
         return self.old.values().tobytes() == self.new.values().tobytes()
@@ -237,6 +247,7 @@ class Journal:
             new = np.broadcast_to(new, (len(rows), *column.store.shape[1:])).copy()
         self.entries.append(_ArrayEntry(column, rows, column.store.take(rows, axis=0), new))
         column.store[rows] = new
+        column.writes += 1
 
     def put_parts(
         self, column: ArrayColumn, part: NDArray[np.int64], new: Picked, before: Picked | None
@@ -254,6 +265,7 @@ class Journal:
             before = Picked(there)
         self.entries.append(_PartEntry(column, part, before, new))
         _scatter(parts, part, new.values())
+        column.writes += 1
 
     def set(self, column: ListColumn, index: Iterable[int], values: Iterable[object]) -> None:
         """Write one object each to the rows `index` of a list column."""

@@ -48,7 +48,8 @@ def tangents(
     if not len(curves):
         return np.zeros((0, 3))
     numbers, local = _numbered(curves)
-    batch = SplineBatch.join([state.spline(curve) for curve in numbers])
+    spline = state.curves.spline.data
+    batch = SplineBatch.join([spline[curve] for curve in numbers])
     slope = derivative(batch, local, parameters, guess=guess)
     found: FloatArray = (slope.T / _length(slope)).T
     return found

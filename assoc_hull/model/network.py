@@ -16,6 +16,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, Picked
 from assoc_hull.graph.node import Evaluation, Readers
+from assoc_hull.graph.plan import closure
 from assoc_hull.model.align import Alignment, align_curve
 from assoc_hull.model.cutting import Found, Recall, cut_curves
 from assoc_hull.model.index import Index
@@ -25,6 +26,8 @@ from assoc_hull.model.state import HullState, Meets, curve_node, row_node
 __all__ = ["HullNetwork", "bits_differ"]
 
 _NO_NODES: IntArray = np.zeros(0, np.int64)
+_MANY = 4096
+"""The readers of more nodes are not kept: finding them is little beside evaluating them."""
 
 
 def bits_differ(first: FloatArray, second: FloatArray) -> np.typing.NDArray[np.bool_]:
@@ -71,6 +74,22 @@ class HullNetwork:
 
     def readers(self, nodes: IntArray) -> Readers:
         """Give the curves that points define, and the points computed from curves."""
+        if len(nodes) > _MANY:
+            return self._find_readers(nodes)
+        stamp = self.state.rows.reader.writes
+        return self.index.answer(
+            ("readers", nodes.tobytes()), stamp, lambda: self._find_readers(nodes)
+        )
+
+    def reached(self, seeds: IntArray) -> int:
+        """Give how many curves are made from nodes, at any distance, these included."""
+        return self.index.answer(
+            ("reached", seeds.tobytes()),
+            self.state.rows.reader.writes,
+            lambda: int((closure(self, seeds) & 1).sum()),
+        )
+
+    def _find_readers(self, nodes: IntArray) -> Readers:
         odd = (nodes & 1).astype(np.bool_)
         points, curves = nodes[~odd], nodes[odd]
         pairs: list[tuple[IntArray, IntArray]] = []

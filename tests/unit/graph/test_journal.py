@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.graph.journal import Journal, Table
+from assoc_hull.graph.journal import Journal, Picked, Table
 
 Picture = tuple[int, bytes, bytes, tuple[object, ...]]
 
@@ -147,3 +147,38 @@ def test_an_unknown_column_is_named() -> None:
     """In the error."""
     with pytest.raises(AttributeError, match="width"):
         _ = table().width
+
+
+@given(writes())
+def test_writes_are_counted(steps: list[tuple[str, int, float]]) -> None:
+    """A column whose count of writes stands has the same bits, undo and redo included."""
+    of, journal = table(), Journal()
+    known: dict[int, bytes] = {}
+
+    def look() -> None:
+        assert known.setdefault(of.height.writes, of.height.data.tobytes()) == (
+            of.height.data.tobytes()
+        )
+
+    for step in steps:
+        write(journal, of, *step)
+        look()
+    journal.back()
+    look()
+    journal.forth()
+    look()
+    journal.undo()
+    look()
+
+
+def test_writes_to_parts_are_counted() -> None:
+    """Forward, backward and forward again."""
+    of, journal = table(), Journal()
+    journal.grow(of, 2)
+    counts = [of.place.writes]
+    journal.put_parts(of.place, np.array([0, 3]), Picked(np.array([1.0, 2.0])), None)
+    counts.append(of.place.writes)
+    journal.back()
+    counts.append(of.place.writes)
+    journal.forth()
+    assert len({*counts, of.place.writes}) == 4
