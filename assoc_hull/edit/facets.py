@@ -66,12 +66,15 @@ def through_facets(state: HullState, marks: Marks, normal: FloatArray) -> Trails
     Returns
     -------
     Trails or None
-        None where the marks do not tell: no ends, or not as many beginnings as endings.
+        None where the marks do not tell: no ends, no planes, or not as many beginnings as
+        endings.
     """
     is_end = marks.boundary == BoundaryKind.END
     if not is_end.any() or is_end.all():
         return None
     facets = _facets(state, marks)
+    if facets is None:
+        return None
     begins = _begins(marks, facets, is_end)
     first, last = np.flatnonzero(~is_end | begins), np.flatnonzero(~is_end | ~begins)
     if len(first) != len(last):
@@ -86,14 +89,16 @@ def through_facets(state: HullState, marks: Marks, normal: FloatArray) -> Trails
     return other if _leaps(facets, other) <= _leaps(facets, trails) else trails
 
 
-def _facets(state: HullState, marks: Marks) -> _Facets:
-    """Give each facet a number a family: that of the planes below it."""
+def _facets(state: HullState, marks: Marks) -> _Facets | None:
+    """Give each facet a number a family: that of the planes below it; None without planes."""
     lines = state.curves.line.data[marks.curve]
     plain = marks.boundary < 0
     groups = np.unique(state.lines.group.data[lines[plain]])
     live = state.live("lines")
     planes = live[np.isin(state.lines.group.data[live], groups) & state.lines.planar.data[live]]
     normals = sorted({tuple(row) for row in state.lines.normal.data[planes].tolist()})
+    if not normals:
+        return None
     come, go = [], []
     sense = marks.sign * forward(state, marks.curve)
     for normal in normals:

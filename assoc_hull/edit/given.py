@@ -110,7 +110,9 @@ class Given:
     def driving(self, drivers: Sequence[Group | Line | str]) -> list[int]:
         """Give the lines of groups and lines given as handles or names."""
         if isinstance(drivers, (str, Group, Line)) or not isinstance(drivers, Sequence):
-            raise BadInputError(f"drivers={drivers!r}", "in transform", "give a list of names")
+            raise BadInputError(
+                f"drivers is {shown(drivers)}", "in transform", "give a list of names"
+            )
         tables, found = self.tables, list[int]()
         names = tables.groups.name.data
         for each in drivers:

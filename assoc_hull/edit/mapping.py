@@ -12,7 +12,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.edit.arguments import places
+from assoc_hull.edit.arguments import places, shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
@@ -74,7 +74,7 @@ def affine(scale: ArrayLike | None, shift: ArrayLike | None) -> Affine:
     offset = places([0.0, 0.0, 0.0] if shift is None else shift, "shift")
     if factor.shape != (1, 3) or offset.shape != (1, 3) or not (factor > 0.0).all():
         raise BadInputError(
-            f"scale={scale!r}, shift={shift!r}", "in transform",
+            f"scale is {shown(scale)}, shift {shown(shift)}", "in transform",
             "give three factors above 0, and three lengths in m",
         )  # fmt: skip
     return Affine(factor[0], offset[0])

@@ -12,6 +12,7 @@ from typing import Literal, Self
 
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import choice
 from assoc_hull.edit import associate as _associate
 from assoc_hull.edit import cut as _cut
 from assoc_hull.edit import ends as _ends
@@ -326,9 +327,8 @@ class Edit:
         5.5
         """
         space = space_map(mapping, jacobian, scale, shift)
-        if planes not in ("stay", "follow"):
-            raise BadInputError(f"planes={planes!r}", "in transform", "use 'stay' or 'follow'")
+        follow = choice(planes, "planes", ("stay", "follow"), "in transform") == "follow"
         _transform.transform(
-            self._transaction, space, self._given.driving(drivers), follow=planes == "follow",
+            self._transaction, space, self._given.driving(drivers), follow=follow,
             tolerance=number(tolerance, "tolerance"),
         )  # fmt: skip

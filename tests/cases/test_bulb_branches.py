@@ -137,7 +137,7 @@ class Watch:
         alive = [each for each in self.branches[line] if each.low < place < each.high]
         assert alive, (place, line)
         away = [float(np.linalg.norm(each.where(place) - at)) for each in alive]
-        assert abs(float(breadth_at(at[:1], at[2:])[0] - at[1])) < 2.0 * CLOSE, (place, line, at)
+        assert off_hull(at) < 2.0 * CLOSE, (place, line, at)
         return alive[int(np.argmin(away))].name
 
     def shift(self, place: float) -> None:
@@ -167,6 +167,14 @@ class Watch:
         assert (place, sorted(self.born)) == (place, sorted([*(now.ids - before.ids), *brief]))
         assert (place, sorted(self.gone)) == (place, sorted([*(before.ids - now.ids), *brief]))
         self.seen, self.born, self.gone = now, [], []
+
+
+def off_hull(at: FloatArray) -> float:
+    """Give how far a place lies from the true hull, across it (m)."""
+    step = 1e-4 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
+    y = breadth_at(at[0] + step[:, 0], at[2] + step[:, 1])
+    slope = np.array([y[1] - y[2], y[3] - y[4]]) / 2e-4
+    return float(abs(y[0] - at[1]) / np.sqrt(1.0 + (slope * slope).sum()))
 
 
 def there_and_back(low: float, high: float, step: float) -> list[float]:

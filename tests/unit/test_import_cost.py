@@ -49,7 +49,7 @@ def test_lofting_loads_geometry_only() -> None:
     """Whoever lofts and cuts curves does not wait for the modules of whole hulls."""
     found = modules_after("from assoc_hull.geometry.spline import loft")
     units = {name.split(".")[1] for name in found if name.startswith("assoc_hull.")}
-    assert units == {"errors", "examples", "geometry", "tolerance"}
+    assert units == {"arguments", "errors", "examples", "geometry", "tolerance"}
 
 
 def test_every_public_name_has_its_home() -> None:

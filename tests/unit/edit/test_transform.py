@@ -462,10 +462,12 @@ def test_other_refusals(wigley: ah.Hull, act: Callable[[ah.Hull], object]) -> No
 
 
 def test_a_refused_update_changes_no_bit() -> None:
-    """A buttock that comes to hug the side is refused by the checks of the update."""
+    """A buttock whose plane the narrower hull does not reach any more is named, with its place."""
     hull = ah.examples.series60(cb=0.70)
-    narrower: Map = lambda xyz: xyz * [1.0, 0.93, 1.0]  # noqa: E731
-    assert "BTK 0.92" in refused(hull, lambda e: e.transform(narrower, MAIN), RefusedEditError)
+    narrower: Map = lambda xyz: xyz * [1.0, 0.9, 1.0]  # noqa: E731
+    assert "8.01189 m of buttocks" in refused(
+        hull, lambda e: e.transform(narrower, MAIN), RefusedEditError
+    )
 
 
 def test_jacobian_by_differences_agrees_with_the_given_one() -> None:
