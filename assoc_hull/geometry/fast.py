@@ -21,7 +21,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.fast_loft import loft_curves
-from assoc_hull.geometry.fast_meet import meet_curves, place_points, tell_meetings
+from assoc_hull.geometry.fast_meet import meet_curves, place_meetings
 from assoc_hull.geometry.fast_roots import find_roots
 from assoc_hull.geometry.monotone import CONTACT, Parts, Roots
 from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
@@ -120,10 +120,9 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
             start, knot, *vectors, _plain(normal), axis, offsets, CONTACT, scratch
         )
     roots = find_roots(cubics, STEPS, FLOOR, RELATIVE, MOST_TRIALS)
-    t, points = np.empty(len(roots)), np.empty((3, len(roots)))
-    told, sign = np.empty((2, len(roots)), np.int64), np.empty(len(roots), np.int8)
-    near = tell_meetings(start, places, numbers[3], offsets, owner, plane, CONTACT, told, sign)
-    place_points(knot, *vectors, told[0], roots, t, points)
+    told, sign, t, points, near = place_meetings(
+        start, knot, *vectors, places, numbers, offsets, owner, plane, roots, CONTACT
+    )
     segment, order, below_begin, below_end = places
     lower, upper, begin, end = numbers
     parts = Parts(segment, order, lower, upper, begin, end, below_begin, below_end)

@@ -242,29 +242,25 @@ def _detach_known(
 
 
 @jit
-def _reduce(tables: FloatArray, level: int, size: int, scale: FloatArray) -> None:
+def _reduce(tables: FloatArray, level: int, size: int) -> None:
     """Eliminate the rows of even place; the row after the last must be nil.
 
     Everything is indexed in full: a view of a row costs more than the work on it.
     """
-    count, more = size // 2, level + 1
-    for j in range(count):
+    more = level + 1
+    for j in range(size // 2):
         left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
-        from_left = tables[level, 0, kept] * tables[level, 4, left]
-        from_right = tables[level, 4, kept] * tables[level, 0, right]
-        scale[j] = 1.0 / (1.0 - (from_left + from_right))
-    for k in range(1, 4):
-        for j in range(count):
-            left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
-            sum_ = tables[level, 0, kept] * tables[level, k, left] + tables[level, k, kept]
-            sum_ = sum_ + tables[level, 4, kept] * tables[level, k, right]
-            tables[more, k, j] = sum_ * scale[j]
-    for j in range(count):
-        left, kept, right = 2 * j, 2 * j + 1, 2 * j + 2
-        tables[more, 0, j] = tables[level, 0, kept] * tables[level, 0, left] * scale[j]
-        tables[more, 4, j] = tables[level, 4, kept] * tables[level, 4, right] * scale[j]
+        before, after = tables[level, kept, 0], tables[level, kept, 4]
+        from_left, from_right = before * tables[level, left, 4], after * tables[level, right, 0]
+        scale = 1.0 / (1.0 - (from_left + from_right))
+        for k in range(1, 4):
+            sum_ = before * tables[level, left, k] + tables[level, kept, k]
+            sum_ = sum_ + after * tables[level, right, k]
+            tables[more, j, k] = sum_ * scale
+        tables[more, j, 0] = before * tables[level, left, 0] * scale
+        tables[more, j, 4] = after * tables[level, right, 4] * scale
     for k in range(5):
-        tables[more, k, count] = 0.0
+        tables[more, size // 2, k] = 0.0
 
 
 @jit
@@ -272,30 +268,36 @@ def _restore(tables: FloatArray, level: int, size: int) -> None:
     """Put the solutions of the kept rows back between those that follow from them."""
     more = level + 1
     for k in range(1, 4):
-        first = tables[level, 4, 0] * tables[more, k, 0]
-        tables[level, k, 0] = first + tables[level, k, 0]
-        for j in range(1, (size + 1) // 2):
-            even = tables[level, 4, 2 * j] * tables[more, k, j] + tables[level, k, 2 * j]
-            even = even + tables[level, 0, 2 * j] * tables[more, k, j - 1]
-            tables[level, k, 2 * j] = even
-        for j in range(size // 2):
-            tables[level, k, 2 * j + 1] = tables[more, k, j]
+        first = tables[level, 0, 4] * tables[more, 0, k]
+        tables[level, 0, k] = first + tables[level, 0, k]
+    for j in range(1, (size + 1) // 2):
+        before, after = tables[level, 2 * j, 0], tables[level, 2 * j, 4]
+        for k in range(1, 4):
+            even = after * tables[more, j, k] + tables[level, 2 * j, k]
+            tables[level, 2 * j, k] = even + before * tables[more, j - 1, k]
+    for j in range(size // 2):
+        for k in range(1, 4):
+            tables[level, 2 * j + 1, k] = tables[more, j, k]
 
 
 @jit
 def _solve_curve(
     begin: int, end: int, rows: FloatArray, tables: FloatArray, most_levels: int,
-    scale: FloatArray, leave: FloatArray, arrive: FloatArray,
+    leave: FloatArray, arrive: FloatArray,
 ) -> None:  # fmt: skip
-    """Solve one curve by cyclic reduction and add the solution to its derivatives."""
+    """Solve one curve by cyclic reduction and add the solution to its derivatives.
+
+    In `tables` the five numbers of a row lie together, in a line of the cache.
+    """
     size = end - begin
+    for i in range(size):
+        for k in range(5):
+            tables[0, i, k] = rows[k, begin + i]
     for k in range(5):
-        for i in range(size):
-            tables[0, k, i] = rows[k, begin + i]
-        tables[0, k, size] = 0.0
+        tables[0, size, k] = 0.0
     level, count = 0, size
     while level < most_levels and count > 1:
-        _reduce(tables, level, count, scale)
+        _reduce(tables, level, count)
         count //= 2
         level += 1
     while level > 0:
@@ -303,8 +305,8 @@ def _solve_curve(
         _restore(tables, level, size >> level)
     for k in range(3):
         for i in range(size):
-            leave[k, begin + i] += tables[0, 1 + k, i]
-            arrive[k, begin + i] += tables[0, 1 + k, i]
+            leave[k, begin + i] += tables[0, i, 1 + k]
+            arrive[k, begin + i] += tables[0, i, 1 + k]
 
 
 @jit
@@ -361,7 +363,7 @@ def loft_curves(
     if wrong:
         return False
     _set_rows(chord, slope, rows)
-    tables, scale = np.empty((most_levels + 1, 5, most + 1)), np.empty(most + 1)
+    tables = np.empty((most_levels + 1, most + 1, 8))
     for curve in range(len(start) - 1):
         begin, end = start[curve], start[curve + 1]
         bound = _set_states(curve, begin, end, kind, end_kind, end_vector, state)
@@ -377,6 +379,6 @@ def loft_curves(
         if state[end - 1] == 3:
             _set_curved_end(curve, end - 1, end - 1, end_vector, chord, slope, rows)
         _detach_known(begin, end, bound, state, leave, arrive, rows)
-        _solve_curve(begin, end, rows, tables, most_levels, scale, leave, arrive)
+        _solve_curve(begin, end, rows, tables, most_levels, leave, arrive)
         _set_knots(begin, end, chord, knot)
     return True

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.jit import jit
 
-__all__ = ["meet_curves", "place_points", "tell_meetings"]
+__all__ = ["meet_curves", "place_meetings"]
 
 Flags = NDArray[np.int8]
 PLAIN, BENT, LYING = 0, 1, 2
@@ -52,12 +52,6 @@ def _below(offsets: FloatArray, height: float) -> int:
         else:
             high = middle
     return low
-
-
-@jit
-def _value(origin: float, first: float, second: float, third: float, u: float) -> float:
-    """Evaluate a cubic by Horner's rule."""
-    return ((third * u + second) * u + first) * u + origin
 
 
 @jit
@@ -189,10 +183,10 @@ def _add_bent(
     fraction, height, rank = np.empty(4), np.empty(4), np.empty(4, np.int64)
     fraction[0], fraction[1], fraction[2], fraction[3] = 0.0, lower, upper, 1.0
     height[0], height[3] = origin, courses[0, i + 1]
-    height[1] = _value(origin, first, second, third, lower)
+    height[1] = ((third * lower + second) * lower + first) * lower + origin
     height[2] = height[3]
     if upper != 1.0:
-        height[2] = _value(origin, first, second, third, upper)
+        height[2] = ((third * upper + second) * upper + first) * upper + origin
     rank[0], rank[3] = below[i], below[i + 1]
     rank[1], rank[2] = _not_above(offsets, height[1]), _not_above(offsets, height[2])
     for j in range(3):
@@ -326,10 +320,10 @@ def meet_curves(
 
 
 @jit
-def tell_meetings(
+def _tell_meetings(
     start: IntArray,
     places: IntArray,
-    ends: FloatArray,
+    numbers: FloatArray,
     offsets: FloatArray,
     owner: IntArray,
     plane: IntArray,
@@ -343,19 +337,18 @@ def tell_meetings(
     """
     near, curve = False, 0
     for m in range(len(owner)):
-        part = owner[m]
-        segment = places[SEGMENT, part]
+        part, segment = owner[m], places[SEGMENT, owner[m]]
         while segment >= start[curve + 1]:
             curve += 1
         tables[0, m], tables[1, m] = segment, curve
         sign[m] = -1 if places[BELOW_END, part] < places[BELOW_BEGIN, part] else 1
         if m > 0 and plane[m] == plane[m - 1] and tables[1, m - 1] == curve:
-            near |= abs(ends[owner[m - 1]] - offsets[plane[m]]) < contact
+            near |= abs(numbers[END, owner[m - 1]] - offsets[plane[m]]) < contact
     return near
 
 
 @jit
-def place_points(
+def _place_points(
     knot: FloatArray,
     xyz: FloatArray,
     leave: FloatArray,
@@ -378,3 +371,30 @@ def place_points(
             second = 3.0 * step - first - both
             inside = (((both - 2.0 * step) * u + second) * u + first) * u + origin
             points[k, m] = end if u == 1.0 else inside
+
+
+@jit
+def place_meetings(
+    start: IntArray,
+    knot: FloatArray,
+    xyz: FloatArray,
+    leave: FloatArray,
+    arrive: FloatArray,
+    places: IntArray,
+    numbers: FloatArray,
+    offsets: FloatArray,
+    owner: IntArray,
+    plane: IntArray,
+    roots: FloatArray,
+    contact: float,
+) -> tuple[IntArray, Flags, FloatArray, FloatArray, bool]:
+    """Give segment and curve in one table, sign, parameter (k,) and point (3, k) of meetings.
+
+    `roots` are fractions of segments. Last comes what `_tell_meetings` gives.
+    """
+    count = len(roots)
+    told, sign = np.empty((2, count), np.int64), np.empty(count, np.int8)
+    near = _tell_meetings(start, places, numbers, offsets, owner, plane, contact, told, sign)
+    t, points = np.empty(count), np.empty((3, count))
+    _place_points(knot, xyz, leave, arrive, told[0], roots, t, points)
+    return told, sign, t, points, near
