@@ -79,6 +79,7 @@ class _Thinning:
     chosen: list[set[int]]
     points: list[PointItem]
     point_at: list[tuple[int, float]]
+    held: dict[int, list[int]]
 
     @property
     def fixed_count(self) -> int:
@@ -87,7 +88,7 @@ class _Thinning:
 
 def thin(net: Net) -> Thinned:
     """Choose the defining crossings and the adopted points of a net."""
-    work = _Thinning(net, [[] for _ in net.sources], [set() for _ in net.sources], [], [])
+    work = _Thinning(net, [[] for _ in net.sources], [set() for _ in net.sources], [], [], {})
     _collect(work)
     for curve in range(len(net.sources)):
         work.chosen[curve] = _rule(work, curve)
@@ -289,13 +290,17 @@ def _worst(
     splines = _loft_orders(net, orders, work)
     found: list[tuple[int, int]] = []
     for curve, source in enumerate(net.sources):
-        known = np.array([_xyz(work, item.number) for item in orders[curve]])
-        away = closest(splines, curve, source.points)[2]
+        numbers = [item.number for item in orders[curve]]
+        if work.held.get(curve) == numbers:  # made through the same points as when it held
+            continue
+        known = np.array([_xyz(work, number) for number in numbers])
         apart = np.abs(source.points[:, None, :] - known[None, :, :]).max(axis=2).min(axis=1)
-        away = np.where(apart > _SAME, away, 0.0)
-        point = int(away.argmax())
-        if away[point] > source.tolerance:
-            found.append((curve, point))
+        open_ = np.flatnonzero(apart > _SAME)
+        away = closest(splines, curve, source.points[open_])[2]
+        if len(open_) and away.max() > source.tolerance:
+            found.append((curve, int(open_[away.argmax()])))
+        else:
+            work.held[curve] = numbers
     return found
 
 
