@@ -30,6 +30,7 @@ WATERLINES = (
 BUTTOCKS = (0.5, 1.0, 2.0, 4.0, 6.0, 8.5, 11.0, 13.5, 16.0, 18.5, 21.0, 23.5)
 
 _SMOOTH, _TANGENT, _KNUCKLE = int(PointKind.SMOOTH), int(PointKind.TANGENT), int(PointKind.KNUCKLE)
+FLAT_AFT = 21.0
 _UP, _OUT, _AHEAD = (0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
 _HALF = form.BREADTH / 2.0
 
@@ -56,15 +57,22 @@ class _Points:
 
 def _section(x: float, low: float, high: float) -> LineSource:
     points = _Points()
-    foot = float(form.half_breadth(np.array(x), np.array(0.0))) if low < 1e-9 else 0.0
+    foot = float(form.half_breadth(np.array(x), np.array(0.0))) if low < 1e-9 and (x > FLAT_AFT) else 0.0
     side = _side_height(x)
     points.add((x, 0.0, low))
     if foot > 1e-6:
         points.add((x, foot, 0.0), _TANGENT, _OUT)
     top = side if side is not None else high
     z = _heights(x, low, top)
+    if top > form.BILGE + 1e-6:
+        wl = np.array(WATERLINES)
+        wl = wl[(wl > low + 0.02) & (wl < top - 0.02)]
+        z = np.concatenate([z[:-1][np.abs(z[:-1, None] - wl).min(axis=1) > 0.04] if len(wl) else z[:-1], wl, z[-1:]])
+        z = np.sort(z)
     y = form.half_breadth(np.full(len(z), x), z)
     inner = slice(0, -1)
+    if low < 1e-9 and x < FLAT_AFT:
+        z = z[z > 0.4]; y = form.half_breadth(np.full(len(z), x), z)
     points.add(np.column_stack([np.full(len(z), x), y, z])[inner])
     if side is not None:
         points.add((x, _HALF, side), _TANGENT, _UP)
@@ -123,10 +131,11 @@ def _fore_end(z: float) -> float:
 def _waterline(z: float) -> LineSource:
     (aft, y), fore = _aft_end(z), _fore_end(z)
     x = np.array(STATIONS) * form.LENGTH / 20.0
-    x = np.concatenate([x, 0.5 * (x[1:] + x[:-1])[np.diff(x) < 8.0]])
-    x = np.concatenate([x, aft + np.array([.25, .5, 1.0, 2.0]), fore - np.array([.25, .5, 1.0, 2.0])])
-    x = np.unique(x[(x > aft + 0.2) & (x < fore - 0.2)])
-    x = x[np.concatenate([[True], np.diff(x) > 0.05])]
+    x = np.concatenate([x, 0.5 * (x[1:] + x[:-1])[np.diff(x) < 16.0]])
+    st = x[:len(STATIONS)]
+    x = np.concatenate([x, aft + np.array([.1, .25, .5, .75, 1.0, 1.5, 2.0, 3.0, 4.0]), fore - np.array([.25, .5, 1.0, 2.0])])
+    x = np.unique(x[(x > aft + 0.05) & (x < fore - 0.05)])
+    near = np.abs(x[:, None] - st).min(axis=1); x = x[(near == 0) | (near > 0.2)]
     p = _Points()
     p.add((aft, y, z))
     a, b = float(form.aft_shoulder(np.array(z))), float(form.fore_shoulder(np.array(z)))
@@ -138,11 +147,15 @@ def _waterline(z: float) -> LineSource:
         p.add([(b, _HALF, z)], _TANGENT, _AHEAD)
         put(x[x > b + 0.5])
     else:
-        put(x)
+        y0 = float(form.midship(np.array(z)))
+        put(x[x < a - 0.5])
+        p.add([(a, y0, z)], _TANGENT, _AHEAD)
+        p.add([(b, y0, z)], _TANGENT, _AHEAD)
+        put(x[x > b + 0.5])
     p.add((fore, 0.0, z))
     return p.source("waterlines", f"WL {z:g}", tolerance=WLTOL)
 
-WLTOL = 5e-3
+WLTOL = 0.5e-3
 
 def _boundaries() -> list[LineSource]:
     found = []
@@ -188,7 +201,7 @@ def _boundaries() -> list[LineSource]:
     x = np.linspace(x0, a, 40)
     p.add(np.column_stack([x, form.half_breadth(x, np.full(40, form.DEPTH)), np.full(40, form.DEPTH)])[:-1])
     p.add((a, _HALF, d), _TANGENT, _AHEAD); p.add((b, _HALF, d), _TANGENT, _AHEAD)
-    x = b + (stem - b) * np.linspace(0, 1, 50)
+    x = b + (stem - b) * np.sin(np.linspace(0, np.pi / 2, 50))
     yy = form.half_breadth(x, np.full(50, form.DEPTH)); yy[-1] = 0
     p.add(np.column_stack([x, yy, np.full(50, form.DEPTH)])[1:])
     found.append(p.source("boundary", "deck edge", plane=((0, 0, 1), form.DEPTH), boundary=BoundaryKind.END))
@@ -203,7 +216,7 @@ def _boundaries() -> list[LineSource]:
     # flat of bottom
     zero = np.array(0.0)
     p = _Points()
-    x = np.linspace(form.KEEL_AFT, float(form.aft_shoulder(zero)), 60)
+    x = np.linspace(FLAT_AFT, float(form.aft_shoulder(zero)), 60)
     p.add(np.column_stack([x, form.half_breadth(x, zero), 0 * x])[:-1])
     p.add((x[-1], _HALF - form.BILGE, 0), _TANGENT, _AHEAD)
     x = np.linspace(float(form.fore_shoulder(zero)), form.KEEL_FORE, 60)

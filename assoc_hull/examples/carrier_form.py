@@ -68,7 +68,7 @@ def invert(
 
 _OVERHANG = CubicSpline(
     [0.0, 4.0, 8.0, 9.6, 11.2, 13.8, TRANSOM[1], DEPTH],
-    [14.0, 10.9, 8.6, 7.7, 6.0, 2.2, TRANSOM[0], -17.0],
+    [16.0, 11.0, 8.6, 7.7, 6.0, 2.2, TRANSOM[0], -17.0],
 )
 _LOBE_TOP, _LOBE_LENGTH = 4.6, 3.2
 
@@ -111,13 +111,13 @@ def aft_shoulder(z: FloatArray) -> FloatArray:
 
 def _lobe_aft(x: FloatArray, z: FloatArray) -> FloatArray:
     ahead = np.maximum(x, BOSS_FORE)
-    past = smooth((ahead - BOSS_FORE) / 5.5)
+    past = smooth((ahead - BOSS_FORE) / 3.6)
     below = z < SHAFT
     s = np.where(below, (SHAFT - z) / (SHAFT - skeg_bottom(ahead)), (z - SHAFT) / _lobe_top(x))
-    power = np.where(below, 0.5 + 0.3 * past, 0.5 + 1.5 * past)
+    power = np.where(below, 0.5 + 0.5 * past, 0.5 + 1.2 * past)
     away = (ahead - BOSS_FORE) / 12.0
     size = BOSS + 1.2 * (1.0 - 1.0 / (1.0 + away * away))
-    size = size * (1.0 - smooth((x - 14.0) / 22.0))
+    size = size * (1.0 - smooth((x - 10.0) / 14.0))
     return np.asarray(size * np.maximum(1.0 - s * s, 0.0) ** power * (x >= BOSS_AFT))
 
 
@@ -125,16 +125,20 @@ def _aft(x: FloatArray, z: FloatArray) -> FloatArray:
     end, begin, full = _OVERHANG(z), aft_shoulder(z), midship(z)
     t = np.clip((begin - x) / (begin - end), 0.0, 1.0)
     up = smooth((z + 1.0) / 21.0)
-    main = np.where(x < end, 0.0, full * (1.0 - t ** (2.15 + 0.25 * up)) ** (2.0 - 1.25 * up))
+    power = 2.0 - 1.25 * up
+    main = np.where(x < end, 0.0, full * (1.0 - t ** (2.15 + 0.25 * up)) ** power)
     return np.asarray(main + _lobe_aft(x, z) * (1.0 - main / full))
 
 
 # The fore body.
 
 
+_RAKE = (LENGTH - NOSE[0] + 8.8 * (1.0 - (1.0 - (11.0 / 12.0) ** 2) ** 3)) / 121.0
+
+
 def _contour_upper(z: FloatArray) -> FloatArray:
     up = z - NOSE[1]
-    stem = NOSE[0] - 8.8 + 0.0197 * up * up
+    stem = NOSE[0] - 8.8 + _RAKE * up * up
     return np.asarray(stem + 8.8 * np.maximum(1.0 - (up / 12.0) ** 2, 0.0) ** 3)
 
 
@@ -165,7 +169,7 @@ def _bulb_top(x: FloatArray) -> FloatArray:
 
 def fore_shoulder(z: FloatArray) -> FloatArray:
     """Give where each waterline leaves the flat of side, forward."""
-    return 207.0 + 46.0 * turn(z, 27.0) ** 1.5
+    return 205.5 + 46.5 * turn(z, 27.0) ** 1.5
 
 
 def bottom_end(z: FloatArray) -> FloatArray:
@@ -179,7 +183,7 @@ def _fore(x: FloatArray, z: FloatArray) -> FloatArray:
     end = np.where(z < NOSE[1], bottom_end(z), _contour_upper(z))
     t = np.clip((x - begin) / (end - begin), 0.0, 1.0)
     up = smooth((z - 3.0) / 16.0)
-    return midship(z) * (1.0 - t ** (2.0 + 0.5 * up)) ** (0.95 - 0.2 * up)
+    return midship(z) * (1.0 - t ** (2.0 + 0.5 * up)) ** (0.85 - 0.09 * up)
 
 
 def half_breadth(x: FloatArray, z: FloatArray) -> FloatArray:
