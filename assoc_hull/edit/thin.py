@@ -232,12 +232,15 @@ def _orders(work: _Thinning, roles: list[Role]) -> list[list[_Item]]:
 
 def _apart(work: _Thinning, order: list[_Item]) -> list[_Item]:
     """Leave out adopted points at which a crossing has come to define the curve."""
-    held = [_xyz(work, item.number) for item in order if item.number < work.fixed_count]
+    crossings = [item.number for item in order if item.number < work.fixed_count]
+    if len(crossings) in (0, len(order)):
+        return order
+    held = np.array([_xyz(work, number) for number in crossings])
     return [
         item
         for item in order
         if item.number < work.fixed_count
-        or not any(float(np.abs(_xyz(work, item.number) - at).max()) < _SAME for at in held)
+        or np.abs(held - _xyz(work, item.number)).max(axis=1).min() >= _SAME
     ]
 
 
