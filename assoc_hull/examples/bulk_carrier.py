@@ -15,7 +15,7 @@ from assoc_hull.edit.cut import add_line
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.examples import carrier_form as form
-from assoc_hull.examples.carrier_lines import boundary_lines, station, waterline
+from assoc_hull.examples.carrier_lines import boundary_lines, buttock, station, waterline
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -30,7 +30,10 @@ _WATERLINES = (
     0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.5, 15.0, 16.5, 18.0,
     20.0, 22.0, 24.5,
 )  # fmt: skip
-_BUTTOCKS = (0.5, 1.0, 2.0, 4.0, 6.0, 8.5, 11.0, 13.5, 16.0, 18.5, 21.0, 23.5)
+_GIVEN = (0.5, 1.0)
+"""The buttocks near the centre plane are drawn: they shape the stern above the propeller."""
+
+_BUTTOCKS = (2.0, 4.0, 6.0, 8.5, 11.0, 13.5, 16.0, 18.5, 21.0, 23.5)
 
 _ASSOCIATIONS = (
     Association("boundary", "sections"),
@@ -50,7 +53,7 @@ _KEEP = 0.6e-3
 
 
 def bulk_carrier_207k_adopted() -> tuple[HullState, AdoptionReport]:
-    """Adopt boundary curves, 41 stations and 20 waterlines, without buttocks.
+    """Adopt boundary curves, 41 stations, 20 waterlines and two buttocks.
 
     Returns
     -------
@@ -60,6 +63,7 @@ def bulk_carrier_207k_adopted() -> tuple[HullState, AdoptionReport]:
     sources = boundary_lines()
     sources += [piece for number in _STATIONS for piece in station(number, z)]
     sources += [waterline(height, x) for height in _WATERLINES]
+    sources += [piece for y in _GIVEN for piece in buttock(y, z)]
     ship = Particulars(
         "Bulk carrier 207,000 TDW", form.LENGTH, form.BREADTH, form.DEPTH, form.DRAUGHT
     )

@@ -23,7 +23,8 @@ from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
     "aft_end", "aft_shoulder", "contour_over_bossing", "contour_under_bossing", "fore_end",
-    "fore_shoulder", "half_breadth", "midship", "pieces", "side_height",
+    "fore_shoulder", "half_breadth", "midship", "pieces", "reaches", "side_height",
+    "transom_height",
 ]  # fmt: skip
 
 LENGTH, BREADTH, DRAUGHT, DEPTH = 300.0, 50.0, 18.0, 27.0
@@ -268,6 +269,32 @@ def aft_end(z: float) -> tuple[float, float]:
     if z < TRANSOM_LOW:
         return float(contour_over_bossing(z)), 0.0
     return TRANSOM, float(half_breadth(TRANSOM, z))
+
+
+def transom_height(y: float) -> float:
+    """Give z (m) of the transom's edge at the half-breadth y (m).
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.carrier_form import transom_height
+    >>> 18.4 < transom_height(0.5) < transom_height(1.0) < 27.0
+    True
+    """
+    return _invert(lambda z: half_breadth(TRANSOM, z), TRANSOM_LOW, DEPTH, y)
+
+
+def reaches(y: float, z: float, *, aft: bool) -> float:
+    """Give x (m) where the waterline at the height z (m) has the half-breadth y (m).
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.carrier_form import reaches
+    >>> 0.0 < reaches(1.0, 16.5, aft=False) - reaches(2.0, 16.5, aft=False) < 1.0
+    True
+    """
+    end = aft_end(z)[0] if aft else float(fore_end(z))
+    within = LENGTH / 2.0 - 1.0 if aft else LENGTH / 2.0
+    return _invert(lambda x: half_breadth(x, z), end, within, y)
 
 
 def pieces(x: float) -> list[tuple[float, float]]:

@@ -15,12 +15,11 @@ from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Ends
 
-__all__ = ["boundary_lines", "station", "waterline"]
+__all__ = ["boundary_lines", "buttock", "station", "waterline"]
 
 _SMOOTH, _TANGENT, _KNUCKLE = (int(kind) for kind in PointKind)
-_NONE, _AHEAD, _OUT, _IN, _UP = (
-    (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0),
-)  # fmt: skip
+_NONE, _AHEAD, _OUT, _UP = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+_ASTERN, _IN = (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)
 _ROUND = Ends((int(EndKind.TANGENT),) * 2, (_OUT, _IN))
 """Ends of a circle about the centre plane."""
 
@@ -29,7 +28,7 @@ _FLAT_AFT = 21.0
 """Abaft this x the flat of bottom would be narrower than the keel plate: a station rises
 from the centre line."""
 
-_CIRCLE, _BILGE, _EVEN = 1e-6, 1e-4, 5e-4
+_CIRCLE, _BILGE, _EVEN, _LOOSE = 1e-6, 1e-4, 5e-4, 5e-3
 """Tolerances (m) of the bossing's circles, of bilge circles, and of waterlines, whose tails are
 straight to a few millimetres: small waves would show there."""
 
@@ -187,6 +186,61 @@ def waterline(z: float, shared: FloatArray) -> LineSource:
     course.add(after, form.half_breadth(after, z), z)
     course.add(fore, 0.0, z)
     return course.source("waterlines", f"WL {z:g}", tolerance=_EVEN)
+
+
+# Buttocks.
+
+_NEAR_BOTTOM = np.array([0.03, 0.12, 0.25])
+
+def buttock(y: float, shared: FloatArray) -> list[LineSource]:
+    """Give the pieces of a buttock near the centre plane.
+
+    Parameters
+    ----------
+    y : float, m
+        Its half-breadth, less than that of the deck at the transom.
+    shared : (k,), m
+        Heights of the waterlines: the buttock has points there, and half-way between.
+
+    Returns
+    -------
+    list of LineSource
+        One piece, or two where it runs into the bossing end: from the transom down to it, and
+        from it down to the bottom, forward, and up to the deck.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.examples.carrier_lines import buttock
+    >>> over, under = buttock(0.5, np.array([1.0, 18.0]))
+    >>> over.points[-1].round(6).tolist(), under.points[0].round(6).tolist()
+    ([6.0, 0.5, 5.524976], [6.0, 0.5, 4.475024])
+    """
+    z = np.unique(np.concatenate([shared, 0.5 * (shared[1:] + shared[:-1]), _NEAR_BOTTOM]))
+    name, course, found = f"BTK {y:g}", _Course(), list[LineSource]()
+    top = form.transom_height(y)
+    course.add(form.TRANSOM, y, top)
+    down = z[z < top - 0.1][::-1]
+    if y < form.BOSS:
+        reach = float(np.sqrt(form.BOSS * form.BOSS - y * y))
+        _climb(course, y, down[down > form.SHAFT + reach + 0.05], aft=True)
+        course.add(form.BOSS_FORE, y, form.SHAFT + reach, _TANGENT, _ASTERN)
+        course.add(form.BOSS_AFT, y, form.SHAFT + reach)
+        found.append(course.source("buttocks", name, tolerance=_LOOSE))
+        course = _Course()
+        course.add(form.BOSS_AFT, y, form.SHAFT - reach)
+        course.add(form.BOSS_FORE, y, form.SHAFT - reach, _TANGENT, _AHEAD)
+        down = down[down < form.SHAFT - reach - 0.05]
+    _climb(course, y, down, aft=True)
+    ends = [form.reaches(y, 0.0, aft=True), form.reaches(y, 0.0, aft=False)]
+    course.add(ends, y, 0.0, _TANGENT, _AHEAD)
+    _climb(course, y, np.append(z, form.DEPTH), aft=False)
+    return [*found, course.source("buttocks", name, tolerance=_LOOSE)]
+
+
+def _climb(course: _Course, y: float, z: FloatArray, *, aft: bool) -> None:
+    """Append the places of a buttock at heights."""
+    course.add([form.reaches(y, height, aft=aft) for height in z.tolist()], y, z)
 
 
 # Boundary curves.
