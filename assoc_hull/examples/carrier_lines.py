@@ -192,6 +192,7 @@ def waterline(z: float, shared: FloatArray) -> LineSource:
 
 _NEAR_BOTTOM = np.array([0.03, 0.12, 0.25])
 
+
 def buttock(y: float, shared: FloatArray) -> list[LineSource]:
     """Give the pieces of a buttock near the centre plane.
 
