@@ -29,8 +29,9 @@ _FLAT_AFT = 21.0
 from the centre line."""
 
 _CIRCLE, _BILGE, _EVEN, _LOOSE = 1e-6, 1e-4, 5e-4, 5e-3
-"""Tolerances (m) of the bossing's circles, of bilge circles, and of waterlines, whose tails are
-straight to a few millimetres: small waves would show there."""
+"""Tolerances (m) of the bossing's circles, of bilge circles, of waterlines, whose tails are
+straight to a few millimetres so that small waves would show, and of buttocks, which stations
+and waterlines hold."""
 
 
 class _Course:
@@ -214,8 +215,8 @@ def buttock(y: float, shared: FloatArray) -> list[LineSource]:
     >>> import numpy as np
     >>> from assoc_hull.examples.carrier_lines import buttock
     >>> over, under = buttock(0.5, np.array([1.0, 18.0]))
-    >>> over.points[-1].round(6).tolist(), under.points[0].round(6).tolist()
-    ([6.0, 0.5, 5.524976], [6.0, 0.5, 4.475024])
+    >>> over.points[-1].round(3).tolist(), under.points[0].round(3).tolist()
+    ([6.0, 0.5, 5.525], [6.0, 0.5, 4.475])
     """
     z = np.unique(np.concatenate([shared, 0.5 * (shared[1:] + shared[:-1]), _NEAR_BOTTOM]))
     name, course, found = f"BTK {y:g}", _Course(), list[LineSource]()

