@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import evaluate, sample
 from assoc_hull.model.family import Role, Sort
+from tests.independent import lost_meetings, trouble
 
 AXIS = {"sections": 0, "waterlines": 2, "buttocks": 1}
 
@@ -61,9 +62,11 @@ def test_no_waterline_changes_its_curvature_more_than_three_times(bulk_carrier: 
 
 
 def test_check_and_verify_find_nothing(bulk_carrier: ah.Hull) -> None:
-    """The net is clean, and rebuilds to the bit from its definition."""
+    """The net is clean, rebuilds to the bit from its definition, and misses no crossing."""
     assert bulk_carrier.check() == ()
     assert bulk_carrier.verify() == ()
+    assert list(trouble(bulk_carrier)) == []
+    assert list(lost_meetings(bulk_carrier)) == []
 
 
 def test_the_bilge_amidships_is_a_circle_of_2_4_m(bulk_carrier: ah.Hull) -> None:

@@ -128,8 +128,9 @@ def test_a_re_shaped_curve_moves_no_line_that_takes_nothing_from_it() -> None:
             edit.associate("sections", "waterlines", two_way=two_way)
         spline = hull.lines["WL 2.5"].curves[0].spline
         place = evaluate(spline, np.array([0]), np.array([0.37 * spline.knot[-1]]))[0]
+        place = place + np.array([0.0, 0.004, 0.0])
         with hull.edit("shape") as edit:
-            edit.reshape("WL 2.5", [place + [0.0, 0.004, 0.0]], span=(20.0, 55.0))
+            edit.reshape("WL 2.5", [place], span=(20.0, 55.0))
         assert edit.report is not None
         followed.append({key.split(":")[0] for key in edit.report.relofted})
         assert hull.check() == ()
