@@ -13,7 +13,7 @@ from drawings.common import ACCENT, INK, PALE, SHARED, Floats
 __all__ = ["bulk_carrier", "counter"]
 
 _SCALE = 10.0
-_NAMES = ("BTK 0.5", "BTK 1")
+_NAMES = {"BTK 0.5": (10.0, 0.4), "BTK 1": (10.0, 2.5)}
 _WATER = ("WL 12", "WL 13.5", "WL 15", "WL 16.5", "WL 18")
 _AHEAD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
@@ -50,7 +50,7 @@ def counter() -> Figure:
     for x, y, z, rise in given:
         profile.plot(x, z + _SCALE * rise, "o", color=ACCENT, markersize=5)
         plan.axhline(y, color=PALE, linewidth=0.4, zorder=0)
-    profile.set(xlabel="x (m)", ylabel="z (m)", title="buttocks", xlim=(-5, 10.5), ylim=(9.8, 19))
+    profile.set(xlabel="x (m)", ylabel="z (m)", title="buttocks", xlim=(-5, 10.5), ylim=(9.2, 19))
     plan.set(xlabel="x (m)", ylabel="y (m)", title="waterlines", xlim=(-5, 14), ylim=(0, 5.6))
     handles = [
         Line2D([], [], color=PALE, label="before"),
@@ -67,12 +67,12 @@ def _raise(hull: ah.Hull) -> list[tuple[float, float, float, float]]:
     """Re-shape the buttocks as the tutorial does; give x, y, z and rise of A and B of each."""
     given = []
     with hull.edit("raise the counter") as edit:
-        for name in _NAMES:
+        for name, fade in _NAMES.items():
             curve = next(each for each in hull.lines[name].curves if each.points[0].x < 0.0)
             a = next(point for point in curve.points if point.x == 0.0).position
             b = meet_planes(curve.spline, _AHEAD, np.array([2.2])).xyz[0]
             shape = [a + 0.020 * _UP, b + 0.025 * _UP]
-            edit.reshape(curve, points=shape, span=(-4.8, 6.6), fade=(10.0, 2.5))
+            edit.reshape(curve, points=shape, span=(-4.8, 6.6), fade=fade)
             given += [(*a, 0.020), (*b, 0.025)]
     return given
 

@@ -17,10 +17,12 @@ from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.handles import Curve
 from tests.independent import trouble
 
-NAMES = ("BTK 0.5", "BTK 1")
+NAMES = {"BTK 0.5": (10.0, 0.4), "BTK 1": (10.0, 2.5)}
+"""The buttocks, and how the change of each fades: of the first within the next one."""
+
 WATERLINES = ("WL 18", "WL 16.5", "WL 15", "WL 13.5", "WL 12")
 SPAN = (-4.8, 6.6)
-FADE = (10.0, 2.5)
+REACH = 2.5
 
 
 def counter(hull: ah.Hull, name: str) -> Curve:
@@ -69,10 +71,10 @@ def raise_stern(hull: ah.Hull) -> tuple[EditReport, dict[str, FloatArray], list[
     goals: dict[str, FloatArray] = {}
     placed: list[ah.Point] = []
     with hull.edit("raise the counter") as edit:
-        for name in NAMES:
+        for name, fade in NAMES.items():
             a, goals[name] = given(hull, name)
             placed += edit.reshape(
-                counter(hull, name), points=[a, goals[name]], span=SPAN, fade=FADE
+                counter(hull, name), points=[a, goals[name]], span=SPAN, fade=fade
             )
     assert edit.report is not None
     return edit.report, goals, placed
@@ -167,7 +169,7 @@ def _far(hull: ah.Hull, line: ah.Line) -> bool:
         spline = counter(hull, name).spline
         for place in points:
             met = meet_planes(spline, np.array([1.0, 0.0, 0.0]), place[:1].copy()).xyz
-            if len(met) and np.hypot(*(met - place)[:, 1:].T).min() < FADE[1]:
+            if len(met) and np.hypot(*(met - place)[:, 1:].T).min() < REACH:
                 return False
     return True
 
