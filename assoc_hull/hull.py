@@ -286,6 +286,15 @@ class Examples:
         hull.adoption = report
         return hull
 
+    def bulk_carrier_207k(self) -> Hull:
+        """Make a 207,000 TDW bulk carrier; see `assoc_hull.examples.bulk_carrier`."""
+        from assoc_hull.examples.bulk_carrier import bulk_carrier_207k_net
+
+        state, report = bulk_carrier_207k_net()
+        hull = Hull(state)
+        hull.adoption = report
+        return hull
+
 
 examples = Examples()
 

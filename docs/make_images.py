@@ -12,6 +12,7 @@ from drawings.common import ship
 from drawings.curves import completions, knuckle_end
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
+from drawings.stern import bulk_carrier, counter
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
@@ -36,6 +37,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "levels": levels,
     "spline": knuckle_end,
     "completions": completions,
+    "bulk_carrier": bulk_carrier,
+    "counter": counter,
 }
 
 
@@ -43,10 +46,11 @@ def write(name: str) -> int:
     """Draw one picture, take its colours down to a palette, give its size in bytes."""
     figure = PICTURES[name]()
     path = FOLDER / f"{name}.png"
-    dpi = 110 if name == "series60" else 120
+    plans = ("series60", "bulk_carrier")
+    dpi = 110 if name in plans else 120
     figure.savefig(path, dpi=dpi, facecolor="white", bbox_inches=None)
     plt.close(figure)
-    colours = 16 if name == "series60" else 64
+    colours = 16 if name in plans else 64
     with Image.open(path) as image:
         image.convert("RGB").quantize(colours).save(path, optimize=True)
     return path.stat().st_size

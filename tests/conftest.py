@@ -47,3 +47,9 @@ def series60_60() -> Hull:
 def series60_70() -> Hull:
     """Series 60 CB .70; a test that edits it undoes its edits."""
     return examples.series60(0.70)
+
+
+@pytest.fixture(scope="session")
+def bulk_carrier() -> Hull:
+    """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
+    return examples.bulk_carrier_207k()

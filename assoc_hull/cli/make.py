@@ -19,6 +19,7 @@ _EXAMPLES = {
     "wigley": lambda: examples.wigley(),
     "series60-060": lambda: examples.series60(0.60),
     "series60-070": lambda: examples.series60(0.70),
+    "bulk-carrier-207k": lambda: examples.bulk_carrier_207k(),
 }
 
 

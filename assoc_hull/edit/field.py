@@ -236,11 +236,16 @@ def add_shifts(shifts: list[Shift], pinned: set[int]) -> Shift:
 
 
 def land(state: HullState, journal: Journal, fields: list[Field]) -> None:
-    """Put the points that must land in given places there, to the bit."""
-    if len(fields) != 1:
-        return
-    rows, places = fields[0].exact()
-    journal.put(state.rows.xyz, rows, places)
+    """Put the points that one field, and no other, must land in given places there, to the bit.
+
+    So each of several curves that are re-shaped at once takes its own new shape, though the
+    field of a neighbour reaches it.
+    """
+    found = [field.exact() for field in fields]
+    rows = np.concatenate([mine for mine, _ in found])
+    places = np.concatenate([goals for _, goals in found])
+    alone = (rows[:, None] == rows[None, :]).sum(axis=1) == 1
+    journal.put(state.rows.xyz, rows[alone], places[alone])
 
 
 def sub_steps(state: HullState, shift: Shift) -> int:

@@ -2,7 +2,8 @@
 
 For a waterline or a buttock the other points take the curve's normal change at the same x,
 fading with the distance seen along x; for a section the change at its nearest point seen
-along x, fading along the length.
+along x, fading along the length. What defines lines of a group that takes nothing from the
+curve's, by a one-way association, stays.
 """
 
 from __future__ import annotations
@@ -74,6 +75,7 @@ class Reshape:
             return Shift(self.rows, own, np.zeros(0, np.int64))
         others = ground.free[~np.isin(ground.free, self.rows)]
         others = others[~(ground.state.rows.reader.data[others] == self.curve).any(axis=1)]
+        others = others[~_defines(ground.state, others, _givers(ground.state, self.curve))]
         distance = ground.flat_distance[np.searchsorted(ground.free, others)]
         amount, at = self._amount(ground.state.rows.xyz.data[others])
         amount = part * amount
@@ -140,3 +142,19 @@ class Reshape:
         normal = normal / np.where(length > 1e-12, length, 1.0)[:, None]
         change: FloatArray = ((there - here) * normal).sum(axis=1)
         return np.where(inside, change, 0.0)
+
+
+def _givers(state: HullState, curve: int) -> IntArray:
+    """Give the groups that generate points on a curve's group and take none from it."""
+    names = state.groups.name.data
+    mine = names[int(state.lines.group.data[state.line_of(curve)])]
+    given = [link.a for link in state.associations if link.b == mine and not link.two_way]
+    return np.array([names.index(name) for name in given], np.int64)
+
+
+def _defines(state: HullState, rows: IntArray, groups: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which points define a curve of one of the groups."""
+    reader = state.rows.reader.data[rows]
+    group = state.lines.group.data[state.curves.line.data[reader]]
+    found: np.typing.NDArray[np.bool_] = (np.isin(group, groups) & (reader >= 0)).any(axis=1)
+    return found

@@ -95,6 +95,7 @@ class _Thinning:
     chosen: list[set[int]]
     points: list[PointItem]
     point_at: list[tuple[int, float]]
+    held: dict[int, list[int]]
 
     @property
     def fixed_count(self) -> int:
@@ -103,7 +104,7 @@ class _Thinning:
 
 def thin(net: Net) -> Thinned:
     """Choose the defining crossings and the adopted points of a net."""
-    work = _Thinning(net, [[] for _ in net.sources], [set() for _ in net.sources], [], [])
+    work = _Thinning(net, [[] for _ in net.sources], [set() for _ in net.sources], [], [], {})
     _collect(work)
     for curve in range(len(net.sources)):
         work.chosen[curve] = _rule(work, curve)
@@ -250,12 +251,15 @@ def _orders(work: _Thinning, roles: list[Role]) -> list[list[_Item]]:
 
 def _apart(work: _Thinning, order: list[_Item]) -> list[_Item]:
     """Leave out adopted points at which a crossing has come to define the curve."""
-    held = [_xyz(work, item.number) for item in order if item.number < work.fixed_count]
+    crossings = [item.number for item in order if item.number < work.fixed_count]
+    if len(crossings) in (0, len(order)):
+        return order
+    held = np.array([_xyz(work, number) for number in crossings])
     return [
         item
         for item in order
         if item.number < work.fixed_count
-        or not any(float(np.abs(_xyz(work, item.number) - at).max()) < _SAME for at in held)
+        or np.abs(held - _xyz(work, item.number)).max(axis=1).min() >= _SAME
     ]
 
 
@@ -313,10 +317,14 @@ def _worst(
     found: list[tuple[int, int]] = []
     left: list[Left] = []
     for curve, source in enumerate(net.sources):
-        known = np.array([_xyz(work, item.number) for item in orders[curve]])
-        away = closest(splines, curve, source.points)[2]
+        numbers = [item.number for item in orders[curve]]
+        if work.held.get(curve) == numbers:  # made through the same points as when it held
+            continue
+        known = np.array([_xyz(work, number) for number in numbers])
         step = source.points[:, None, :] - known[None, :, :]
-        away = np.where(np.abs(step).max(axis=2).min(axis=1) > _SAME, away, 0.0)
+        open_ = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > _SAME)
+        away = np.zeros(len(source.points))
+        away[open_] = closest(splines, curve, source.points[open_])[2]
         beside = np.sqrt((step * step).sum(axis=2)).min(axis=1)
         for point in np.flatnonzero(away > source.tolerance).tolist():
             close = beside[point] < net.state.tolerances.adopted_spacing
@@ -326,6 +334,8 @@ def _worst(
         worst = int(away.argmax())
         if away[worst] > source.tolerance:
             found.append((curve, worst))
+        elif not any(each.curve == curve for each in left):
+            work.held[curve] = numbers
     return found, left
 
 

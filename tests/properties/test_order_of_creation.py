@@ -23,8 +23,8 @@ def shuffled(sources, particulars, associations, tolerances=None):
     chance.shuffle(associations)
     return plain(sources, particulars, associations, tolerances)
 
-for name in ("assoc_hull.examples.wigley", "assoc_hull.io.offset_net"):
-    import_module(name).adopt = shuffled
+for name in ("examples.wigley", "io.offset_net", "examples.bulk_carrier"):
+    import_module(f"assoc_hull.{name}").adopt = shuffled
 wigley = import_module("assoc_hull.examples.wigley").wigley
 series60 = import_module("assoc_hull.examples.series60")
 makers = {
@@ -37,6 +37,8 @@ for name, make in makers.items():
         chance = random.Random(1000 * seed + turn)
         print(name, fingerprint(make()))
 chance = random.Random(seed)
+carrier = import_module("assoc_hull.examples.bulk_carrier").bulk_carrier_207k_adopted
+print("carrier", fingerprint(carrier()[0]))
 print("whole", fingerprint(series60.series60(0.60 + 0.10 * (seed % 2))))
 """
 
@@ -71,3 +73,10 @@ def test_the_whole_net_of_series_60_does_not_depend_on_the_order(printed: list[l
     whole = [lines[-1] for lines in printed]
     assert all(line.startswith("whole ") for line in whole)
     assert (whole[0], whole[1]) == (whole[2], whole[3])
+
+
+def test_lines_of_several_pieces_do_not_depend_on_the_order(printed: list[list[str]]) -> None:
+    """The bulk carrier from shuffled sources, once in each of four processes."""
+    found = [line for lines in printed for line in lines if line.startswith("carrier ")]
+    assert len(found) == 4
+    assert len(set(found)) == 1

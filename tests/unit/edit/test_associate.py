@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, RingError, UnknownNameError
+from assoc_hull.geometry.spline import evaluate
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import fresh, refused
 
@@ -115,3 +117,22 @@ def test_a_cycle_of_one_way_associations_is_refused(hull: ah.Hull) -> None:
     text = refused(hull, cycle, RingError, "report")
     assert "ring" in text
     assert text.count("->") >= 2
+
+
+def test_a_re_shaped_curve_moves_no_line_that_takes_nothing_from_it() -> None:
+    """Sections follow a waterline by the field of its new shape, but not against a one-way link."""
+    followed = []
+    for two_way in (True, False):
+        hull = ah.examples.wigley()
+        with hull.edit("links") as edit:
+            edit.associate("sections", "waterlines", two_way=two_way)
+        spline = hull.lines["WL 2.5"].curves[0].spline
+        place = evaluate(spline, np.array([0]), np.array([0.37 * spline.knot[-1]]))[0]
+        place = place + np.array([0.0, 0.004, 0.0])
+        with hull.edit("shape") as edit:
+            edit.reshape("WL 2.5", [place], span=(20.0, 55.0))
+        assert edit.report is not None
+        followed.append({key.split(":")[0] for key in edit.report.relofted})
+        assert hull.check() == ()
+    assert "sections" in followed[0]
+    assert "sections" not in followed[1]
