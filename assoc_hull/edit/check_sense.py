@@ -51,16 +51,25 @@ def turned(state: HullState, curves: IntArray) -> Turned:
         return Turned(curves, curves, np.zeros(0))
     table, defining = state.rows, [state.curves.rows.data[curve] for curve in curves.tolist()]
     row, owner = np.concatenate(defining), np.repeat(curves, [len(each) for each in defining])
-    part, at = _parts(state, row, owner), np.full(2 * table.count, -1)
+    part = _parts(state, row, owner)
     met, place = _met(state, curves)
-    at[met] = np.arange(len(met))
-    contact, hit = table.contact.data[row], at[part]
+    contact, hit = table.contact.data[row], _positions(met, part)
     needed = (table.sort.data[row] == Sort.CROSSING) & ~(contact & ((part & 1 == 1) | (hit < 0)))
     row, owner, hit = row[needed], owner[needed], hit[needed]
     apart, found = np.full(len(row), np.inf), hit >= 0
     apart[found] = np.abs(place[hit[found]] - table.xyz.data[row[found]]).max(axis=1, initial=0.0)
     wrong = apart > state.tolerances.coincident
     return Turned(row[wrong], owner[wrong], apart[wrong])
+
+
+def _positions(known: IntArray, wanted: IntArray) -> IntArray:
+    """Give where each wanted number stands among the known ones; -1 where it does not."""
+    if not len(known):
+        return np.full(len(wanted), -1)
+    order = np.argsort(known, kind="stable")
+    place = np.minimum(np.searchsorted(known, wanted, sorter=order), len(known) - 1)
+    found: IntArray = order[place]
+    return np.where(known[found] == wanted, found, -1)
 
 
 def _parts(state: HullState, row: IntArray, curve: IntArray) -> IntArray:

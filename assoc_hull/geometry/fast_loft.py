@@ -161,12 +161,15 @@ def _set_known(
     leave: FloatArray,
     arrive: FloatArray,
 ) -> bool:
-    """Set the known derivatives of one curve; the others are nil already.
+    """Set the known derivatives of one curve, and the others nil.
 
     Without `bound` only the ends are looked at.
     """
     last = end - 1
     step = 1 if bound else last - begin
+    for k in range(3):
+        for i in range(begin, end, step):
+            leave[k, i], arrive[k, i] = 0.0, 0.0
     for i in range(begin, end, step):
         if state[i] == 1:
             x, y, z = direction[i, 0], direction[i, 1], direction[i, 2]
@@ -282,12 +285,13 @@ def _restore(tables: FloatArray, level: int, size: int) -> None:
 
 @jit
 def _solve_curve(
-    begin: int, end: int, rows: FloatArray, tables: FloatArray, most_levels: int,
+    begin: int, end: int, bound: int, rows: FloatArray, tables: FloatArray, most_levels: int,
     leave: FloatArray, arrive: FloatArray,
 ) -> None:  # fmt: skip
     """Solve one curve by cyclic reduction and add the solution to its derivatives.
 
-    In `tables` the five numbers of a row lie together, in a line of the cache.
+    Without `bound` those between the ends are taken as nil. In `tables` the five numbers
+    of a row lie together, in a line of the cache.
     """
     size = end - begin
     for i in range(size):
@@ -303,10 +307,15 @@ def _solve_curve(
     while level > 0:
         level -= 1
         _restore(tables, level, size >> level)
+    step = 1 if bound else size - 1
     for k in range(3):
-        for i in range(size):
+        for i in range(0, size, step):
             leave[k, begin + i] += tables[0, i, 1 + k]
             arrive[k, begin + i] += tables[0, i, 1 + k]
+        for i in range(1, 0 if bound else size - 1):
+            # The sum turns -0.0 into 0.0.
+            leave[k, begin + i] = 0.0 + tables[0, i, 1 + k]
+            arrive[k, begin + i] = 0.0 + tables[0, i, 1 + k]
 
 
 @jit
@@ -341,12 +350,11 @@ def loft_curves(
     """
     size, most = len(xyz), 0
     chord, slope, rows = scratch[0], scratch[1:4], scratch[4:, :size]
-    chord[:] = 1.0
-    slope[:] = 0.0
+    # All between is set with the chords.
+    chord[0], chord[size:] = 1.0, 1.0
+    slope[:, 0], slope[:, size:] = 0.0, 0.0
     state = np.empty(size, np.int8)
     points, leave, arrive = block[:3], block[3:6], block[6:]
-    leave[:] = 0.0
-    arrive[:] = 0.0
     for k in range(3):
         for i in range(size):
             points[k, i] = xyz[i, k]
@@ -379,6 +387,6 @@ def loft_curves(
         if state[end - 1] == 3:
             _set_curved_end(curve, end - 1, end - 1, end_vector, chord, slope, rows)
         _detach_known(begin, end, bound, state, leave, arrive, rows)
-        _solve_curve(begin, end, rows, tables, most_levels, leave, arrive)
+        _solve_curve(begin, end, bound, rows, tables, most_levels, leave, arrive)
         _set_knots(begin, end, chord, knot)
     return True
