@@ -1,9 +1,8 @@
 """A 207,000 TDW bulk carrier as a net: single screw, transom stern, bulbous bow.
 
-The principal dimensions, bilge radius, bossing and number of lines are those of the example
-in D.D. Choi & K.Y. Lee, "A Study on the Hull Form Design System on the Basis of the
-Associative Geometry Objects", J. SNAK 36(4), 1999. The form is our own: the paper gives no
-offsets.
+Principal dimensions, bilge radius and bossing are those of the example of Choi & Lee, "A Study on
+the Hull Form Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4),
+1999. The form is our own; stations stand clear of where the stem meets a waterline.
 """
 
 from __future__ import annotations
