@@ -1,9 +1,8 @@
 """A 207,000 TDW bulk carrier as a net: single screw, transom stern, bulbous bow.
 
-The principal dimensions, bilge radius, bossing and number of lines are those of the example
-in D.D. Choi & K.Y. Lee, "A Study on the Hull Form Design System on the Basis of the
-Associative Geometry Objects", J. SNAK 36(4), 1999. The form is our own: the paper gives no
-offsets.
+Principal dimensions, bilge radius and bossing are those of the example of Choi & Lee, "A Study on
+the Hull Form Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4),
+1999. The form is our own; stations stand clear of where the stem meets a waterline.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ _ASSOCIATIONS = (
     Association("waterlines", "buttocks"),
 )
 
-_TOLERANCES = Tolerances(spacing=0.12, turn_spacing=0.3)
+_TOLERANCES = Tolerances(spacing=0.12, turn_spacing=0.3, adopted_spacing=0.02)
 """At the stern the lines stand closer than elsewhere, and waterlines, stations and buttocks are
 to shape it alike: the least spacing is a smaller part of the median than by default."""
 
