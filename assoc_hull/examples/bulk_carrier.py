@@ -43,9 +43,10 @@ _ASSOCIATIONS = (
     Association("waterlines", "buttocks"),
 )
 
-_TOLERANCES = Tolerances(spacing=0.12, turn_spacing=0.3, adopted_spacing=0.02)
+_TOLERANCES = Tolerances(spacing=0.12, turn_spacing=0.3, adopted_spacing=0.01)
 """At the stern the lines stand closer than elsewhere, and waterlines, stations and buttocks are
-to shape it alike: the least spacing is a smaller part of the median than by default."""
+to shape it alike: the least spacing is a smaller part of the median than by default. The bossing
+end, a circle of 0.725 m radius, is drawn by points closer than one adopts elsewhere."""
 
 _KEEP = 0.6e-3
 """How far (m) one crossing of a buttock that is cut may move a line that was there."""
