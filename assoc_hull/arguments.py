@@ -98,7 +98,7 @@ def number(value: object, name: str, where: str = _CALL) -> float:
         found = float(value) if np.ndim(value) == 0 else float("nan")  # type: ignore[arg-type]
     except _FAILS:
         found = float("nan")
-    if not abs(found) <= _LARGEST:
+    if isinstance(value, bool | np.bool_) or not abs(found) <= _LARGEST:
         raise BadInputError(
             f"{name} is {shown(value)}", where, f"give a finite number up to {_LARGEST:g} m"
         )

@@ -89,6 +89,10 @@ def add_line(
     for piece in pieces_of(edit, line, marks):
         make_piece(edit, line, spread(piece), keep or state.tolerances.keep)
     enter_line(edit, line)
+    curves, table = np.array(state.lines.curves.data[line], np.int64), state.rows
+    on = table.alive.data & np.isin(table.curve.data, curves).any(axis=1)
+    met = np.flatnonzero(on & (table.sort.data == Sort.CROSSING))
+    edit.pending.born += sorted(table.key.data[row] for row in met.tolist())
     return line
 
 

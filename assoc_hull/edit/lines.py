@@ -40,6 +40,7 @@ def remove_line(edit: Transaction, line: int) -> None:
     edit.pending.structural = True
     mine = np.array(state.lines.curves.data[line], np.int64)
     crossings, own = _rows_of(state, mine)
+    edit.pending.gone += sorted(state.rows.key.data[row] for row in crossings.tolist())
     leave_behind(edit, crossings, mine)
     edit.maker.remove_rows(np.concatenate([crossings, own]))
     strike_line(edit, line)

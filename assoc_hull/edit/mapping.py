@@ -177,7 +177,13 @@ def _checked(
 ) -> FloatArray:
     """Call a designer's function with a copy, and see to the shape of what it gives."""
     try:
-        found = np.array(call(np.array(xyz)), np.float64)
+        given = np.asarray(call(np.array(xyz)))
+        if given.dtype.kind not in "fiu":
+            raise BadInputError(
+                f"{what} gives numbers of type {given.dtype}", "in transform",
+                "give real numbers, m",
+            )  # fmt: skip
+        found = given.astype(np.float64)
     except AssocHullError:
         raise
     except Exception as error:

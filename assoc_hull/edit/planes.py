@@ -80,7 +80,7 @@ def ready_group(edit: Transaction, name: object, position: ArrayLike) -> str:
     return group
 
 
-def new_plane(state: HullState, group: str, position: ArrayLike) -> Cut:
+def new_plane(state: HullState, group: str, position: ArrayLike, own: int = -1) -> Cut:
     """Check a position for a line of a group.
 
     Parameters
@@ -91,6 +91,8 @@ def new_plane(state: HullState, group: str, position: ArrayLike) -> Cut:
         A group of the hull.
     position : float, m, or (float, float), m and degrees
         Along the family's axis; of a diagonal height on the centre line and angle.
+    own : int
+        The line that is shifted, if it is not a new one: its own plane is not taken.
 
     Raises
     ------
@@ -109,7 +111,7 @@ def new_plane(state: HullState, group: str, position: ArrayLike) -> Cut:
     else:
         place = number(position, "position", f"for a line of {group}")
         cut = Cut(index, np.eye(3)[family.axis], place, f"{place:g}", None)
-    _refuse_taken(state, group, cut)
+    _refuse_taken(state, group, cut, own)
     return cut
 
 
@@ -117,12 +119,14 @@ def _inclined(index: int, group: str, position: ArrayLike) -> Cut:
     """Give the plane of a diagonal by height on the centre line, m, and angle, degrees."""
     what = f"the position of a diagonal is {shown(position)}"
     remedy = "give (height on the centre line in m, degrees by which it falls outward)"
-    if not isinstance(position, tuple | list) or len(position) != 2:
+    if not isinstance(position, tuple | list | np.ndarray) or len(position) != 2:
         raise BadInputError(what, "in add_line", remedy)
     height = number(position[0], "the height", f"for a line of {group}")
     angle = number(position[1], "the angle", f"for a line of {group}")
     if not 0.0 < abs(angle) < 90.0:
-        raise BadInputError(what, "in add_line", "give an angle between 0 and 90 degrees")
+        raise BadInputError(
+            what, "in add_line", "give an angle between 0 and 90 degrees; below 0 it rises outward"
+        )
     slope = math.radians(angle)
     normal = np.array([0.0, math.sin(slope), math.cos(slope)])
     key = f"{group}:{height:.6f} at {angle:.6f} deg"
@@ -138,19 +142,25 @@ def shifted_plane(state: HullState, line: int, position: ArrayLike) -> Cut:
         As `new_plane`.
     """
     group = str(state.groups.name.data[int(state.lines.group.data[line])])
+    if not state.lines.planar.data[line]:
+        raise BadInputError(
+            f"{state.lines.name.data[line]} is a curve in space and has no plane", "in shift_line",
+            "transform it, or remove it and cut a new line",
+        )  # fmt: skip
     if state.family(line).name != _DIAGONALS:
-        return new_plane(state, group, position)
+        return new_plane(state, group, position, line)
     height = number(position, "position", f"for a line of {group}")
     normal = state.lines.normal.data[line].copy()
     offset = height * float(normal[2])
     cut = Cut(int(state.lines.group.data[line]), normal, offset, f"{height:g}", None)
-    _refuse_taken(state, group, cut)
+    _refuse_taken(state, group, cut, line)
     return cut
 
 
-def _refuse_taken(state: HullState, group: str, cut: Cut) -> None:
+def _refuse_taken(state: HullState, group: str, cut: Cut, own: int) -> None:
     lines = state.lines
     mine = lines.alive.data & (lines.group.data == cut.group) & lines.planar.data
+    mine &= np.arange(len(mine)) != own
     mine &= np.abs(lines.normal.data - cut.normal).max(axis=1) < SAME_PLANE
     near = np.abs(lines.offset.data[mine] - cut.offset)
     if len(near) and near.min() < SAME_PLANE:

@@ -12,7 +12,7 @@ from typing import Literal, Self
 
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice
+from assoc_hull.arguments import choice, positive
 from assoc_hull.edit import associate as _associate
 from assoc_hull.edit import cut as _cut
 from assoc_hull.edit import ends as _ends
@@ -330,5 +330,5 @@ class Edit:
         follow = choice(planes, "planes", ("stay", "follow"), "in transform") == "follow"
         _transform.transform(
             self._transaction, space, self._given.driving(drivers), follow=follow,
-            tolerance=number(tolerance, "tolerance"),
+            tolerance=positive(tolerance, "tolerance", "in transform"),
         )  # fmt: skip

@@ -51,6 +51,8 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     state = edit.state
     cut = shifted_plane(state, line, position)
     position = cut.offset
+    if position == float(state.lines.offset.data[line]):
+        return
     marks = find_marks(state, cut.group, cut.normal, position)
     mine = np.array(state.lines.curves.data[line], np.int64)
     crossings, placed = rows_of(state, mine)

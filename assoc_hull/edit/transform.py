@@ -33,6 +33,9 @@ __all__ = ["transform"]
 _TOLERANCE = 2e-3
 """How far (m) a driver may leave its exact image between the points it is made through."""
 
+_FINEST = 1e-4
+"""A tolerance (m) below this would fill drivers with points to no use."""
+
 
 def transform(
     edit: Transaction,
@@ -56,13 +59,18 @@ def transform(
     follow : bool
         Whether the planes of followers move where the mapping sends them to parallel ones.
     tolerance : float, m
-        How far a driver may leave its exact image.
+        How far a driver may leave its exact image; at least 0.1 mm.
 
     Raises
     ------
     BadInputError
-        No driver, a mapping that cannot be used, or lines that cannot follow it.
+        A finer tolerance, no driver, a mapping that cannot be used, or lines that cannot follow it.
     """
+    if tolerance < _FINEST:
+        raise BadInputError(
+            f"tolerance is {tolerance:g} m", "in transform",
+            f"give at least {_FINEST:g} m: finer, and points crowd without end",
+        )  # fmt: skip
     state = edit.state
     driver = _drivers(edit, drivers)
     edit.pending.alone = True

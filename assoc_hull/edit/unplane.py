@@ -103,3 +103,8 @@ def let_go(edit: Transaction, work: Carried) -> None:
             rows = _crossings(work, line)
             watched = rows[table.role.data[rows] == Role.WATCHED]
             work.gone |= set(watched.tolist())
+            if len(watched):
+                edit.pending.notes.append(
+                    f"{edit.state.lines.name.data[line]}: {len(watched)} watched crossings are "
+                    "watched no more: a curve in space has no plane to measure them by"
+                )
