@@ -178,7 +178,7 @@ def _checked(
     """Call a designer's function with a copy, and see to the shape of what it gives."""
     try:
         given = np.asarray(call(np.array(xyz)))
-        if given.dtype.kind not in "fiu":
+        if given.dtype.kind == "c":
             raise BadInputError(
                 f"{what} gives numbers of type {given.dtype}", "in transform",
                 "give real numbers, m",
