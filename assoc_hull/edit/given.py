@@ -68,44 +68,35 @@ class Given:
 
     def point(self, point: Point | str) -> tuple[int, int]:
         """Give the row of a point and its side: 0 on its first curve, 1 on its second."""
-        if isinstance(point, Point):
-            self.own(point)
-            return point.row, point.side
-        if not isinstance(point, str):
-            raise WrongTypeError(f"the point is {shown(point)}", "in an edit", _HANDLE)
-        found = resolve(self.tables, point)
+        found = self._found(point, Point, "point")
         if found.row < 0:
-            raise UnknownNameError("point", point)
+            raise UnknownNameError("point", str(point))
         return found.row, found.side
 
     def curve(self, curve: Curve | str) -> int:
         """Give the number of a curve, or of the only curve of a line."""
-        if isinstance(curve, Curve):
-            self.own(curve)
-            return curve.row
-        if not isinstance(curve, str):
-            raise WrongTypeError(f"the curve is {shown(curve)}", "in an edit", _HANDLE)
-        found = resolve(self.tables, curve)
+        found = self._found(curve, Curve, "curve")
         if found.curve >= 0:
             return found.curve
         found_pieces = self.tables.lines.curves.data[found.line] if found.line >= 0 else ()
         pieces: tuple[int, ...] = tuple(found_pieces)
         if len(pieces) != 1:
             known = tuple(f"{curve} [{i + 1}]" for i in range(len(pieces)))
-            raise UnknownNameError("curve", curve, known)
+            raise UnknownNameError("curve", str(curve), known)
         return int(pieces[0])
 
     def line(self, line: Line | str) -> int:
         """Give the number of a line."""
-        if isinstance(line, Line):
-            self.own(line)
-            return line.row
-        if not isinstance(line, str):
-            raise WrongTypeError(f"the line is {shown(line)}", "in an edit", _HANDLE)
-        found = resolve(self.tables, line)
+        found = self._found(line, Line, "line")
         if found.line < 0 or found.curve >= 0:
-            raise UnknownNameError("line", line)
+            raise UnknownNameError("line", str(line))
         return found.line
+
+    def _found(self, thing: object, kind: type[Point | Curve | Line], what: str) -> Place:
+        """Find what a handle of one kind, or an address, leads to."""
+        if not isinstance(thing, kind | str):
+            raise WrongTypeError(f"the {what} is {shown(thing)}", "in an edit", _HANDLE)
+        return self.place(thing)
 
     def driving(self, drivers: Sequence[Group | Line | str]) -> list[int]:
         """Give the lines of groups and lines given as handles or names."""

@@ -1,7 +1,6 @@
 """The meetings of `crossing`, compiled: same operations in the same order, same bits.
 
-All constants come in as arguments: a compiled function in the cache of numba does not
-notice when a constant of another module changes.
+Constants come in as arguments: numba's cache misses the change of one in another module.
 
 Examples
 --------

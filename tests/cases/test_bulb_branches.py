@@ -217,7 +217,8 @@ def test_a_waterline_through_the_neck_and_over_the_bulb(
     path: Path, low: float, high: float, step: float
 ) -> None:
     """Up and back down: it parts in two, and the forward piece dies at the bulb's top."""
-    watch(ah.open(path), "waterlines", there_and_back(low, high, step))
+    watched = watch(ah.open(path), "waterlines", there_and_back(low, high, step))
+    assert watched.ever, "nothing was born on the way"
 
 
 @pytest.mark.parametrize(
@@ -229,7 +230,8 @@ def test_a_buttock_from_the_centre_plane_out_through_the_neck(
     path: Path, low: float, high: float, step: float
 ) -> None:
     """Out and back: it comes to meet lines in the neck twice more, and parts from a ring."""
-    watch(ah.open(path), "buttocks", there_and_back(low, high, step))
+    watched = watch(ah.open(path), "buttocks", there_and_back(low, high, step))
+    assert watched.ever, "nothing was born on the way"
 
 
 def raise_bulb(hull: ah.Hull, by: float) -> EditReport:

@@ -193,14 +193,17 @@ def test_a_refused_modification_leaves_no_trace(hull: ah.Hull, method: str, give
 @pytest.mark.parametrize(("method", "given"), cases(CURVES))
 def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
     """Parameters and places that are none are refused."""
-    curve = hull.find(f"{CURVE} [1]")
+    curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
     call(getattr(curve, method), given)
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(("method", "given"), cases(LINES))
 def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
     """Planes that are none are refused."""
+    before = hull.fingerprint
     call(getattr(hull.lines[LINE], method), given)
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(
