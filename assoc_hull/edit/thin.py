@@ -13,6 +13,7 @@ from typing import NamedTuple
 import attrs
 import numpy as np
 
+from assoc_hull.edit.dense import amid, room, sharp
 from assoc_hull.edit.match import Contact, Meeting
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
@@ -115,7 +116,7 @@ def thin(net: Net) -> Thinned:
         if not worst:
             break
         for curve, point in worst:
-            _take_in(work, curve, point)
+            _take_in(work, curve, point, orders[curve])
     return _outcome(work, roles, orders, left)
 
 
@@ -326,13 +327,18 @@ def _worst(
         away = np.zeros(len(source.points))
         away[open_] = closest(splines, curve, source.points[open_])[2]
         beside = np.sqrt((step * step).sum(axis=2)).min(axis=1)
+        if source.dense:
+            edges = np.array([item.at for item in orders[curve]])
+            away[~room(edges, _knots(work, curve), net.state.tolerances.adopted_spacing)] = 0.0
         for point in np.flatnonzero(away > source.tolerance).tolist():
             close = beside[point] < net.state.tolerances.adopted_spacing
-            if close and _thinned(work, curve, point) is None:
+            if close and not source.dense and _thinned(work, curve, point) is None:
                 left.append(Left(curve, point, float(away[point]), float(beside[point])))
                 away[point] = 0.0
-        worst = int(away.argmax())
-        if away[worst] > source.tolerance:
+        worst = int((away / source.tolerance).argmax())
+        if not (away > source.tolerance).any():
+            worst = _sharp(work, curve, orders[curve], known) if source.dense else -1
+        if worst >= 0:
             found.append((curve, worst))
         elif not any(each.curve == curve for each in left):
             work.held[curve] = numbers
@@ -349,9 +355,33 @@ def _thinned(work: _Thinning, curve: int, point: int) -> int | None:
     return None
 
 
-def _take_in(work: _Thinning, curve: int, point: int) -> None:
-    """Take the thinned crossing at a given point back in, or adopt the point."""
+def _sharp(work: _Thinning, curve: int, order: list[_Item], known: FloatArray) -> int:
+    """Give a given point where the chords of a dense line would fold; -1 if nowhere."""
+    edges = np.array([item.at for item in order])
+    kinds = [_kind(work, curve, item.number)[0] == PointKind.KNUCKLE for item in order]
+    return sharp(known, edges, _knots(work, curve), np.array(kinds))
+
+
+def _knots(work: _Thinning, curve: int) -> FloatArray:
+    """Give the parameters of the given points of a curve, m."""
+    reference = work.net.reference
+    return reference.knot[int(reference.start[curve]) : int(reference.start[curve + 1])]
+
+
+def _take_in(work: _Thinning, curve: int, point: int, order: list[_Item]) -> None:
+    """Take the thinned crossing at a given point back in, or adopt the point.
+
+    Of a dense line a point or crossing amid the interval will do.
+    """
     crossing = _thinned(work, curve, point)
+    if crossing is None and work.net.sources[curve].dense:
+        edges = np.array([item.at for item in order])
+        point, target, reach = amid(edges, _knots(work, curve), point)
+        for item in sorted(work.items[curve], key=lambda each: abs(each.at - target)):
+            thinned = item.number < work.fixed_count and item.number not in work.chosen[curve]
+            if thinned and abs(item.at - target) < reach:
+                crossing = item.number
+                break
     if crossing is None:
         _add_point(work, curve, point)
     else:

@@ -9,7 +9,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import choice, flag, instance, places, positive, shown, text
+from assoc_hull.arguments import choice, flag, instance, numbers, places, positive, shown, text
 from assoc_hull.errors import BadInputError, TooFewPointsError
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.geometry.plane import as_plane
@@ -47,8 +47,11 @@ class LineSource:
     placed : bool
         Whether the points are the designer's own: they then define the curve, all of them,
         and no update moves them.
-    tolerance : float
-        How far (m) the adopted curve may pass the points.
+    tolerance : float or (n,)
+        How far (m) the adopted curve may pass the points, all of them or each.
+    dense : bool
+        Whether the points draw the line closely, so that any of them may be adopted: then
+        points are adopted in the middle of an interval, none in one without room.
     """
 
     group: str
@@ -62,7 +65,8 @@ class LineSource:
     direction: FloatArray
     ends: Ends
     placed: bool
-    tolerance: float
+    tolerance: float | FloatArray
+    dense: bool = False
 
     @classmethod
     def make(
@@ -78,7 +82,8 @@ class LineSource:
         direction: ArrayLike | None = None,
         ends: Ends | None = None,
         placed: bool = False,
-        tolerance: float = 1e-3,
+        tolerance: float | FloatArray = 1e-3,
+        dense: bool = False,
     ) -> Self:
         """Check and complete what is given; arguments as the attributes of the class.
 
@@ -111,8 +116,22 @@ class LineSource:
         return cls(
             group, name, xyz, chosen.name, normal, offset, boundary, kinds, given,
             Ends() if ends is None else instance(ends, Ends, "ends", where),
-            flag(placed, "placed", where), positive(tolerance, "tolerance", where),
+            flag(placed, "placed", where), _tolerance(tolerance, len(xyz), where),
+            flag(dense, "dense", where),
         )  # fmt: skip
+
+
+def _tolerance(tolerance: ArrayLike, count: int, where: str) -> float | FloatArray:
+    """Take one tolerance, or one a point, m, each above 0."""
+    if np.ndim(tolerance) == 0:
+        return positive(tolerance, "tolerance", where)
+    found = numbers(tolerance, "tolerance", where)
+    if found.shape != (count,) or not (found > 0.0).all():
+        raise BadInputError(
+            f"tolerance has the shape {found.shape}", where, f"give {count} numbers above 0, m"
+        )
+    freeze(found)
+    return found
 
 
 def _kinds(kind: ArrayLike | None, count: int, where: str) -> np.typing.NDArray[np.int8]:
