@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from assoc_hull.arguments import file_path, flag, instance, integer, not_negative, number, text
 from assoc_hull.edit.document import Document
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.check_hull import Finding
     from assoc_hull.edit.explain import Thing, Why
     from assoc_hull.edit.preview import Preview
+    from assoc_hull.io.slice_places import Places
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Examples", "Hull", "examples", "open", "read"]
@@ -320,20 +321,41 @@ def read(
     length: float | None = None,
     breadth: float | None = None,
     draught: float | None = None,
+    scale: float | None = None,
+    stations: Places | None = None,
+    waterlines: Places | None = None,
+    buttocks: Places | None = None,
+    unit: str | None = None,
+    axes: str | None = None,
+    tolerance: float | None = None,
 ) -> Hull:
-    """Read any supported format, told by content: a saved hull, or a table of offsets.
+    """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
 
-    A table in normalised form needs its dimensions (m), unless its comments tell them.
+    A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
+    (STL, OBJ, PLY, also ``.gz``) and digitised lines (CSV, DXF) take `scale`, full scale over
+    model scale, and the other options, as `assoc_hull.io.slice_read.read_slices` does.
 
     Raises
     ------
     BadInputError
-        The file cannot be read, or is neither.
+        The file cannot be read, or is none of these; or an option that its form does not take.
     """
     from assoc_hull.examples.completion import net_from_table
     from assoc_hull.io.offsets import read_offsets
+    from assoc_hull.io.slice_read import holds_lines, read_slices
 
     file = Path(file_path(path, "in read"))
+    named: dict[str, Any] = {
+        "scale": scale, "stations": stations, "waterlines": waterlines, "buttocks": buttocks,
+        "unit": unit, "axes": axes, "tolerance": tolerance,
+    }  # fmt: skip
+    options = {name: value for name, value in named.items() if value is not None}
+    if holds_lines(file):
+        state, made = read_slices(file, length=length, breadth=breadth, draught=draught, **options)
+        hull = Hull(state)
+        hull.adoption = made.adoption
+        return hull
+    _refuse_options(options, file)
     if file.is_file() and file.read_bytes()[:200].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
         return open(file)
     table, _ = read_offsets(file, length=length, breadth=breadth, draught=draught)
@@ -341,3 +363,11 @@ def read(
     hull = Hull(state)
     hull.adoption = report
     return hull
+
+
+def _refuse_options(options: Mapping[str, object], file: Path) -> None:
+    if options:
+        raise BadInputError(
+            f"{', '.join(sorted(options))} cannot be given", f"for {file.name}",
+            "leave it out, or read a mesh or digitised lines",
+        )  # fmt: skip

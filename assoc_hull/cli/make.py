@@ -10,7 +10,8 @@ from typing import Any
 from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_json
 from assoc_hull.cli.output import emit, plain, progress
 from assoc_hull.cli.problems import check_target
-from assoc_hull.cli.words import adoption_words, hull_words
+from assoc_hull.cli.words import adoption_words, hull_words, slice_words
+from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull, examples
 
 __all__ = ["add"]
@@ -41,19 +42,30 @@ def _add_example(commands: Commands) -> None:
 
 def _add_import(commands: Commands) -> None:
     parser = add_command(
-        commands, "import", "make a hull from a table of offsets", _import,
+        commands, "import", "make a hull from offsets, a mesh or digitised lines", _import,
         """assoc-hull import offsets.csv -o ship.hull.json
+        assoc-hull import hull.stl -o ship.hull.json --scale 59.407 --stations 41
         assoc-hull import offsets.csv -o ship.hull.json --unit mm --draught 8.5
         assoc-hull import offsets.csv -o ship.hull.json --station-zero fp --report report.json""",
     )  # fmt: skip
-    parser.add_argument("file", metavar="FILE", type=Path, help="a table of offsets (CSV, TSV)")
+    parser.add_argument("file", metavar="FILE", type=Path, help="CSV, TSV, STL, OBJ, PLY or DXF")
     _add_target(parser)
     for name, what in (
         ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),
     ):  # fmt: skip
         parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{name}, {what}, m")
-    units = ("auto", "m", "mm", "normalised")
+    units = ("auto", "m", "mm", "cm", "ft", "in", "normalised")
     parser.add_argument("--unit", choices=units, default="auto", help="of the numbers in the file")
+    for name, count in (("stations", 41), ("waterlines", 20), ("buttocks", 12)):
+        parser.add_argument(
+            f"--{name}", type=_places, metavar="N",
+            help=f"of a mesh: how many {name}, or places in m, as 1,2.5; {count} by default",
+        )  # fmt: skip
+    parser.add_argument("--scale", type=float, metavar="S", help="of a mesh: full over model scale")
+    parser.add_argument("--axes", metavar="AXES", help="of a mesh: forward, port, up, as +x+y+z")
+    parser.add_argument(
+        "--tolerance", type=float, metavar="M", help="of a mesh or lines: adopted within this, m"
+    )
     parser.add_argument(
         "--station-zero", choices=("auto", "ap", "fp"), default="auto",
         help="perpendicular of station 0",
@@ -92,7 +104,52 @@ def _import(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _places(text: str) -> int | list[float]:
+    """Read a number of planes, or their places."""
+    try:
+        return int(text) if text.isdigit() else [float(word) for word in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number and no list of places") from error
+
+
+_OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance")
+
+
 def _adopt(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.slice_read import holds_lines
+
+    if holds_lines(arguments.file):
+        return _adopt_slices(arguments)
+    wrong = [name for name in _OF_SLICES if getattr(arguments, name) is not None]
+    if wrong:
+        raise BadInputError(
+            f"--{wrong[0]} is for meshes and digitised lines", f"with {arguments.file}",
+            "leave it out",
+        )  # fmt: skip
+    return _adopt_offsets(arguments)
+
+
+def _adopt_slices(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.slice_read import read_slices
+
+    names = ("length", "breadth", "draught", "unit", *_OF_SLICES)
+    given = {name: getattr(arguments, name) for name in names}
+    state, report = read_slices(
+        arguments.file, **{name: value for name, value in given.items() if value is not None}
+    )
+    hull = Hull(state)
+    hull.adoption = report.adoption
+    facts = {field: getattr(report, field) for field in _FACTS}
+    return hull, facts, slice_words(hull.particulars.name, report)
+
+
+_FACTS = (
+    "slices", "joins", "rules", "tolerance", "noise", "smoothing", "knuckles", "adoption",
+    "adopted", "inflections",
+)  # fmt: skip
+
+
+def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.examples.completion import net_from_table
     from assoc_hull.io.offsets import read_offsets
 

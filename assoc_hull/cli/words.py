@@ -12,6 +12,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
 from assoc_hull.io.offset_report import OffsetReport
 from assoc_hull.io.offset_table import OffsetTable
+from assoc_hull.io.slice_net import SliceReport
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Sort
 from assoc_hull.model.handles import Curve
@@ -95,6 +96,23 @@ def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: Adoption
         f"adopted {len(adoption.lines)} curves, {own} points of theirs that no crossing holds; "
         f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.curve})",
         *(f"  {note}" for note in adoption.notes),
+    ]
+    return "\n".join(lines)
+
+
+def slice_words(name: str, report: SliceReport) -> str:
+    """Say how a mesh or digitised lines were read, smoothed and adopted."""
+    worst = max(report.smoothing, key=lambda each: each.residual)
+    lines = [
+        name,
+        *(f"  {line}" for line in str(report.slices).splitlines()),
+        *(f"  join: {e.line}: {1e3 * e.gap:.1f} mm at {e.place}" for e in report.joins[:20]),
+        f"noise {1e3 * report.noise:.2g} mm; smoothed by at most {1e3 * worst.residual:.2g} mm "
+        f"({worst.line}); {len(report.knuckles)} knuckle lines",
+        f"adopted {len(report.adoption.lines)} curves within {1e3 * report.tolerance:.2g} mm, "
+        f"{report.adopted} points of theirs that no crossing holds; {report.inflections[0]} "
+        f"inflections, {report.inflections[1]} more in the net",
+        *(f"  {note}" for note in report.adoption.notes),
     ]
     return "\n".join(lines)
 

@@ -99,7 +99,14 @@ CURVES: dict[str, Given] = {
 LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
 MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "open": (ah.open, {"path": "a"}),
-    "read": (ah.read, {"path": "a", "length": 1.0, "breadth": 1.0, "draught": 1.0}),
+    "read": (
+        ah.read,
+        {
+            "path": "a", "length": 1.0, "breadth": 1.0, "draught": 1.0, "scale": 1.0,
+            "stations": 41, "waterlines": 20, "buttocks": 12, "unit": "auto", "axes": "auto",
+            "tolerance": 0.01,
+        },
+    ),
     "wigley": (
         ah.examples.wigley,
         {"length": 90.0, "breadth": 9.0, "draught": 5.0, "stations": 9, "waterlines": 6},

@@ -1,0 +1,238 @@
+"""Digitised lines: lists of points per line, in one or several pieces.
+
+Examples
+--------
+>>> from assoc_hull.io.digitised import read_lines
+>>> text = '''line,x,y,z
+... ST 10,50,0,0
+... ST 10,50,3,1
+... ST 10,50,4,5
+... WL 1,0,0,1
+... WL 1,50,3,1
+... WL 1,99,0,1
+... '''
+>>> slices = read_lines(text)
+>>> [(line.group, line.name, line.offset) for line in slices.lines]
+[('sections', 'ST 10', 50.0), ('waterlines', 'WL 1', 1.0)]
+>>> slices["WL 1"].pieces[0].ends
+('profile', 'profile')
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polyline import drop_repeats
+from assoc_hull.io.digitised_text import RawPiece, parse_lines
+from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.offset_text import read_text
+from assoc_hull.io.slice_chain import Gaps, join_pieces
+from assoc_hull.io.slice_types import AXES, Join, Piece, SliceLine, Slices
+
+__all__ = ["read_lines"]
+
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
+_LONGEST = 600.0
+_OFF_PLANE = 0.02
+"""Points scattered less than this (m) about a plane are meant to lie in it."""
+
+_REACH = 0.1
+_GROUPS = {
+    "ST": "sections", "SECTION": "sections", "FRAME": "sections", "FR": "sections",
+    "WL": "waterlines", "WATERLINE": "waterlines", "BTK": "buttocks", "BUTTOCK": "buttocks",
+}  # fmt: skip
+_ORDER = ("sections", "waterlines", "buttocks")
+_BOUNDARIES = ("profile", "deck edge", "transom")
+
+
+def read_lines(
+    path_or_text: str | Path,
+    *,
+    scale: float = 1.0,
+    unit: str = "auto",
+    gaps: Gaps | None = None,
+    name: str | None = None,
+) -> Slices:
+    """Read digitised lines in ship axes: x forward, y to port, z up.
+
+    Parameters
+    ----------
+    path_or_text : str or Path
+        A file, or the text itself: CSV with the columns line, x, y, z (and piece), or DXF. A
+        line is a section, waterline or buttock by its constant coordinate; lines called
+        "profile", "deck edge" and "transom" are boundary curves.
+    scale : float
+        Full scale over the scale of the file.
+    unit : {"auto", "m", "mm", "cm"}
+        Unit of the file.
+    gaps : Gaps or None
+        Loose ends this close are joined, 60 mm by default; farther ones stay apart.
+    name : str or None
+        Of the hull; that of the file by default.
+
+    Returns
+    -------
+    Slices
+
+    Raises
+    ------
+    BadInputError
+        A text that holds no lines, a line in no plane, or one name in two planes.
+    """
+    book = Notebook()
+    text, source = read_text(path_or_text, book)
+    raw = parse_lines(text, source)
+    factor = _factor(raw, scale, unit, book, source)
+    raw = _to_port([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    every = np.concatenate([each.points for each in raw])
+    joins: list[Join] = []
+    limits = gaps or Gaps()
+    limits = Gaps(limits.join, limits.join)
+    boundaries = [
+        SliceLine("boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {})))
+        for title, mine in _by_name(raw, boundary=True).items()
+    ]
+    borders = {
+        line.name: np.concatenate([each.points for each in line.pieces]) for line in boundaries
+    }
+    lines = [
+        _line(title, mine, limits, joins, borders, book)
+        for title, mine in _by_name(raw, boundary=False).items()
+    ]
+    _refuse_twins(lines, source)
+    lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
+    default = Path(source).stem if source != "text" else "lines"
+    return Slices(
+        default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
+        book.report(), False, every.min(axis=0), every.max(axis=0),
+    )  # fmt: skip
+
+
+def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source: str) -> float:
+    if not (np.isfinite(scale) and scale > 0.0):
+        raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
+    size = scale * float(np.ptp(np.concatenate([each.points for each in raw]), axis=0).max())
+    if unit == "auto":
+        unit = "mm" if size > _LONGEST else "m"
+        what = f"{unit}, because the longest side is {size:.6g} units at full scale"
+        book.assume("unit", "the lines", what, size)
+    if unit not in _UNITS:
+        raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit",
+                            "give 'auto', 'm', 'mm' or 'cm'")  # fmt: skip
+    if size * _UNITS[unit] > _LONGEST:
+        raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}",
+                            f"at {source}", "give unit='mm', or another scale")  # fmt: skip
+    return scale * _UNITS[unit]
+
+
+def _to_port(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
+    """Bring pieces drawn to starboard over to port."""
+    turned = [each for each in raw if each.points[:, 1].mean() < -1e-6]
+    if not turned:
+        return raw
+    book.repair("mirrored", "the lines", f"{len(turned)} pieces at negative y brought to port",
+                len(turned))  # fmt: skip
+    flip = np.array([1.0, -1.0, 1.0])
+    return [RawPiece(e.line, e.points * flip + 0.0, e.where) if e in turned else e for e in raw]
+
+
+def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:
+    found: dict[str, list[RawPiece]] = {}
+    for each in raw:
+        if (each.line.lower() in _BOUNDARIES) == boundary:
+            found.setdefault(each.line.lower() if boundary else each.line, []).append(each)
+    return found
+
+
+def _chain(
+    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray]
+) -> list[Piece]:
+    pieces: list[Piece] = []
+    for each in raw:
+        points = drop_repeats(each.points, 1e-6)
+        if len(points) < 2:
+            raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
+                                "give two or more")  # fmt: skip
+        pieces.append(Piece(points, (_under(points[0], borders), _under(points[-1], borders))))
+    pieces, made = join_pieces(name, pieces, gaps)
+    joins += made
+    return pieces
+
+
+def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:
+    """Say on what boundary curve the end of a line lies."""
+    for name in ("deck edge", "transom"):
+        if name in borders and _distance(borders[name], place) < _REACH:
+            return name
+    return "profile" if abs(place[1]) < 1e-3 else "loose"
+
+
+def _distance(border: FloatArray, place: FloatArray) -> float:
+    start, step = border[:-1], np.diff(border, axis=0)
+    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-12)
+    foot = start + np.clip(part, 0.0, 1.0)[:, None] * step
+    return float(np.linalg.norm(foot - place, axis=1).min())
+
+
+def _line(
+    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    book: Notebook,
+) -> SliceLine:  # fmt: skip
+    every = np.concatenate([each.points for each in raw])
+    group = _group(name, every, raw[0].where)
+    axis = AXES[group]
+    offset = round(float(np.median(every[:, axis])), 9)
+    off = float(np.abs(every[:, axis] - offset).max())
+    if off > _OFF_PLANE:
+        raise BadInputError(
+            f"{name} lies in no plane: {'xyz'[axis]} runs to {off:.3g} m off {offset:.6g} m",
+            f"in {raw[0].where}", "give each line its own name",
+        )  # fmt: skip
+    if off > 1e-9:
+        what = f"points up to {1e3 * off:.3g} mm off {'xyz'[axis]} = {offset:.6g} m put into it"
+        book.repair("plane", name, what, off)
+    flat = [RawPiece(each.line, _flattened(each.points, axis, offset), each.where) for each in raw]
+    pieces = _chain(name, flat, gaps, joins, borders)
+    way = 2 if group == "sections" else 0
+    turned = [
+        each if each.points[-1, way] >= each.points[0, way] else each.reversed() for each in pieces
+    ]
+    turned.sort(key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
+    return SliceLine(group, name, offset, tuple(turned))
+
+
+def _flattened(points: FloatArray, axis: int, offset: float) -> FloatArray:
+    out = points.copy()
+    out[:, axis] = offset
+    return out
+
+
+def _group(name: str, points: FloatArray, where: str) -> str:
+    """Tell the family by the name, else by the coordinate that is constant."""
+    word = name.split()[0].upper() if name.split() else ""
+    if word in _GROUPS:
+        return _GROUPS[word]
+    spread = np.ptp(points, axis=0)
+    flat = [group for group, axis in AXES.items() if spread[axis] < 2.0 * _OFF_PLANE]
+    if len(flat) != 1:
+        raise BadInputError(
+            f"{name!r} is no section, waterline or buttock by its points", f"in {where}",
+            "begin its name with ST, WL or BTK, or call it profile, deck edge or transom",
+        )  # fmt: skip
+    return flat[0]
+
+
+def _refuse_twins(lines: list[SliceLine], source: str) -> None:
+    seen: dict[tuple[str, float], str] = {}
+    for line in lines:
+        key = (line.group, line.offset)
+        if key in seen:
+            raise BadInputError(
+                f"{seen[key]!r} and {line.name!r} lie in one plane", f"at {source}",
+                "give their pieces one name",
+            )  # fmt: skip
+        seen[key] = line.name

@@ -1,0 +1,218 @@
+"""Defects of a mesh: each found, named, and mended where that is safe."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.io.mesh_file import Triangles, merge_vertices
+from assoc_hull.io.offset_report import Notebook
+
+__all__ = ["boundary_edges", "facet_depth", "mend_mesh"]
+
+_WHERE = "the mesh"
+
+
+def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
+    """Drop repeated and degenerate triangles, weld cracks, turn all triangles one way.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        As read, in m.
+    book : Notebook
+        Takes what was mended and what looks wrong.
+
+    Raises
+    ------
+    BadInputError
+        No triangle is left, or an edge is shared by so many triangles that there is no surface.
+    """
+    mesh = _drop_degenerate(mesh, book)
+    mesh = _drop_duplicates(mesh, book)
+    mesh = _weld(mesh, book)
+    _refuse_branches(mesh, book)
+    mesh = _wind(mesh, book)
+    _tell_open(mesh, book)
+    return mesh
+
+
+def _size(mesh: Triangles) -> float:
+    return float(np.ptp(mesh.xyz, axis=0).max())
+
+
+def _drop_degenerate(mesh: Triangles, book: Notebook) -> Triangles:
+    i, j, k = mesh.face.T
+    good = (i != j) & (j != k) & (k != i)
+    if not good.any():
+        raise BadInputError("every triangle has nil area", f"in {_WHERE}", "export the mesh again")
+    bad = int((~good).sum())
+    if bad:
+        book.repair("degenerate", _WHERE, f"{bad} triangles of two corners left out", bad)
+    return Triangles(mesh.xyz, mesh.face[good]) if bad else mesh
+
+
+def _drop_duplicates(mesh: Triangles, book: Notebook) -> Triangles:
+    i, j, k = np.sort(mesh.face, axis=1).T
+    order = np.lexsort((k, j, i))
+    same = np.stack([np.diff(each[order]) == 0 for each in (i, j, k)]).all(axis=0)
+    first = order[np.append(True, ~same)]
+    twice = len(mesh.face) - len(first)
+    if not twice:
+        return mesh
+    book.repair("duplicate", _WHERE, f"{twice} triangles occur twice; each is kept once", twice)
+    return Triangles(mesh.xyz, mesh.face[np.sort(first)])
+
+
+def boundary_edges(mesh: Triangles) -> IntArray:
+    """Give the edges with one triangle only, as that triangle runs along them, (e, 2)."""
+    keys = mesh.edge_keys()
+    order = np.argsort(keys, kind="stable")
+    new = np.append(True, np.diff(keys[order]) != 0)
+    alone = order[new & np.append(new[1:], True)]
+    return np.asarray(mesh.edges()[np.sort(alone)])
+
+
+def _weld(mesh: Triangles, book: Notebook) -> Triangles:
+    """Make vertices on open edges one that differ by rounding."""
+    from scipy.spatial import cKDTree
+
+    rim = np.unique(boundary_edges(mesh))
+    reach = 1e-6 * _size(mesh)
+    pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
+    if not len(pairs):
+        return mesh
+    xyz = mesh.xyz.copy()
+    pairs = rim[pairs]
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    order = np.argsort(-low, kind="stable")
+    xyz[high[order]] = mesh.xyz[low[order]]
+    what = f"{len(np.unique(high))} vertices at most {1e3 * reach:.3g} mm off another joined to it"
+    book.repair("weld", _WHERE, what, reach)
+    return _drop_degenerate(merge_vertices(xyz, mesh.face), Notebook())
+
+
+def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
+    edges, count = np.unique(mesh.edge_keys(), return_counts=True)
+    bad = edges[count > 2]
+    if not len(bad):
+        return
+    place = _words(mesh.xyz[list(divmod(int(bad[0]), len(mesh.xyz)))].mean(axis=0))
+    if len(bad) > 0.02 * len(edges):
+        raise BadInputError(
+            f"{len(bad)} of {len(edges)} edges have three triangles or more, first {place}",
+            f"in {_WHERE}",
+            "leave out appendages, decks inside and repeated parts",
+        )
+    what = f"{len(bad)} edges have three triangles or more, first {place}; lines may branch there"
+    book.suspect("branch", _WHERE, what, len(bad))
+
+
+def _wind(mesh: Triangles, book: Notebook) -> Triangles:
+    """Turn neighbours the same way round, part by part, and each part outward."""
+    flip = _against(mesh)
+    count = int(flip.sum())
+    if count:
+        what = f"{count} of {len(mesh.face)} triangles run against their neighbours; turned round"
+        book.repair("winding", _WHERE, what, count)
+        mesh = _turned(mesh, flip)
+    if _outwardness(mesh) < 0.0:
+        book.repair("inside-out", _WHERE, "all normals pointed inward; turned round")
+        mesh = _turned(mesh, np.ones(len(mesh.face), np.bool_))
+    return mesh
+
+
+def _turned(mesh: Triangles, flip: np.typing.NDArray[np.bool_]) -> Triangles:
+    return Triangles(mesh.xyz, np.where(flip[:, None], mesh.face[:, ::-1], mesh.face))
+
+
+def _outwardness(mesh: Triangles) -> float:
+    """Give a volume that an open bottom, deck or centre plane falsifies least."""
+    if not len(boundary_edges(mesh)):
+        return mesh.volume()
+    vectors, centre = mesh.area_vectors(), mesh.corners.mean(axis=1)
+    middle = 0.5 * (mesh.xyz.min(axis=0) + mesh.xyz.max(axis=0))
+    return float((vectors * (centre - middle)).sum())
+
+
+def _against(mesh: Triangles) -> np.typing.NDArray[np.bool_]:
+    """Say which triangles run against the majority of their connected part."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+    edges, faces = mesh.edges(), len(mesh.face)
+    owner = np.tile(np.arange(faces), 3)
+    keys = mesh.edge_keys()
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
+    count = np.diff(np.append(first, len(keys)))
+    two = first[count == 2]
+    a, b = order[two], order[two + 1]
+    same = edges[a, 0] == edges[b, 0]
+    flip = np.zeros(faces, np.bool_)
+    if not same.any():
+        return flip
+    weight = np.where(same, 2.0, 1.0)
+    graph = coo_array((weight, (owner[a], owner[b])), shape=(faces, faces)).tocsr()
+    graph = (graph + graph.T).tocsr()
+    parts, label = connected_components(graph, directed=False)
+    before = np.arange(faces)
+    first = np.unique(label, return_index=True)[1]
+    for root in first.tolist():
+        path, source = breadth_first_order(graph, root, directed=True)
+        before[path[1:]] = source[path[1:]]
+    moved = np.flatnonzero(before != np.arange(faces))
+    flip[moved] = np.asarray(graph[moved, before[moved]]).ravel() == 2.0
+    # How often the way back to the root turns: each pass doubles the steps looked back.
+    while (before != before[before]).any():
+        flip ^= flip[before]
+        before = before[before]
+    most = np.bincount(label, flip, parts) > 0.5 * np.bincount(label, minlength=parts)
+    return flip ^ most[label]
+
+
+def facet_depth(mesh: Triangles, corner_deg: float = 15.0) -> float:
+    """Estimate how deep (m) the facets of a mesh lie inside the surface, for 19 edges of 20.
+
+    Two triangles of height h that meet at an angle t stand for an arc; it rises 3 t h / 16
+    above them. Sharper edges than `corner_deg` are taken for knuckles.
+    """
+    keys = mesh.edge_keys()
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(keys[order][1:] == keys[order][:-1])
+    if not len(first):
+        return 0.0
+    owner = np.tile(np.arange(len(mesh.face)), 3)
+    a, b = order[first], order[first + 1]
+    vectors = mesh.area_vectors()
+    area = np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)
+    unit = vectors / area[:, None]
+    cosine = (unit[owner[a]] * unit[owner[b]]).sum(axis=1)
+    angle = np.arccos(np.clip(cosine, -1.0, 1.0))
+    ends = mesh.xyz[mesh.edges()[a]]
+    length = np.maximum(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1e-300)
+    height = (area[owner[a]] + area[owner[b]]) / length
+    depth = 3.0 / 16.0 * angle * height
+    smooth = angle < np.deg2rad(corner_deg)
+    if not smooth.any():
+        return 0.0
+    weight = (area[owner[a]] + area[owner[b]])[smooth]
+    rank = np.argsort(depth[smooth])
+    share = np.cumsum(weight[rank])
+    return float(depth[smooth][rank][np.searchsorted(share, 0.95 * share[-1])])
+
+
+def _tell_open(mesh: Triangles, book: Notebook) -> None:
+    rim = boundary_edges(mesh)
+    if len(rim):
+        low, high = mesh.xyz[rim].min(axis=(0, 1)), mesh.xyz[rim].max(axis=(0, 1))
+        what = (
+            f"open: {len(rim)} edges have one triangle only, from {_words(low)} to {_words(high)}"
+        )
+        book.assume("open", _WHERE, what, len(rim))
+
+
+def _words(place: FloatArray) -> str:
+    x, y, z = place.tolist()
+    return f"({x:.4g}, {y:.4g}, {z:.4g})"

@@ -1,0 +1,286 @@
+"""Ship axes of a mesh: unit, which axis is the length, which side is up, which end the bow.
+
+Whatever is found rather than given is reported. Ship axes: x forward, y to port, z up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.mesh_doctor import boundary_edges
+from assoc_hull.io.mesh_file import Triangles
+from assoc_hull.io.offset_report import Notebook
+
+__all__ = ["place_mesh", "scale_mesh"]
+
+_WHERE = "the mesh"
+_LONGEST, _SHORTEST = 600.0, 1.0
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+
+
+def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Triangles:
+    """Give the mesh at full scale in m.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        As read.
+    scale : float
+        Full scale over model scale; 1 for a mesh at full scale.
+    unit : {"auto", "m", "mm", "cm", "ft", "in"}
+        Unit of the file. Found, it is metres, or millimetres where metres would give a ship
+        of more than 600 m.
+    book : Notebook
+        Takes what was assumed.
+
+    Raises
+    ------
+    BadInputError
+        A scale that is not positive, an unknown unit, or a ship longer than 600 m.
+    """
+    if not (np.isfinite(scale) and scale > 0.0):
+        raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
+    if unit != "auto" and unit not in _UNITS:
+        raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit", _known_units())
+    size = float(np.ptp(mesh.xyz, axis=0).max()) * scale
+    chosen = unit if unit != "auto" else _find_unit(size, book)
+    length = size * _UNITS[chosen]
+    if not length <= _LONGEST:
+        raise BadInputError(
+            f"the mesh is {length:.6g} m long in {chosen} at scale {scale:g}", f"in {_WHERE}",
+            "are these millimetres? give unit='mm', or another scale",
+        )  # fmt: skip
+    if length < _SHORTEST:
+        what = f"only {length:.4g} m long; for a model or metres read as millimetres give scale="
+        book.suspect("small", _WHERE, what, length)
+    return Triangles(mesh.xyz * (scale * _UNITS[chosen]), mesh.face)
+
+
+def _known_units() -> str:
+    return "give one of " + ", ".join(map(repr, ("auto", *_UNITS)))
+
+
+def _find_unit(size: float, book: Notebook) -> str:
+    chosen = "mm" if size > _LONGEST and size * 1e-3 <= _LONGEST else "m"
+    why = f"the longest side is {size:.6g} units at full scale"
+    book.assume("unit", _WHERE, f"{chosen}, because {why}", size)
+    return chosen
+
+
+def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
+    """Turn a mesh in metres into ship axes, centre plane at y = 0.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        In m, all triangles outward.
+    axes : str
+        "auto", or which axes of the file are x (forward), y (to port) and z (up), each with a
+        sign: ``"+x+y+z"``, ``"-x-y+z"`` for a bow at negative x, ``"+x-z+y"`` for y up.
+    book : Notebook
+        Takes what was found.
+
+    Raises
+    ------
+    BadInputError
+        Unknown axes, or a mesh whose axes cannot be told.
+    """
+    if axes != "auto":
+        turn = _parse(axes)
+        moved = _turned(mesh, turn)
+        return _centred(moved, book)
+    columns = _find_columns(mesh, book)
+    moved = _turned(mesh, np.eye(3)[list(columns)])
+    moved = _upright(_centred(moved, book), book)
+    return _grounded(_bow_forward(moved, book), book)
+
+
+def _parse(axes: str) -> FloatArray:
+    text = axes.replace(" ", "").replace(",", "").lower()
+    parts = [text[i : i + 2] for i in range(0, len(text), 2)]
+    good = len(text) == 6 and all(p[0] in "+-" and p[1] in "xyz" for p in parts)
+    if not good or {p[1] for p in parts} != set("xyz"):
+        raise BadInputError(
+            f"axes are {axes!r}", "the argument axes", "give 'auto', or such as '+x+y+z', '-x-y+z'"
+        )
+    rows = [(1.0 if p[0] == "+" else -1.0) * np.eye(3)["xyz".index(p[1])] for p in parts]
+    return np.array(rows)
+
+
+def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
+    """Turn the places; a reflection turns the triangles round."""
+    xyz = np.stack([(mesh.xyz * row).sum(axis=1) for row in turn], axis=1) + 0.0
+    return Triangles(xyz, mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy())
+
+
+def _find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
+    """Find the columns of length, breadth and height."""
+    size = np.ptp(mesh.xyz, axis=0)
+    x = int(np.argmax(size))
+    others = [axis for axis in range(3) if axis != x]
+    offs = {axis: _asymmetry(mesh, axis) for axis in others}
+    y = min(others, key=lambda axis: offs[axis])
+    tried = 1 if x != 1 else others[0]
+    if tried != y and offs[tried] < 2.0 * offs[y] + 1e-3:
+        y = tried
+    if offs[y] > 0.02:
+        raise BadInputError(
+            f"no side of the mesh mirrors the other (best: {1e2 * offs[y]:.3g} % of the length "
+            "off)", f"in {_WHERE}", "give axes=, such as '+x+y+z'",
+        )  # fmt: skip
+    z = next(axis for axis in others if axis != y)
+    names = "".join("xyz"[axis] for axis in (x, y, z))
+    said = f"length along {names[0]}, breadth along {names[1]}, height along {names[2]} of the file"
+    if (x, y, z) == (0, 1, 2):
+        book.assume("axes", _WHERE, f"{said}, because x is longest and y mirrors", offs[y])
+    else:
+        book.repair("axes", _WHERE, f"{said}; turned into ship axes", offs[y])
+    return x, y, z
+
+
+def _asymmetry(mesh: Triangles, axis: int) -> float:
+    """Give how far the mesh is from mirroring in an axis, as a part of its length.
+
+    A half hull counts as mirrored where its open edge fills the plane of one of its sides.
+    """
+    from scipy.spatial import cKDTree
+
+    size = float(np.ptp(mesh.xyz, axis=0).max())
+    low, high = float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())
+    if _half_side(mesh, axis) is not None:
+        return 0.0
+    middle = 0.5 * (low + high)
+    some = mesh.xyz[:: max(1, len(mesh.xyz) // 4000)].copy()
+    some[:, axis] = 2.0 * middle - some[:, axis]
+    near = cKDTree(mesh.xyz).query(some)[1]
+    away = np.abs(((some - mesh.xyz[near]) * _normals(mesh)[near]).sum(axis=1))
+    return float(np.percentile(away, 90)) / size
+
+
+def _normals(mesh: Triangles) -> FloatArray:
+    """Give the mean normal at each vertex: two triangulations of one surface differ along it."""
+    vectors = np.repeat(mesh.area_vectors()[:, None, :], 3, axis=1).reshape(-1, 3)
+    number, count = mesh.face.ravel(), len(mesh.xyz)
+    sums = np.stack([np.bincount(number, column, count) for column in vectors.T], axis=1)
+    length = np.linalg.norm(sums, axis=1)
+    return np.asarray(sums / np.maximum(length, 1e-300)[:, None])
+
+
+def _half_side(mesh: Triangles, axis: int) -> float | None:
+    """Give the place of the centre plane if this is a half hull cut across an axis."""
+    rim = boundary_edges(mesh)
+    if not len(rim):
+        return None
+    size = float(np.ptp(mesh.xyz, axis=0).max())
+    values = mesh.xyz[rim][:, :, axis]
+    length = np.linalg.norm(np.diff(mesh.xyz[rim], axis=1)[:, 0], axis=1)
+    for side in (float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())):
+        on = (np.abs(values - side) < 1e-5 * size).all(axis=1)
+        span = np.ptp(mesh.xyz[rim[on]].reshape(-1, 3), axis=0) if on.any() else np.zeros(3)
+        across = [other for other in range(3) if other != axis]
+        whole = np.ptp(mesh.xyz, axis=0)
+        filled = all(span[other] > 0.8 * whole[other] for other in across)
+        if filled and length[on].sum() > 0.15 * length.sum():
+            return side
+    return None
+
+
+def _centred(mesh: Triangles, book: Notebook) -> Triangles:
+    """Put the centre plane at y = 0, a half hull on the side of positive y."""
+    size = float(np.ptp(mesh.xyz, axis=0).max())
+    low, high = float(mesh.xyz[:, 1].min()), float(mesh.xyz[:, 1].max())
+    side = _half_side(mesh, 1)
+    if side is None and min(-low, high) < 0.02 * (high - low) and abs(low + high) > 1e-6 * size:
+        side = low if abs(low) < abs(high) else high
+        side = 0.0 if abs(side) < 1e-3 * size else None
+    middle = side if side is not None else 0.5 * (low + high)
+    xyz = mesh.xyz.copy()
+    if abs(middle) > 1e-6 * size:
+        book.repair("centre plane", _WHERE, f"moved from y = {middle:.6g} m to 0", middle)
+        xyz[:, 1] -= middle
+    elif side is None:
+        _tell_asymmetry(mesh, size, book)
+    face = mesh.face
+    if side is not None and xyz[:, 1].max() < 1e-3 * size:
+        book.repair("mirrored", _WHERE, "the half at negative y was mirrored to port")
+        xyz[:, 1] = -xyz[:, 1] + 0.0
+        face = face[:, ::-1].copy()
+    kind = "half" if side is not None else "whole"
+    book.assume("half or whole", _WHERE, f"the mesh is a {kind} hull")
+    return Triangles(xyz, face)
+
+
+def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
+    off = _asymmetry(mesh, 1)
+    if off > 1e-3:
+        what = f"the halves differ by {off * size:.3g} m at one vertex of ten; port is taken"
+        book.suspect("asymmetry", _WHERE, what, off * size)
+
+
+def _upright(mesh: Triangles, book: Notebook) -> Triangles:
+    """Turn a hull that lies keel up."""
+    y = np.abs(mesh.xyz[:, 1])
+    z = (mesh.xyz[:, 2] - mesh.xyz[:, 2].min()) / np.ptp(mesh.xyz[:, 2])
+    area = np.linalg.norm(mesh.area_vectors(), axis=1)
+    centre = mesh.corners.mean(axis=1)
+    low, high = float(mesh.xyz[:, 2].min()), float(mesh.xyz[:, 2].max())
+    level = (centre[:, 2] - low) / (high - low)
+    upper = _mean_breadth(centre, area, level > 0.85)
+    lower = _mean_breadth(centre, area, level < 0.15)
+    below, above = y[z < 0.02], y[z > 0.98]
+    narrow = len(below) and len(above) and below.max() > 1.02 * above.max()
+    if narrow and lower > upper:
+        book.repair("upside down", _WHERE, "the hull narrows upward; turned about its length")
+        return _turned(mesh, np.diag([1.0, -1.0, -1.0]))
+    return mesh
+
+
+def _mean_breadth(
+    centre: FloatArray, area: FloatArray, where: np.typing.NDArray[np.bool_]
+) -> float:
+    weight = area[where]
+    return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
+
+
+def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
+    """Turn a hull whose bow is at low x: sterns are the wider end at the deck."""
+    aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
+    widest = float(np.abs(mesh.xyz[:, 1]).max())
+    if abs(aft - fore) < 0.05 * widest:
+        book.assume("bow", _WHERE, "the ends are alike; the bow is taken at high x")
+        return mesh
+    if aft > fore:
+        what = f"at high x: near the deck half-breadth {fore:.4g} m there, {aft:.4g} m at low x"
+        book.assume("bow", _WHERE, what, aft - fore)
+        return mesh
+    what = f"the bow was at low x (half-breadth {aft:.4g} m there, {fore:.4g} m at high x); turned"
+    book.repair("bow at negative x", _WHERE, what, fore - aft)
+    return _turned(mesh, np.diag([-1.0, -1.0, 1.0]))
+
+
+def _end_breadth(mesh: Triangles, end: float) -> float:
+    """Give the half-breadth of the upper half of the hull at a part of the length from an end."""
+    x, z = mesh.xyz[:, 0], mesh.xyz[:, 2]
+    size = float(np.ptp(x))
+    close = x < x.min() + end * size if end > 0.0 else x > x.max() + end * size
+    high = z > 0.5 * (z.min() + z.max())
+    chosen = close & high
+    return float(np.abs(mesh.xyz[chosen, 1]).max()) if chosen.any() else 0.0
+
+
+def _grounded(mesh: Triangles, book: Notebook) -> Triangles:
+    """Put the base line at the lowest place and the AP at the aft end where they lie far off."""
+    low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
+    size = high - low
+    shift = np.zeros(3)
+    for axis, name, reach in ((0, "x", 0.1), (2, "z", 0.02)):
+        if abs(low[axis]) > reach * size[axis]:
+            shift[axis] = -low[axis]
+            what = f"{name} of the hull began at {low[axis]:.6g} m; moved to 0"
+            book.repair("origin", _WHERE, what, float(low[axis]))
+    if not shift.any():
+        what = f"x = 0 and z = 0 as in the file; x from {low[0]:.6g} m, z from {low[2]:.6g} m"
+        book.assume("origin", _WHERE, what)
+    return Triangles(mesh.xyz + shift, mesh.face)

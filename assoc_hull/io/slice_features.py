@@ -1,0 +1,229 @@
+"""Features of slices: noise, knuckles, straight runs, as a table with the thresholds used."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.corners import Corner, CornerRule, find_corners
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.knuckle_lines import ChainRule, join_corners
+from assoc_hull.geometry.noise import facet_depth, facet_depths, scatter
+from assoc_hull.geometry.polyline import distinct
+from assoc_hull.geometry.smooth import local_scatter
+from assoc_hull.geometry.straight import RunRule
+from assoc_hull.io.slice_types import AXES, Piece, SliceLine, Slices
+
+__all__ = ["FeatureRules", "KnuckleLine", "PieceFeatures", "find_features", "plane_columns"]
+
+
+@attrs.frozen
+class FeatureRules:
+    """Every threshold of the features.
+
+    Attributes
+    ----------
+    corner : CornerRule
+        What counts as a corner of one line.
+    chain : ChainRule
+        What joins corners of neighbouring lines.
+    alone_deg : float
+        A corner that joins no knuckle line must turn by this to be kept.
+    run : RunRule
+        What counts as a straight run.
+    onset : float, m
+        A tangent point is kept where its place is known at least this well.
+    smooth_least : float, m
+        Pieces are smoothed within this at least, measured across the hull.
+    smooth_times : float
+        Else within this many times the scatter at the place ...
+    smooth_most : float, m
+        ... but not within more than this, and 1.5 times the depth of facets.
+    """
+
+    corner: CornerRule = attrs.field(factory=CornerRule)
+    chain: ChainRule = attrs.field(factory=ChainRule)
+    alone_deg: float = 10.0
+    run: RunRule = attrs.field(factory=RunRule)
+    onset: float = 0.1
+    smooth_least: float = 1e-3
+    smooth_times: float = 2.5
+    smooth_most: float = 1e-2
+
+
+@attrs.frozen(eq=False)
+class PieceFeatures:
+    """One piece of a line with what was found on it.
+
+    Attributes
+    ----------
+    line : SliceLine
+        The line.
+    piece : Piece
+        The piece.
+    points : (n, d), m
+        Its points in its plane, or in space.
+    noise : float, m
+        Scatter of digitised points, or depth of facets.
+    allowed : (n,), m
+        How far it may be smoothed at each point, in its plane.
+    sine : (n,)
+        Sine of the angle between plane and hull, 1 where it is not known, 0.1 at least.
+    depth : float, m
+        How deep facets of the mesh lie inside the hull.
+    moved : float, m
+        What its ends were moved by to lie on boundary curves.
+    corners : tuple of Corner
+        Those kept.
+    suggested : tuple of Corner
+        Those that turn too little and join no knuckle line.
+    """
+
+    line: SliceLine
+    piece: Piece
+    points: FloatArray
+    noise: float
+    allowed: FloatArray
+    sine: FloatArray
+    depth: float = 0.0
+    moved: float = 0.0
+    corners: tuple[Corner, ...] = ()
+    suggested: tuple[Corner, ...] = ()
+
+
+@attrs.frozen(eq=False)
+class KnuckleLine:
+    """A knuckle line: its places on lines of one group.
+
+    Attributes
+    ----------
+    group : str
+        Of the lines it was found on.
+    lines : tuple of str
+        Their names.
+    places : (n, 3), m
+        Where it crosses them.
+    turn_deg : (n,)
+        By how much they turn there.
+    """
+
+    group: str
+    lines: tuple[str, ...]
+    places: FloatArray
+    turn_deg: FloatArray
+
+
+def plane_columns(group: str) -> list[int]:
+    """Give the coordinates that vary on a line of a group."""
+    return [axis for axis in range(3) if axis != AXES.get(group)]
+
+
+def find_features(
+    slices: Slices, rules: FeatureRules | None = None
+) -> tuple[list[PieceFeatures], list[KnuckleLine]]:
+    """Find noise and knuckles of all pieces of all lines.
+
+    Parameters
+    ----------
+    slices : Slices
+        From a mesh or digitised.
+    rules : FeatureRules or None
+        Defaults if None.
+
+    Returns
+    -------
+    list of PieceFeatures
+        In the order of the lines, boundary curves last.
+    list of KnuckleLine
+        By group.
+    """
+    wanted = rules or FeatureRules()
+    found: list[PieceFeatures] = []
+    knuckles: list[KnuckleLine] = []
+    for group in ("sections", "waterlines", "buttocks"):
+        parts = [
+            (line, _bare(line, piece, slices, wanted))
+            for line in slices.group(group)
+            for piece in line.pieces
+        ]
+        seen = [_corners(part, slices.facets, wanted) for _, part in parts]
+        kept, chains = _choose(slices.group(group), [part for _, part in parts], seen, wanted)
+        found += [
+            attrs.evolve(
+                part,
+                corners=tuple(corner for j, corner in enumerate(seen[i]) if (i, j) in kept),
+                suggested=tuple(corner for j, corner in enumerate(seen[i]) if (i, j) not in kept),
+            )
+            for i, (_, part) in enumerate(parts)
+        ]
+        knuckles += chains
+    for line in slices.boundaries:
+        for piece in line.pieces:
+            part = _bare(line, piece, slices, wanted)
+            every = _corners(part, slices.facets, wanted) if part.points.shape[1] == 2 else []
+            strong = tuple(each for each in every if each.turn_deg >= wanted.alone_deg)
+            found.append(attrs.evolve(part, corners=strong))
+    return found, knuckles
+
+
+def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) -> PieceFeatures:
+    """Give a piece in its plane, with its noise."""
+    columns = plane_columns(line.group)
+    if line.group == "boundary":
+        spread = np.ptp(piece.points, axis=0)
+        flat = int(np.argmin(spread))
+        columns = [axis for axis in range(3) if axis != flat or spread[flat] > 1e-3]
+    kept = distinct(piece.points[:, columns], 1e-6)
+    points = piece.points[kept][:, columns]
+    sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
+    local = local_scatter(points, 6)
+    if slices.facets:
+        noise = facet_depth(points)
+        depths = np.minimum(facet_depths(points), 2.0 * noise)
+        waves = np.minimum(rules.smooth_times * local, rules.smooth_most / sine)
+        allowed = np.maximum(1.5 * depths, waves)
+        least = np.maximum(1.5 * noise, rules.smooth_least / sine)
+    else:
+        noise = scatter(points)
+        least = np.full(len(points), max(3.0 * noise, rules.smooth_least))
+        allowed = least
+    return PieceFeatures(line, piece, points, noise, np.maximum(allowed, least), sine, slices.depth)
+
+
+def _corners(part: PieceFeatures, facets: bool, rules: FeatureRules) -> list[Corner]:
+    if part.piece.closed or len(part.points) < 5:
+        return []
+    noise = max(0.5 * part.noise, 5e-4) if facets else part.noise
+    return find_corners(part.points, noise, rules.corner)
+
+
+def _choose(
+    lines: tuple[SliceLine, ...],
+    parts: list[PieceFeatures],
+    seen: list[list[Corner]],
+    rules: FeatureRules,
+) -> tuple[set[tuple[int, int]], list[KnuckleLine]]:
+    """Keep corners that join a knuckle line, and sharp ones."""
+    number = {line.name: i for i, line in enumerate(lines)}
+    merged: list[list[Corner]] = [[] for _ in lines]
+    origin: list[list[tuple[int, int]]] = [[] for _ in lines]
+    for i, part in enumerate(parts):
+        for j, corner in enumerate(seen[i]):
+            merged[number[part.line.name]].append(corner)
+            origin[number[part.line.name]].append((i, j))
+    offsets = np.array([line.offset for line in lines])
+    chains = join_corners(offsets, merged, rules.chain) if len(lines) else []
+    kept = {(i, j) for i, corners in enumerate(seen) for j, corner in enumerate(corners)
+            if corner.turn_deg >= rules.alone_deg}  # fmt: skip
+    found: list[KnuckleLine] = []
+    for chain in chains:
+        if np.mean([merged[i][j].turn_deg for i, j in chain]) < rules.corner.least_deg:
+            continue
+        kept |= {origin[i][j] for i, j in chain}
+        group = lines[0].group
+        places = np.empty((len(chain), 3))
+        places[:, plane_columns(group)] = [merged[i][j].place for i, j in chain]
+        places[:, AXES[group]] = offsets[[i for i, _ in chain]]
+        turns = np.array([merged[i][j].turn_deg for i, j in chain])
+        found.append(KnuckleLine(group, tuple(lines[i].name for i, _ in chain), places, turns))
+    return kept, found

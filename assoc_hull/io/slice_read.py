@@ -1,0 +1,83 @@
+"""A hull from a mesh or from digitised lines, in one call."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from assoc_hull.io.digitised import read_lines
+from assoc_hull.io.digitised_text import is_digitised
+from assoc_hull.io.mesh import read_mesh
+from assoc_hull.io.mesh_file import is_mesh_name
+from assoc_hull.io.offset_units import check_argument
+from assoc_hull.io.slice_net import SliceReport, net_from_slices
+from assoc_hull.io.slice_places import Places
+from assoc_hull.model.state import HullState, Particulars
+
+__all__ = ["holds_lines", "read_slices"]
+
+
+def holds_lines(path: Path) -> bool:
+    """Tell whether a file is a mesh, or holds digitised lines, rather than a table of offsets."""
+    if is_mesh_name(path):
+        return True
+    if not path.is_file():
+        return False
+    head = path.read_bytes()[:4000]
+    return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
+
+
+def read_slices(
+    path: Path,
+    *,
+    length: float | None = None,
+    breadth: float | None = None,
+    draught: float | None = None,
+    stations: Places = 41,
+    waterlines: Places = 20,
+    buttocks: Places = 12,
+    scale: float = 1.0,
+    unit: str = "auto",
+    axes: str = "auto",
+    tolerance: float | None = None,
+) -> tuple[HullState, SliceReport]:
+    """Read a mesh or digitised lines and adopt them.
+
+    Parameters
+    ----------
+    path : Path
+        STL, OBJ, PLY (``.gz``), or CSV or DXF with digitised lines.
+    length, breadth, draught : float or None, m
+        Particulars; by default from the extent of the hull.
+    stations, waterlines, buttocks, scale, unit, axes
+        As for `assoc_hull.io.mesh.slice_mesh`; digitised lines take scale and unit only.
+    tolerance : float or None, m
+        How far an adopted curve may pass its smooth line; by default 5 mm or 3 times the
+        noise, whichever is more.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError, MissingExtraError
+        As for `read_mesh`, `read_lines` and `net_from_slices`.
+    """
+    for name, value in (
+        ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance)
+    ):  # fmt: skip
+        check_argument(name, value)
+    if is_mesh_name(path):
+        slices = read_mesh(
+            path, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
+            unit=unit, axes=axes,
+        )  # fmt: skip
+    else:
+        slices = read_lines(path, scale=scale, unit=unit)
+    size = slices.high - slices.low
+    depth = float(size[2])
+    ship = Particulars(
+        slices.name,
+        float(size[0]) if length is None else length,
+        2.0 * float(slices.high[1]) if breadth is None else breadth,
+        depth,
+        0.5 * depth if draught is None else draught,
+    )
+    state, report = net_from_slices(slices, ship, tolerance)
+    return state, report

@@ -1,0 +1,141 @@
+"""Lines cut from a mesh or digitised: one type for both, before they become a net."""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.errors import UnknownNameError
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.io.offset_report import OffsetReport
+
+__all__ = ["AXES", "Join", "Piece", "SliceLine", "Slices"]
+
+AXES = {"sections": 0, "buttocks": 1, "waterlines": 2}
+"""The coordinate that is constant on a line of each group."""
+
+
+@attrs.frozen(eq=False)
+class Piece:
+    """One connected piece of a line.
+
+    Attributes
+    ----------
+    points : (n, 3), m
+        In order: sections upward, other lines from aft forward.
+    ends : (str, str)
+        What lies under its first and last point: "profile", "deck edge", "transom", another
+        boundary curve, or "loose".
+    closed : bool
+        Whether the last point joins the first again.
+    sine : (n,) or None
+        Sine of the angle between plane and hull at each point, where the hull is known: by its
+        inverse a distance in the plane is larger than the distance from the hull.
+    """
+
+    points: FloatArray
+    ends: tuple[str, str] = ("loose", "loose")
+    closed: bool = False
+    sine: FloatArray | None = None
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.points)
+        if self.sine is not None:
+            freeze(self.sine)
+
+    def reversed(self) -> Piece:
+        """Give the piece the other way round."""
+        sine = None if self.sine is None else self.sine[::-1].copy()
+        return Piece(self.points[::-1].copy(), self.ends[::-1], self.closed, sine)
+
+
+@attrs.frozen(eq=False)
+class SliceLine:
+    """A line, in one piece or several.
+
+    Attributes
+    ----------
+    group, name : str
+        Such as "sections" and "ST 12.5", or "boundary" and "deck edge".
+    offset : float, m
+        Place of its plane; nan for a boundary curve.
+    pieces : tuple of Piece
+        Lowest first, then aftmost first.
+    """
+
+    group: str
+    name: str
+    offset: float
+    pieces: tuple[Piece, ...]
+
+
+@attrs.frozen
+class Join:
+    """Two ends that were joined across a gap.
+
+    Attributes
+    ----------
+    line : str
+        The line.
+    place : (float, float, float), m
+        The middle of the gap.
+    gap : float, m
+        Its width.
+    """
+
+    line: str
+    place: tuple[float, float, float]
+    gap: float
+
+
+@attrs.frozen(eq=False)
+class Slices:
+    """Lines of a hull as points, from a mesh or digitised.
+
+    Attributes
+    ----------
+    name : str
+        Of the hull.
+    lines : tuple of SliceLine
+        Sections, waterlines and buttocks, each group by place.
+    boundaries : tuple of SliceLine
+        Profile, deck edge and edge of the transom, as far as they were found.
+    joins : tuple of Join
+        Every join across a gap.
+    report : OffsetReport
+        What was assumed, mended and found suspicious.
+    facets : bool
+        Whether the points are corners of facets (of a mesh), whose chords lie inside the hull.
+    low, high : (3,), m
+        Extent of the hull.
+    depth : float, m
+        How deep facets of the mesh lie inside the hull, nil for digitised lines.
+    """
+
+    name: str
+    lines: tuple[SliceLine, ...]
+    boundaries: tuple[SliceLine, ...]
+    joins: tuple[Join, ...]
+    report: OffsetReport
+    facets: bool
+    low: FloatArray
+    high: FloatArray
+    depth: float = 0.0
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.low, self.high)
+
+    def group(self, name: str) -> tuple[SliceLine, ...]:
+        """Give the lines of a group, by place."""
+        return tuple(line for line in self.lines if line.group == name)
+
+    def boundary(self, name: str) -> SliceLine | None:
+        """Give a boundary curve, None if there is none of this name."""
+        return next((line for line in self.boundaries if line.name == name), None)
+
+    def __getitem__(self, name: str) -> SliceLine:
+        """Give a line by its name."""
+        every = (*self.lines, *self.boundaries)
+        found = next((line for line in every if line.name == name), None)
+        if found is None:
+            raise UnknownNameError("line", name, tuple(line.name for line in every))
+        return found

@@ -1,0 +1,92 @@
+"""Meshes of hulls with a formula, for tests."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.mesh_file import Triangles, grid_triangles, merge_vertices
+
+L, B, T = 100.0, 10.0, 6.25
+"""Main dimensions of the Wigley hull here, m."""
+
+
+def wigley_y(x: FloatArray, z: FloatArray) -> FloatArray:
+    """Half-breadth of the Wigley hull, m."""
+    return half_breadth(x, z, L, B, T)
+
+
+def wigley_half(nx: int = 81, nz: int = 31) -> Triangles:
+    """Half a Wigley hull to z = T, open at the deck."""
+    x, z = np.meshgrid(np.linspace(0.0, L, nx), np.linspace(0.0, T, nz), indexing="ij")
+    return grid_triangles(np.stack([x, wigley_y(x, z), z], axis=2))
+
+
+def mirrored(mesh: Triangles) -> Triangles:
+    """Both halves of a hull."""
+    other = mesh.xyz * np.array([1.0, -1.0, 1.0])
+    face = np.concatenate([mesh.face, mesh.face[:, ::-1] + len(mesh.xyz)])
+    return merge_vertices(np.concatenate([mesh.xyz, other]), face)
+
+
+def closed_wigley(nx: int = 81, nz: int = 31) -> Triangles:
+    """A whole Wigley hull with a deck."""
+    x, t = np.meshgrid(np.linspace(0.0, L, nx), np.linspace(1.0, -1.0, 9), indexing="ij")
+    y = wigley_y(x, np.full_like(x, T)) * t
+    deck = grid_triangles(np.stack([x, y, np.full_like(x, T)], axis=2))
+    shell = mirrored(wigley_half(nx, nz))
+    face = np.concatenate([shell.face, deck.face[:, ::-1] + len(shell.xyz)])
+    return merge_vertices(np.concatenate([shell.xyz, deck.xyz]), face)
+
+
+def moved(mesh: Triangles, change: Callable[[FloatArray], FloatArray]) -> Triangles:
+    """A mesh with its places changed, the triangles as they were."""
+    return Triangles(change(mesh.xyz), mesh.face.copy())
+
+
+def write(mesh: Triangles, path: Path) -> Path:
+    """Write a mesh in the form that the name of the file tells."""
+    import gzip
+
+    import trimesh
+
+    name = path.name.removesuffix(".gz")
+    data = trimesh.Trimesh(mesh.xyz, mesh.face, process=False).export(
+        file_type=name.rpartition(".")[2]
+    )
+    raw = data.encode() if isinstance(data, str) else bytes(data)
+    path.write_bytes(gzip.compress(raw) if path.suffix == ".gz" else raw)
+    return path
+
+
+A_X, A_Y, A_Z = 50.0, 8.0, 7.0
+"""Half-axes of the ellipsoid, m; its centre at (50, 0, 7)."""
+
+
+def ellipsoid_half(nx: int = 121, nt: int = 41) -> Triangles:
+    """The lower port quarter of an ellipsoid, open at the deck z = 7 m."""
+    u, t = np.meshgrid(np.linspace(0.0, np.pi, nx), np.linspace(0.0, np.pi / 2, nt), indexing="ij")
+    x = A_X - A_X * np.cos(u)
+    y, z = A_Y * np.sin(u) * np.sin(t), A_Z - A_Z * np.sin(u) * np.cos(t)
+    y[:, 0] = 0.0
+    y[[0, -1]] = 0.0
+    return grid_triangles(np.stack([x, y, z], axis=2))
+
+
+def ellipsoid_off(xyz: FloatArray) -> FloatArray:
+    """How far places lie off the ellipsoid, to first order, m."""
+    local = (xyz - [A_X, 0.0, A_Z]) / [A_X, A_Y, A_Z]
+    value = (local**2).sum(axis=1) - 1.0
+    slope = 2.0 * local / [A_X, A_Y, A_Z]
+    return np.asarray(np.abs(value) / np.linalg.norm(slope, axis=1))
+
+
+def wigley_off(xyz: FloatArray) -> FloatArray:
+    """How far places lie off the Wigley hull, to first order, m."""
+    x, y, z = xyz.T
+    h = 1e-5
+    along = (wigley_y(x + h, z) - wigley_y(x - h, z)) / (2 * h)
+    down = (wigley_y(x, z + h) - wigley_y(x, z - h)) / (2 * h)
+    return np.asarray(np.abs(y - wigley_y(x, z)) / np.sqrt(1.0 + along**2 + down**2))

@@ -1,0 +1,107 @@
+"""Digitised lines: what is read, mended and refused."""
+
+import numpy as np
+import pytest
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.digitised import read_lines
+from assoc_hull.io.mesh import slice_mesh
+from assoc_hull.io.slice_types import Slices
+from tests import meshes
+
+
+def as_csv(slices: Slices, mark: str = ",") -> str:
+    """The lines of a hull as text, one row per point."""
+    rows = [mark.join(["line", "piece", "x", "y", "z"])]
+    for line in (*slices.lines, *slices.boundaries):
+        for number, piece in enumerate(line.pieces):
+            rows += [
+                mark.join([line.name, str(number), *(f"{v:.6f}" for v in point)])
+                for point in piece.points.tolist()
+            ]
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("mark", [",", ";", "\t"], ids=["comma", "semicolon", "tab"])
+def test_a_mesh_and_its_digitised_lines_are_alike(mark: str) -> None:
+    """Lines written as text come back as the slices they were: groups, places, ends, points."""
+    cut = slice_mesh(meshes.wigley_half(41, 16), stations=3, waterlines=2, buttocks=1)
+    back = read_lines(as_csv(cut, mark))
+    assert [line.name for line in back.lines] == [line.name for line in cut.lines]
+    for mine, other in zip(back.lines, cut.lines, strict=True):
+        assert mine.group == other.group
+        assert [piece.ends for piece in mine.pieces] == [piece.ends for piece in other.pieces]
+        assert np.allclose(mine.pieces[0].points, other.pieces[0].points, atol=1e-6)
+
+
+def test_pieces_are_joined_where_they_touch() -> None:
+    """A blank row begins another piece; ends within 60 mm are joined, others stay apart."""
+    parts = ["5,0,0|5,1,1", "5,3,4|5,1,1.04", "5,0,9|5,1,9"]
+    rows = ["\n".join(f"ST 1,{point}" for point in part.split("|")) for part in parts]
+    text = "line,x,y,z\n" + "\n\n".join(rows) + "\n"
+    line = read_lines(text)["ST 1"]
+    assert [piece.points[[0, -1], 2].tolist() for piece in line.pieces] == [[0.0, 4.0], [9.0, 9.0]]
+
+
+def test_points_beside_their_plane_are_put_into_it() -> None:
+    """Points up to 20 mm off the plane of their line are repaired, and told."""
+    text = "line,x,y,z\nST 1,5,0,0\nST 1,5.004,1,1\nST 1,5,2,2\n"
+    slices = read_lines(text)
+    assert slices.report.kinds("repairs") == ("plane",)
+    assert slices["ST 1"].pieces[0].points[:, 0].tolist() == [5.0, 5.0, 5.0]
+
+
+def test_millimetres_and_starboard_are_seen() -> None:
+    """Lines in millimetres, drawn to starboard, come as metres to port, and it is told."""
+    text = "line,x,y,z\nWL 1,0,0,1000\nWL 1,50000,-4000,1000\nWL 1,99000,0,1000\n"
+    slices = read_lines(text)
+    assert slices["WL 1"].pieces[0].points[1].tolist() == [50.0, 4.0, 1.0]
+    assert slices.report.kinds("repairs") == ("mirrored",)
+
+
+def test_polylines_of_a_drawing_are_lines() -> None:
+    """DXF: a POLYLINE and an LWPOLYLINE with its elevation, named by their layers."""
+    poly = ["0", "POLYLINE", "8", "ST 2"]
+    for y, z in ((0, 0), (2, 1), (3, 4)):
+        poly += ["0", "VERTEX", "8", "ST 2", "10", "7", "20", str(y), "30", str(z)]
+    light = ["0", "LWPOLYLINE", "8", "WL 1", "38", "1.0"]
+    for x, y in ((0, 0), (7, 2), (9, 0)):
+        light += ["10", str(x), "20", str(y)]
+    rows = [
+        "0",
+        "SECTION",
+        "2",
+        "ENTITIES",
+        *poly,
+        "0",
+        "SEQEND",
+        *light,
+        "0",
+        "ENDSEC",
+        "0",
+        "EOF",
+    ]
+    slices = read_lines("\n".join(rows) + "\n")
+    assert slices["ST 2"].pieces[0].points.tolist() == [[7, 0, 0], [7, 2, 1], [7, 3, 4]]
+    assert slices["WL 1"].pieces[0].points.tolist() == [[0, 0, 1], [7, 2, 1], [9, 0, 1]]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        pytest.param("a,b\n1,2\n", "columns line, x, y, z", id="no columns"),
+        pytest.param("line,x,y,z\n", "no points", id="no points"),
+        pytest.param("line,x,y,z\nST 1,5,0,low\n", "row 2", id="no number"),
+        pytest.param("line,x,y,z\nST 1,5,0\n", "row 2", id="short row"),
+        pytest.param("line,x,y,z\nST 1,5,0,0\n", "one point", id="one point"),
+        pytest.param("line,x,y,z\nST 1,5,0,0\nST 1,6,1,1\n", "no plane", id="no plane"),
+        pytest.param("line,x,y,z\na,5,0,0\na,6,1,1\n", "begin its name", id="unknown family"),
+        pytest.param(
+            "line,x,y,z\nST 1,5,0,0\nST 1,5,1,1\nST 2,5,0,0\nST 2,5,1,1\n", "one plane", id="twins"
+        ),
+    ],
+)
+def test_what_cannot_be_read_is_named(text: str, words: str) -> None:
+    """Each text that holds no lines is refused, with the row and what to do."""
+    with pytest.raises(BadInputError, match=words):
+        read_lines(text)

@@ -1,0 +1,107 @@
+"""From slices of hulls with a formula to smooth lines and a net."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import CurveData, FloatArray
+from assoc_hull.geometry.fairness import inflections
+from assoc_hull.geometry.spline import loft, sample
+from assoc_hull.hull import Hull
+from assoc_hull.io.mesh import read_mesh, slice_mesh
+from assoc_hull.io.mesh_file import Triangles
+from assoc_hull.io.slice_net import net_from_slices, sources_from_slices
+from assoc_hull.model.verify import verify
+from tests import meshes
+
+HULLS = [
+    pytest.param(meshes.wigley_half(81, 21), meshes.wigley_off, id="Wigley, coarse"),
+    pytest.param(meshes.wigley_half(161, 41), meshes.wigley_off, id="Wigley, medium"),
+    pytest.param(meshes.wigley_half(321, 81), meshes.wigley_off, id="Wigley, fine"),
+    pytest.param(meshes.ellipsoid_half(81, 25), meshes.ellipsoid_off, id="ellipsoid, coarse"),
+    pytest.param(meshes.ellipsoid_half(161, 49), meshes.ellipsoid_off, id="ellipsoid, medium"),
+    pytest.param(meshes.ellipsoid_half(321, 97), meshes.ellipsoid_off, id="ellipsoid, fine"),
+]
+
+
+@pytest.mark.parametrize(("mesh", "off"), HULLS)
+def test_smooth_lines_are_the_hull_within_their_band(
+    mesh: Triangles, off: Callable[[FloatArray], FloatArray]
+) -> None:
+    """Each smooth line lies on the hull within its stated band and has no inflection."""
+    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
+    sources, reports, knuckles, _ = sources_from_slices(slices)
+    assert knuckles == []
+    for source, report in zip(sources, reports, strict=True):
+        if source.group == "boundary":
+            continue
+        spline = loft(CurveData.single(source.points, source.kind.tolist()))
+        assert (source.kind == 0).all()
+        assert off(sample(spline, 9)[1]).max() <= report.band
+        assert inflections(spline, source.normal)[0].tolist() == [0]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("mesh", "off"), HULLS)
+def test_the_net_is_the_hull(mesh: Triangles, off: Callable[[FloatArray], FloatArray]) -> None:
+    """The adopted net is consistent and without inflections, its crossings on the hull."""
+    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
+    state, report = net_from_slices(slices)
+    band = max(each.band for each in report.smoothing)
+    rows = state.rows
+    live = state.live("rows")
+    crossings = live[(rows.curve.data[live, 1] >= 0) & ~rows.contact.data[live]]
+    assert off(rows.xyz.data[crossings]).max() <= band + report.tolerance
+    assert report.inflections == (0, 0)
+    assert Hull(state).check() == ()
+    assert list(verify(state)) == []
+
+
+def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:
+    """Lines with 1 mm noise, given as text, are adopted within 3 sigma and without inflections."""
+    import attrs
+
+    from assoc_hull.io.digitised import read_lines
+    from assoc_hull.io.slice_types import Piece, SliceLine, Slices
+    from tests.unit.io.test_digitised import as_csv
+
+    slices = slice_mesh(meshes.wigley_half(401, 81), stations=7, waterlines=4, buttocks=0)
+    draw = np.random.default_rng(7)
+
+    def noisy(line: SliceLine) -> SliceLine:
+        pieces = []
+        for piece in line.pieces:
+            points = piece.points.copy()
+            points[1:-1, 1] += draw.normal(0.0, 1e-3, len(points) - 2)
+            pieces.append(Piece(points, piece.ends))
+        return attrs.evolve(line, pieces=tuple(pieces))
+
+    given: Slices = attrs.evolve(slices, lines=tuple(map(noisy, slices.lines)))
+    state, report = net_from_slices(read_lines(as_csv(given)))
+    assert report.inflections == (0, 0)
+    rows, live = state.rows, state.live("rows")
+    crossings = live[(rows.curve.data[live, 1] >= 0) & ~rows.contact.data[live]]
+    assert meshes.wigley_off(rows.xyz.data[crossings]).max() <= 3e-3
+
+
+def test_one_line_is_no_net() -> None:
+    """Slices with a single line are refused."""
+    slices = slice_mesh(meshes.wigley_half(), stations=1, waterlines=0, buttocks=0)
+    with pytest.raises(BadInputError, match="two or more"):
+        net_from_slices(slices)
+
+
+def test_dtc_is_adopted(data_folder: Path) -> None:
+    """DTC at 10 mm: at most 600 adopted points, 45 inflections more, nothing found by check."""
+    slices = read_mesh(data_folder / "dtc" / "DTC-scaled.stl.gz", scale=59.407)
+    state, report = net_from_slices(slices, tolerance=0.01)
+    hull = Hull(state)
+    gaps = [each.gap for each in hull.crossings.values() if each.gap is not None]
+    assert report.adopted <= 600
+    assert report.inflections[1] <= 45
+    assert len(report.knuckles) >= 1
+    assert np.percentile(gaps, 95) < report.tolerance
+    assert hull.check() == ()
+    assert hull.verify() == ()
