@@ -29,7 +29,7 @@ from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["AdoptionReport", "LineReport", "adopt"]
+__all__ = ["AdoptionReport", "LineReport", "adopt", "where_they_meet"]
 
 
 @attrs.frozen
@@ -111,6 +111,29 @@ def adopt(
     ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
     return state, AdoptionReport(_report(net, thinned), tuple(notes))
+
+
+def where_they_meet(
+    sources: Sequence[LineSource], associations: Sequence[Association]
+) -> tuple[SplineBatch, tuple[Meeting, ...]]:
+    """Find where given lines meet, without adopting them.
+
+    Parameters
+    ----------
+    sources : sequence of LineSource
+        The lines; curves of the answer are numbered in their order.
+    associations : sequence of Association
+        Which groups meet.
+
+    Returns
+    -------
+    SplineBatch, tuple of Meeting
+        The splines through the given points, and their meetings.
+    """
+    state = HullState(Particulars("lines", 1.0, 1.0, 1.0, 1.0), Tolerances())
+    _make_lines(Maker(state, Journal()), sources, associations)
+    reference = loft(_data(sources), list(state.curves.key.data))
+    return reference, tuple(find_meetings(state, reference))
 
 
 def _order(source: LineSource) -> tuple[int, str, float, str, bytes]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["amid", "room", "sharp"]
+__all__ = ["amid", "near", "room", "sharp"]
 
 BoolArray = np.typing.NDArray[np.bool_]
 
@@ -104,6 +104,28 @@ def amid(edges: FloatArray, at: FloatArray, point: int) -> tuple[int, float, flo
     if len(inside):
         point = int(inside[np.argmin(np.abs(at[inside] - target))])
     return point, target, 0.2 * (high - low)
+
+
+def near(edges: FloatArray, at: FloatArray, place: float, spacing: float) -> int:
+    """Give a given point by which a curve can be held at a place; -1 if there is no room.
+
+    Parameters
+    ----------
+    edges : (k,), m
+        Parameters of the defining points, ascending.
+    at : (n,), m
+        Parameters of the given points.
+    place : float, m
+        Parameter of the place.
+    spacing : float, m
+        Least length of an interval.
+    """
+    above = int(np.searchsorted(edges, place).clip(1, len(edges) - 1))
+    low, high = float(edges[above - 1]), float(edges[above])
+    inside = _inside(at, low, high)
+    if high - low < spacing or not len(inside):
+        return -1
+    return int(inside[np.argmin(np.abs(at[inside] - place))])
 
 
 def _inside(at: FloatArray, low: float, high: float) -> np.typing.NDArray[np.int64]:

@@ -13,8 +13,9 @@ from typing import NamedTuple
 import attrs
 import numpy as np
 
-from assoc_hull.edit.dense import amid, room, sharp
+from assoc_hull.edit.dense import amid, near, room, sharp
 from assoc_hull.edit.match import Contact, Meeting
+from assoc_hull.edit.thin_gaps import wide_gaps
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
@@ -76,6 +77,9 @@ class Left:
     beside: float
 
 
+_GAP = 0.4
+"""Densely drawn curves are held so that watched gaps keep below this part of the tolerance."""
+
 _SAME = 1e-4
 """Places closer than this (m) are one place of the net."""
 
@@ -112,7 +116,9 @@ def thin(net: Net) -> Thinned:
     for _ in range(200):
         roles = _roles(work)
         orders = _orders(work, roles)
-        worst, left = _worst(net, orders, work)
+        splines = _loft_orders(net, orders, work)
+        worst, left = _worst(net, splines, orders, work)
+        worst = worst or _wide(net, splines, orders, work, roles)
         if not worst:
             break
         for curve, point in worst:
@@ -306,15 +312,36 @@ def _kind(work: _Thinning, curve: int, index: int) -> tuple[int, FloatArray]:
     return int(PointKind.SMOOTH), np.zeros(3)
 
 
+def _wide(
+    net: Net, splines: SplineBatch, orders: list[list[_Item]], work: _Thinning, roles: list[Role]
+) -> list[tuple[int, int]]:
+    """Give, per curve, a given point to be taken in because a watched gap is wide."""
+    watched = [
+        meeting
+        for meeting, role in zip(net.meetings, roles[len(net.contacts) :], strict=True)
+        if role is Role.WATCHED and all(net.sources[each].dense for each in (meeting.a, meeting.b))
+    ]
+    tolerances = net.state.tolerances
+    pairs = iter(wide_gaps(net.reference, splines, watched, _GAP * tolerances.adoption))
+    found: dict[int, int] = {}
+    for pair in zip(pairs, pairs, strict=True):
+        for curve, at in pair:
+            edges = np.array([item.at for item in orders[curve]])
+            point = near(edges, _knots(work, curve), at, tolerances.adopted_spacing)
+            if point >= 0:
+                found.setdefault(curve, point)
+                break
+    return sorted(found.items())
+
+
 def _worst(
-    net: Net, orders: list[list[_Item]], work: _Thinning
+    net: Net, splines: SplineBatch, orders: list[list[_Item]], work: _Thinning
 ) -> tuple[list[tuple[int, int]], list[Left]]:
     """Give, per curve that passes given points too far off, the worst one to be taken in.
 
     Also given are the points that cannot be: beside a point that defines the curve already a
     second one would only make it turn.
     """
-    splines = _loft_orders(net, orders, work)
     found: list[tuple[int, int]] = []
     left: list[Left] = []
     for curve, source in enumerate(net.sources):

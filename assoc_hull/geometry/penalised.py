@@ -53,7 +53,7 @@ class PenalisedFit:
         from scipy.interpolate import BSpline
 
         self.at, self.data, self.allowed, self.knots = at, data, allowed, knots
-        full = np.concatenate([[knots[0]] * 3, knots, [knots[-1]] * 3])
+        self.full = full = np.concatenate([[knots[0]] * 3, knots, [knots[-1]] * 3])
         span = np.diff(knots)
         mine = span[np.clip(np.searchsorted(knots, at, "right") - 1, 0, len(span) - 1)]
         weight = np.gradient(at) / mine * (allowed.mean() / allowed) ** 2
@@ -76,10 +76,14 @@ class PenalisedFit:
 
     def solve(self, size: float) -> FloatArray:
         """Give the control points for a size of the penalty, (m, d)."""
+        return self.respond(size, self.right)
+
+    def respond(self, size: float, right: FloatArray) -> FloatArray:
+        """Solve the equations with a size of the penalty for another right side, (m, k)."""
         from scipy.linalg import solveh_banded
 
         found: FloatArray = solveh_banded(
-            self.normal + size * self.penalty, self.right, lower=True, check_finite=False
+            self.normal + size * self.penalty, right, lower=True, check_finite=False
         )
         return found
 
@@ -111,18 +115,22 @@ class PenalisedFit:
         shorter = np.minimum(np.append(after[1:], np.inf), np.append(np.inf, after[:-1]))
         return np.asarray(split | (span > 3.9 * shorter))
 
-    def smoothest(self) -> FloatArray:
-        """Give the control points with the largest penalty that stays as near as allowed."""
+    def largest(self) -> float:
+        """Give the largest penalty with which the fit stays as near as allowed."""
         low, high = np.log(self.scale()) - 18.0, np.log(self.scale()) + 25.0
-        best = self.solve(float(np.exp(low)))
         for _ in range(14):
             middle = 0.5 * (low + high)
-            trial = self.solve(float(np.exp(middle)))
-            if self.misfit(trial) <= 1.0:
-                best, low = trial, middle
+            if self.misfit(self.solve(float(np.exp(middle)))) <= 1.0:
+                low = middle
             else:
                 high = middle
-        return best
+        return float(np.exp(low))
+
+    def rows(self, at: FloatArray) -> Any:
+        """Give the sparse matrix from control points to places at lengths within the ends."""
+        from scipy.interpolate import BSpline
+
+        return BSpline.design_matrix(np.clip(at, self.knots[0], self.knots[-1]), self.full, 3)
 
 
 def _differences(full: FloatArray, degree: int, order: int) -> Any:

@@ -24,7 +24,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.penalised import PenalisedFit
 from assoc_hull.geometry.polyline import arc_length, drop_repeats, resample
 
-__all__ = ["Smooth", "local_scatter", "smooth"]
+__all__ = ["Fitted", "Smooth", "fit_line", "local_scatter", "smooth", "straight"]
 
 _LEAST_SPANS, _MOST_SPANS = 8, 300
 
@@ -37,6 +37,8 @@ class Smooth:
     ----------
     points : (k, d), m
         Close enough that a cubic spline through them is the curve.
+    at : (k,), m
+        Lengths along the polyline to which they belong.
     first, last : (d,)
         Unit directions at the ends, along the curve.
     residual : float, m
@@ -46,13 +48,37 @@ class Smooth:
     """
 
     points: FloatArray
+    at: FloatArray
     first: FloatArray
     last: FloatArray
     residual: float
     spans: int
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.points, self.first, self.last)
+        freeze(self.points, self.at, self.first, self.last)
+
+
+@attrs.frozen(eq=False)
+class Fitted:
+    """The fit of a polyline with the size of the penalty, before it is drawn.
+
+    Attributes
+    ----------
+    fit : PenalisedFit
+        The equations.
+    size : float
+        Of the penalty.
+    control : (m, d), m
+        Control points.
+    """
+
+    fit: PenalisedFit
+    size: float
+    control: FloatArray
+
+    def draw(self) -> Smooth:
+        """Give the curve as points."""
+        return _result(self.fit, self.control)
 
 
 def smooth(
@@ -73,13 +99,33 @@ def smooth(
     first, last : (d,) or None
         Given directions at the ends, along the curve.
     """
+    fitted = fit_line(points, tolerance, first, last)
+    return straight(points) if fitted is None else fitted.draw()
+
+
+def straight(points: FloatArray, count: int = 2) -> Smooth:
+    """Give the straight line between the ends of a polyline, as points."""
+    part = np.linspace(0.0, 1.0, count)
+    step = points[-1] - points[0]
+    length = float(np.sqrt((step * step).sum()))
+    ahead = step / max(length, 1e-12)
+    drawn = points[0] + part[:, None] * step
+    return Smooth(drawn, part * length, ahead, ahead.copy(), 0.0, 1)
+
+
+def fit_line(
+    points: FloatArray,
+    tolerance: float | FloatArray,
+    first: FloatArray | None = None,
+    last: FloatArray | None = None,
+) -> Fitted | None:
+    """Fit as `smooth` does, but do not draw; None for fewer than three places."""
     near = np.zeros(len(points)) + tolerance
     line = drop_repeats(points, 1e-6)
     near = near if len(line) == len(points) else np.full(len(line), near.max())
     length = arc_length(line)
     if len(line) < 3:
-        ahead = (line[-1] - line[0]) / max(float(length[-1]), 1e-12)
-        return Smooth(line[[0, -1]].copy(), ahead, ahead.copy(), 0.0, 1)
+        return None
     at, data = _samples(line)
     allowed = np.interp(at, length, near)
     knots = np.linspace(0.0, length[-1], min(_LEAST_SPANS, max(2, len(at) // 3)) + 1)
@@ -92,7 +138,8 @@ def smooth(
         middle = 0.5 * (knots[1:] + knots[:-1])
         knots = np.sort(np.concatenate([knots, middle[split]]))
         fit = PenalisedFit(at, data, allowed, knots, first, last)
-    return _result(fit, fit.smoothest())
+    size = fit.largest()
+    return Fitted(fit, size, fit.solve(size))
 
 
 def _samples(line: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -119,11 +166,12 @@ def _result(fit: PenalisedFit, control: FloatArray) -> Smooth:
     near = np.array([0.06, 0.22])
     first, last = knots[1] - knots[0], knots[-1] - knots[-2]
     ends = np.concatenate([knots[0] + near * first, knots[-1] - near * last])
-    points = curve(np.sort(np.concatenate([knots, middle, ends])))
+    at = np.sort(np.concatenate([knots, middle, ends]))
+    points = curve(at)
     points[0], points[-1] = fit.data[0], fit.data[-1]
     ends = curve(knots[[0, -1]], 1)
     ends = ends / np.linalg.norm(ends, axis=1)[:, None]
-    return Smooth(points, ends[0], ends[1], float(fit.off(control).max()), len(knots) - 1)
+    return Smooth(points, at, ends[0], ends[1], float(fit.off(control).max()), len(knots) - 1)
 
 
 def local_scatter(points: FloatArray, per_span: int = 8) -> FloatArray:

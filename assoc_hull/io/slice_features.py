@@ -39,6 +39,8 @@ class FeatureRules:
         Else within this many times the scatter at the place ...
     smooth_most : float, m
         ... but not within more than this, and 1.5 times the depth of facets.
+    near : float, m
+        A gap of two smooth lines that weighs as much as a datum passed by all that is allowed.
     """
 
     corner: CornerRule = attrs.field(factory=CornerRule)
@@ -49,6 +51,7 @@ class FeatureRules:
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
     smooth_most: float = 1e-2
+    near: float = 2e-3
 
 
 @attrs.frozen(eq=False)

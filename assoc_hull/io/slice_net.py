@@ -33,10 +33,12 @@ from assoc_hull.io.slice_features import (
     PieceFeatures,
     find_features,
 )
+from assoc_hull.io.slice_joint import join_plans
+from assoc_hull.io.slice_plan import plan_piece
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
 from assoc_hull.io.slice_types import Join, Slices
 from assoc_hull.model.source import LineSource
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
@@ -106,17 +108,26 @@ def sources_from_slices(
     parts = [part for part in parts if _is_useful(part)]
     noise = max([slices.depth, *(part.noise for part in parts)])
     allowed = tolerance if tolerance is not None else max(5e-3, 3.0 * noise)
-    rims = [make_source(p, allowed, wanted) for p in parts if p.line.group == "boundary"]
+    rims = [
+        make_source(plan_piece(part, wanted), allowed)
+        for part in parts if part.line.group == "boundary"
+    ]  # fmt: skip
     borders: dict[str, list[SplineBatch]] = {}
     for source, _ in rims:
         borders.setdefault(source.name, []).append(_loft(source))
-    made = [
-        make_source(snap_ends(p, borders, 0.5 * allowed), allowed, wanted)
-        for p in parts
-        if p.line.group != "boundary"
-    ]
+    plans = [
+        plan_piece(snap_ends(part, borders, 0.5 * allowed), wanted)
+        for part in parts if part.line.group != "boundary"
+    ]  # fmt: skip
+    joined = join_plans(plans, _links({plan.part.line.group for plan in plans}), wanted.near)
+    made = [make_source(plan, allowed) for plan in joined]
     made += rims
     return [source for source, _ in made], [each for _, each in made], knuckles, allowed
+
+
+def _links(groups: set[str]) -> list[Association]:
+    """Give the associations between groups that are there."""
+    return [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
 
 
 def _is_useful(part: PieceFeatures) -> bool:
@@ -161,8 +172,7 @@ def net_from_slices(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
         0.5 * float(size[2]),
     )  # fmt: skip
-    groups = {source.group for source in sources}
-    links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
+    links = _links({source.group for source in sources})
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
         slices.report, slices.joins, wanted, allowed,

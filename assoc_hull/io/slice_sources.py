@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.polyline import arc_length
-from assoc_hull.geometry.smooth import smooth
-from assoc_hull.geometry.straight import Run, find_runs
-from assoc_hull.io.slice_features import FeatureRules, PieceFeatures, plane_columns
+from assoc_hull.geometry.smooth import Smooth
+from assoc_hull.io.slice_features import PieceFeatures, plane_columns
+from assoc_hull.io.slice_plan import Plan, in_space, piece_columns, piece_plane
 from assoc_hull.io.slice_types import AXES
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
@@ -53,15 +51,6 @@ class SmoothReport:
     knuckles: int
     tangents: int
     onsets: tuple[tuple[str, float, float, float], ...]
-
-
-@attrs.define(eq=False)
-class _Break:
-    """A place where a piece is split; no direction at a corner."""
-
-    at: float
-    place: FloatArray
-    direction: FloatArray | None
 
 
 _REACH = 0.1
@@ -105,162 +94,57 @@ def snap_ends(
     )
 
 
-def make_source(
-    part: PieceFeatures, tolerance: float, rules: FeatureRules | None = None
-) -> tuple[LineSource, SmoothReport]:
-    """Smooth a piece within its noise, split at its features.
+def make_source(plan: Plan, tolerance: float) -> tuple[LineSource, SmoothReport]:
+    """Draw the smooth curves of a piece as a line that can be adopted.
 
     Parameters
     ----------
-    part : PieceFeatures
-        The piece.
+    plan : Plan
+        The piece, split at its features.
     tolerance : float, m
         How far the adopted curve may pass the smooth one.
-    rules : FeatureRules or None
-        Defaults if None.
 
     Returns
     -------
     LineSource, SmoothReport
     """
-    wanted = rules or FeatureRules()
-    points, at = part.points, arc_length(part.points)
-    breaks = [_Break(corner.at, corner.place, None) for corner in part.corners]
-    runs = _runs(part, breaks, wanted)
-    breaks += [
-        _Break(onset.at, onset.place, run.direction)
-        for run in runs
-        for onset in (run.before, run.after)
-        if onset.kind == "arc" and onset.uncertainty < wanted.onset
-    ]
-    breaks = _apart(breaks, float(at[-1]))
-    straight = [
-        (run.before.at if run.before.kind == "arc" else run.begin, run.after.at)
-        for run in runs
-        if run.before.kind != "gradual" and run.after.kind != "gradual"
-    ]
-    xy, kind, direction, residual = _join(part, breaks, straight)
-    xyz = _in_space(part, xy)
-    way = np.zeros_like(xyz)
-    way[:, _columns(part)] = direction
-    line, sine = part.line, np.interp(arc_length(xy), at, part.sine)
+    part = plan.part
+    drawn = [stretch.draw() for stretch in plan.stretches]
+    xy, kind, direction = _chain(plan, drawn)
+    way = np.zeros((len(xy), 3))
+    way[:, piece_columns(part)] = direction
+    line, sine = part.line, np.interp(arc_length(xy), arc_length(part.points), part.sine)
     # Ends and tangent points of all lines lie on boundary curves, so these are held closer.
     near = tolerance / sine if line.group != "boundary" else np.full(len(xy), 0.2 * tolerance)
     source = LineSource.make(
-        line.group, line.name, xyz, kind=kind.tolist(), direction=way, tolerance=near, dense=True,
-        plane=_plane(part), boundary=BoundaryKind.END if line.group == "boundary" else None,
+        line.group, line.name, in_space(part, xy), kind=kind.tolist(), direction=way,
+        tolerance=near, dense=True, plane=piece_plane(part),
+        boundary=BoundaryKind.END if line.group == "boundary" else None,
     )  # fmt: skip
     onsets = tuple(
         (o.kind, o.at, o.radius, o.uncertainty)
-        for run in runs for o in (run.before, run.after) if o.kind != "end"
+        for run in plan.runs for o in (run.before, run.after) if o.kind != "end"
     )  # fmt: skip
+    residual = max(each.residual for each in drawn)
     band = residual + part.moved + max(part.depth, 2.0 * part.noise)
     report = SmoothReport(
-        line.name, len(points), len(xyz), part.noise, band,
-        residual, int((kind == PointKind.KNUCKLE).sum()), int((kind == PointKind.TANGENT).sum()),
-        onsets,
+        line.name, len(part.points), len(xy), part.noise, band, residual,
+        int((kind == PointKind.KNUCKLE).sum()), int((kind == PointKind.TANGENT).sum()), onsets,
     )  # fmt: skip
     return source, report
 
 
-def _runs(part: PieceFeatures, corners: list[_Break], rules: FeatureRules) -> list[Run]:
-    """Find straight runs between the corners of a plane piece."""
-    if part.points.shape[1] != 2 or part.piece.closed:
-        return []
-    at = arc_length(part.points)
-    edges = [0.0, *(each.at for each in corners), float(at[-1])]
-    found: list[Run] = []
-    for low, high in pairwise(edges):
-        inside = (at >= low - 1e-9) & (at <= high + 1e-9)
-        if inside.sum() < 6:
-            continue
-        first = float(at[inside][0])
-        found += [
-            _shifted(run, first) for run in find_runs(part.points[inside], part.noise, rules.run)
-        ]
-    return found
-
-
-def _shifted(run: Run, by: float) -> Run:
-    """Count lengths from the beginning of the whole piece."""
-    before, after = (attrs.evolve(each, at=each.at + by) for each in (run.before, run.after))
-    return attrs.evolve(run, begin=run.begin + by, end=run.end + by, before=before, after=after)
-
-
-def _apart(breaks: list[_Break], length: float) -> list[_Break]:
-    """Leave out breaks at the ends and tangent points that lie close to another break."""
-    out: list[_Break] = []
-    for each in sorted(breaks, key=lambda b: (b.direction is not None, b.at)):
-        clear = all(abs(each.at - other.at) > 0.3 for other in out)
-        if clear and 0.3 < each.at < length - 0.3:
-            out.append(each)
-    return sorted(out, key=lambda b: b.at)
-
-
-def _join(
-    part: PieceFeatures, breaks: list[_Break], straight: list[tuple[float, float]]
-) -> tuple[FloatArray, np.typing.NDArray[np.int8], FloatArray, float]:
-    """Smooth between the breaks; give points, kinds, directions and the largest residual."""
-    points, at = part.points, arc_length(part.points)
-    ends = [
-        _Break(0.0, points[0], None), *breaks, _Break(float(at[-1]), points[-1], None)
-    ]  # fmt: skip
-    size = points.shape[1]
-    places: list[FloatArray] = []
-    kinds: list[int] = []
-    ways: list[FloatArray] = []
-    worst = 0.0
-    for i, (low, high) in enumerate(pairwise(ends)):
-        inside = (at > low.at + 1e-3) & (at < high.at - 1e-3)
-        mine = np.concatenate([low.place[None], points[inside], high.place[None]])
-        allowed = np.interp([low.at, *at[inside], high.at], at, part.allowed)
-        if any(a - 0.05 <= low.at and high.at <= b + 0.05 for a, b in straight):
-            drawn = mine[0] + np.linspace(0.0, 1.0, 5)[:, None] * (mine[-1] - mine[0])
-        else:
-            fit = smooth(mine, allowed, low.direction, high.direction)
-            drawn, worst = fit.points, max(worst, fit.residual)
-        drawn = drawn if i == 0 else drawn[1:]
-        places.append(drawn)
-        kinds += [int(PointKind.SMOOTH)] * len(drawn)
-        ways += [np.zeros(size)] * len(drawn)
-        if i < len(breaks):
-            corner = high.direction is None
-            kinds[-1] = int(PointKind.KNUCKLE if corner else PointKind.TANGENT)
-            ways[-1] = np.zeros(size) if high.direction is None else high.direction
-    return np.concatenate(places), np.array(kinds, np.int8), np.array(ways), worst
-
-
-def _columns(part: PieceFeatures) -> list[int]:
-    """Give the coordinates in which the points of a piece are given."""
-    if part.line.group != "boundary":
-        return plane_columns(part.line.group)
-    if part.points.shape[1] == 3:
-        return [0, 1, 2]
-    flat = int(np.argmin(np.ptp(part.piece.points, axis=0)))
-    return [axis for axis in range(3) if axis != flat]
-
-
-def _in_space(part: PieceFeatures, xy: FloatArray) -> FloatArray:
-    columns = _columns(part)
-    out = np.empty((len(xy), 3))
-    out[:, columns] = xy
-    for axis in set(range(3)) - set(columns):
-        out[:, axis] = _level(part, axis)
-    return out
-
-
-def _level(part: PieceFeatures, axis: int) -> float:
-    """Give the place of the plane of a piece."""
-    if part.line.group != "boundary":
-        return part.line.offset
-    level = round(float(np.median(part.piece.points[:, axis])), 6)
-    return level + 0.0
-
-
-def _plane(part: PieceFeatures) -> tuple[FloatArray, float] | None:
-    if part.line.group != "boundary":
-        return np.eye(3)[AXES[part.line.group]], part.line.offset
-    if part.points.shape[1] == 3:
-        return None
-    axis = next(iter(set(range(3)) - set(_columns(part))))
-    return np.eye(3)[axis], _level(part, axis)
+def _chain(
+    plan: Plan, drawn: list[Smooth]
+) -> tuple[FloatArray, np.typing.NDArray[np.int8], FloatArray]:
+    """Put the curves of a piece one behind the other: points, kinds and given directions."""
+    places = [each.points if i == 0 else each.points[1:] for i, each in enumerate(drawn)]
+    last = np.cumsum([len(each) for each in places])[:-1] - 1
+    points = np.concatenate(places)
+    kind = np.full(len(points), PointKind.SMOOTH, np.int8)
+    direction = np.zeros_like(points)
+    for i, each in zip(last.tolist(), plan.breaks, strict=True):
+        kind[i] = PointKind.KNUCKLE if each.direction is None else PointKind.TANGENT
+        if each.direction is not None:
+            direction[i] = each.direction
+    return points, kind, direction

@@ -1,0 +1,79 @@
+"""Watched crossings whose curves, thinned, pass each other too far off.
+
+Two densely drawn lines that meet may each keep within its tolerance, one on this side and one
+on the other; the gap between them is then twice as large. Where it exceeds a part of the
+adoption tolerance, the curve that passes its own line farther there needs another point.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+
+import numpy as np
+
+from assoc_hull.edit.match import Meeting
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.spline import derivative
+from assoc_hull.model.gaps import crossing_normals
+
+__all__ = ["wide_gaps"]
+
+
+def wide_gaps(
+    reference: SplineBatch, trial: SplineBatch, meetings: Sequence[Meeting], limit: float
+) -> list[tuple[int, float]]:
+    """Find the curves that need another point because of gaps, the widest first.
+
+    Parameters
+    ----------
+    reference : SplineBatch
+        The lines as given.
+    trial : SplineBatch
+        The curves as they are thinned so far.
+    meetings : sequence of Meeting
+        Crossings that define neither curve.
+    limit : float, m
+        How wide a gap may be.
+
+    Returns
+    -------
+    list of (int, float)
+        A curve and the parameter (m) of the crossing on its reference; the curve that passes
+        its own line farther off comes first, the other of the pair after it.
+    """
+    if not meetings:
+        return []
+    curve = np.array([[each.a, each.b] for each in meetings])
+    at = np.array([each.at for each in meetings])
+    normal = crossing_normals(*(_tangents(reference, curve[:, i], at[:, i]) for i in (0, 1)))
+    off = _off(trial, meetings, normal)
+    apart = np.array([float((each.spots[0] - each.spots[1]) @ n)
+                      for each, n in zip(meetings, normal, strict=True)])  # fmt: skip
+    gap = np.abs(off[:, 0] - off[:, 1] + apart)
+    found: list[tuple[int, float]] = []
+    for i in np.argsort(-gap, kind="stable")[: int((gap > limit).sum())].tolist():
+        first = int(abs(off[i, 1]) >= abs(off[i, 0]))
+        found += [(int(curve[i, j]), float(at[i, j])) for j in (first, 1 - first)]
+    return found
+
+
+def _tangents(reference: SplineBatch, curve: IntArray, at: FloatArray) -> FloatArray:
+    slope = derivative(reference, curve, at)
+    return np.asarray(slope / np.sqrt((slope * slope).sum(axis=1))[:, None])
+
+
+def _off(trial: SplineBatch, meetings: Sequence[Meeting], normal: FloatArray) -> FloatArray:
+    """Give how far each of the two curves lies off its own line along the normal, (k, 2), m."""
+    mine: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    for i, each in enumerate(meetings):
+        mine[each.a].append((i, 0))
+        mine[each.b].append((i, 1))
+    off = np.zeros((len(meetings), 2))
+    for curve, places in mine.items():
+        spots = np.array([meetings[i].spots[side] for i, side in places])
+        away = closest(trial, curve, spots)[1] - spots
+        number = np.array(places)
+        off[number[:, 0], number[:, 1]] = (away * normal[number[:, 0]]).sum(axis=1)
+    return off
