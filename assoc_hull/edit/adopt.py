@@ -16,7 +16,8 @@ import numpy as np
 from assoc_hull.arguments import all_of, instance
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
-from assoc_hull.edit.thin import Left, Net, Thinned, thin
+from assoc_hull.edit.thin import thin
+from assoc_hull.edit.thin_work import Left, Net, Thinned
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, SplineBatch
@@ -220,10 +221,15 @@ def _write(maker: Maker, net: Net, thinned: Thinned) -> list[str]:
 def _left_note(net: Net, left: Left) -> str:
     x, y, z = net.sources[left.curve].points[left.point].tolist()
     name = net.state.lines.name.data[net.state.line_of(left.curve)]
-    return (
+    near = np.broadcast_to(net.sources[left.curve].tolerance, len(net.sources[left.curve].points))
+    over = (
         f"{name} passes the given point ({x:.3f}, {y:.3f}, {z:.3f}) m {1e3 * left.away:.1f} mm "
-        f"off, over its tolerance of {1e3 * net.sources[left.curve].tolerance:g} mm: it lies "
-        f"{1e3 * left.beside:.1f} mm beside a point of the curve, closer than "
+        f"off, over its tolerance of {1e3 * float(near[left.point]):g} mm: "
+    )
+    if left.bends:
+        return over + "a point there would give it an inflection that the given line lacks"
+    return over + (
+        f"it lies {1e3 * left.beside:.1f} mm beside a point of the curve, closer than "
         f"{net.state.tolerances.adopted_spacing:g} m; the lines disagree there, mend the one "
         "that is wrong"
     )

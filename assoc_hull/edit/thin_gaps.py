@@ -45,9 +45,7 @@ def wide_gaps(
     """
     if not meetings:
         return []
-    curve = np.array([[each.a, each.b] for each in meetings])
-    at = np.array([each.at for each in meetings])
-    normal = crossing_normals(*(_tangents(reference, curve[:, i], at[:, i]) for i in (0, 1)))
+    curve, at, normal = _places(reference, meetings)
     off = _off(trial, meetings, normal)
     apart = np.array([float((each.spots[0] - each.spots[1]) @ n)
                       for each, n in zip(meetings, normal, strict=True)])  # fmt: skip
@@ -57,6 +55,16 @@ def wide_gaps(
         first = int(abs(off[i, 1]) >= abs(off[i, 0]))
         found += [(int(curve[i, j]), float(at[i, j])) for j in (first, 1 - first)]
     return found
+
+
+def _places(
+    reference: SplineBatch, meetings: Sequence[Meeting]
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Give curves and parameters, (k, 2), and normals of the hull, (k, 3), of meetings."""
+    curve = np.array([[each.a, each.b] for each in meetings])
+    at = np.array([each.at for each in meetings])
+    one, other = (_tangents(reference, curve[:, i], at[:, i]) for i in (0, 1))
+    return curve, at, crossing_normals(one, other)
 
 
 def _tangents(reference: SplineBatch, curve: IntArray, at: FloatArray) -> FloatArray:

@@ -59,13 +59,13 @@ class Tie:
     offset: float
 
 
-_ROUNDS = 6
+_ROUNDS = 3
 """How often the penalties of curves that pass their data too far off are lowered."""
 
 _WIDE = 1.5
 """Data passed by more than this part of what is allowed are passed too far off."""
 
-_LESS = 0.35
+_LESS = 0.15
 """Factor by which they are lowered."""
 
 
@@ -139,21 +139,21 @@ def _solve(
     The fits are banded and the ties few, so the forces that the ties exert are solved for
     first: a dense system with a row to each tie.
     """
-    matrix = np.diag(np.full(len(offset), near * near))
-    away = -offset
-    free, answers = [], []
-    for each, mine in zip(fits, held, strict=True):
-        control = each.fit.solve(each.size)
-        free.append(control)
-        answers.append(None if mine is None else _answer(each, mine))
-        if mine is None:
-            continue
-        rows, answer = each.fit.rows(mine.at), answers[-1]
-        matrix[np.ix_(mine.tie, mine.tie)] += (rows @ answer) * (mine.way @ mine.way.T)
-        away[mine.tie] += ((rows @ control) * mine.way).sum(axis=1)
+    matrix, away = np.diag(np.full(len(offset), near * near)), -offset
+    free = [each.fit.solve(each.size) for each in fits]
+    answers: list[FloatArray | None] = []
+    for each, control, mine in zip(fits, free, held, strict=True):
+        answer = None if mine is None else _answer(each, mine)
+        answers.append(answer)
+        if mine is not None and answer is not None:
+            rows = each.fit.rows(mine.at)
+            matrix[np.ix_(mine.tie, mine.tie)] += (rows @ answer) * (mine.way @ mine.way.T)
+            away[mine.tie] += ((rows @ control) * mine.way).sum(axis=1)
     force = np.linalg.solve(matrix, away)
     return [
-        control if mine is None else control - answer @ (force[mine.tie][:, None] * mine.way)
+        control
+        if mine is None or answer is None
+        else control - answer @ (force[mine.tie][:, None] * mine.way)
         for control, mine, answer in zip(free, held, answers, strict=True)
     ]
 

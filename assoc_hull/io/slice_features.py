@@ -39,8 +39,15 @@ class FeatureRules:
         Else within this many times the scatter at the place ...
     smooth_most : float, m
         ... but not within more than this, and 1.5 times the depth of facets.
-    near : float, m
-        A gap of two smooth lines that weighs as much as a datum passed by all that is allowed.
+    adopt_least, adopt_least_facets : float, m
+        Least tolerance of adoption, of digitised lines and of a mesh ...
+    adopt_times : float
+        ... else this many times the median noise of the pieces.
+    near_least : float, m
+        A gap of two smooth lines that weighs as much as a datum passed by all that is allowed,
+        at least ...
+    near_times : float
+        ... else this many times the median noise of the pieces.
     """
 
     corner: CornerRule = attrs.field(factory=CornerRule)
@@ -51,7 +58,11 @@ class FeatureRules:
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
     smooth_most: float = 1e-2
-    near: float = 2e-3
+    adopt_least: float = 5e-3
+    adopt_least_facets: float = 1e-2
+    adopt_times: float = 3.0
+    near_least: float = 5e-4
+    near_times: float = 0.8
 
 
 @attrs.frozen(eq=False)

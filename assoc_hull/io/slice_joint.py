@@ -65,9 +65,9 @@ def join_plans(
 
 
 def _numbers(fits: Sequence[Fitted | None]) -> list[int]:
-    """Number the stretches that are fitted; -1 for straight ones."""
-    fitted = np.array([each is not None for each in fits])
-    return np.where(fitted, np.cumsum(fitted) - 1, -1).tolist()
+    """Give each stretch that is fitted its number, -1 to straight ones."""
+    count = iter(range(len(fits)))
+    return [-1 if each is None else next(count) for each in fits]
 
 
 @attrs.frozen(eq=False)
@@ -116,7 +116,7 @@ def _ties(
 
 
 def _unit(slope: FloatArray) -> FloatArray:
-    return slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
+    return np.asarray(slope / np.sqrt((slope * slope).sum(axis=1))[:, None])
 
 
 def _tie(

@@ -59,7 +59,7 @@ class SliceReport:
     tolerance : float, m
         How far an adopted curve may pass its smooth line.
     noise : float, m
-        Of the noisiest piece, or the depth of the facets of the mesh.
+        Median over the pieces; of a mesh, the depth of its facets.
     smoothing : tuple of SmoothReport
         Per piece.
     knuckles : tuple of KnuckleLine
@@ -94,8 +94,8 @@ def sources_from_slices(
     slices : Slices
         From a mesh or digitised.
     tolerance : float or None, m
-        How far an adopted curve may pass its smooth line; by default 5 mm or 3 times the
-        noise, whichever is more.
+        How far an adopted curve may pass its smooth line; by default 3 times the median noise
+        of the pieces, but at least 5 mm, of a mesh 10 mm.
     rules : FeatureRules or None
         Defaults if None.
 
@@ -106,8 +106,9 @@ def sources_from_slices(
     wanted = rules or FeatureRules()
     parts, knuckles = find_features(slices, wanted)
     parts = [part for part in parts if _is_useful(part)]
-    noise = max([slices.depth, *(part.noise for part in parts)])
-    allowed = tolerance if tolerance is not None else max(5e-3, 3.0 * noise)
+    noise = float(np.median([part.noise for part in parts])) if parts else 0.0
+    least = wanted.adopt_least_facets if slices.facets else wanted.adopt_least
+    allowed = max(least, wanted.adopt_times * noise) if tolerance is None else tolerance
     rims = [
         make_source(plan_piece(part, wanted), allowed)
         for part in parts if part.line.group == "boundary"
@@ -119,7 +120,8 @@ def sources_from_slices(
         plan_piece(snap_ends(part, borders, 0.5 * allowed), wanted)
         for part in parts if part.line.group != "boundary"
     ]  # fmt: skip
-    joined = join_plans(plans, _links({plan.part.line.group for plan in plans}), wanted.near)
+    links = _links({plan.part.line.group for plan in plans})
+    joined = join_plans(plans, links, max(wanted.near_least, wanted.near_times * noise))
     made = [make_source(plan, allowed) for plan in joined]
     made += rims
     return [source for source, _ in made], [each for _, each in made], knuckles, allowed
@@ -176,7 +178,7 @@ def net_from_slices(
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
         slices.report, slices.joins, wanted, allowed,
-        max([slices.depth, *(each.noise for each in smoothing)]), tuple(smoothing),
+        float(np.median([each.noise for each in smoothing])), tuple(smoothing),
         tuple(knuckles), adoption, sum(line.adopted for line in adoption.lines),
         _inflections(state, sources),
     )  # fmt: skip

@@ -51,8 +51,8 @@ def read_slices(
     stations, waterlines, buttocks, scale, unit, axes
         As for `assoc_hull.io.mesh.slice_mesh`; digitised lines take scale and unit only.
     tolerance : float or None, m
-        How far an adopted curve may pass its smooth line; by default 5 mm or 3 times the
-        noise, whichever is more.
+        How far an adopted curve may pass its smooth line; by default 3 times the median noise
+        of the pieces, but at least 5 mm, of a mesh 10 mm.
 
     Raises
     ------

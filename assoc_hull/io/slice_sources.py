@@ -53,6 +53,9 @@ class SmoothReport:
     onsets: tuple[tuple[str, float, float, float], ...]
 
 
+_FADE = 400.0
+"""The line follows its end over this many times the move: it turns by a sixth of a degree."""
+
 _REACH = 0.1
 """How far (m) an end may lie from the smooth boundary curve it is on."""
 
@@ -82,6 +85,10 @@ def snap_ends(
         # Where the plane cuts the hull at a small angle, a move along the line is no matter.
         if not len(away) or not least / part.sine[end] < away.min() < _REACH:
             continue
+        step = places[int(away.argmin())] - part.points[end]
+        far = arc_length(part.points) if end == 0 else arc_length(part.points[::-1])[::-1]
+        part_way = np.maximum(1.0 - far / (_FADE * away.min()), 0.0)
+        points += (part_way * part_way * (3.0 - 2.0 * part_way))[:, None] * step
         points[end] = places[int(away.argmin())]
         most = max(most, float(away.min()))
         # Points that the end has come close to would make the line turn back.
