@@ -23,6 +23,7 @@ from assoc_hull.edit.thin_work import (
     Thinned,
     Work,
     add_point,
+    is_thinned,
     knots_of,
     loft_orders,
     thinned_at,
@@ -55,8 +56,36 @@ def thin(net: Net) -> Thinned:
             break
         for curve, point in worst:
             _take_in(work, curve, point, orders[curve])
+    orders = [_spread(work, curve, order) for curve, order in enumerate(orders)]
     orders, more = polish(work, orders)
     return _outcome(work, roles, orders, [*left, *more])
+
+
+def _spread(work: Work, curve: int, order: list[Item]) -> list[Item]:
+    """Leave out adopted points of a dense curve that stand beside a crossing.
+
+    A crossing may have come to define the curve after the point was adopted.
+    """
+    if not work.net.sources[curve].dense:
+        return order
+    first, last = len(work.net.contacts), work.fixed_count
+    held = np.array([item.at for item in order if first <= item.number < last])
+    if not len(held):
+        return order
+    spacing = work.net.state.tolerances.adopted_spacing
+
+    def crowded(item: Item) -> bool:
+        if item.number < last:
+            return False
+        point = work.points[item.number - last]
+        free = point.kind == PointKind.SMOOTH and not point.placed
+        return (
+            free
+            and item not in (order[0], order[-1])
+            and float(np.abs(held - item.at).min()) < spacing
+        )
+
+    return [item for item in order if not crowded(item)]
 
 
 def _outcome(work: Work, roles: list[Role], orders: list[list[Item]], left: list[Left]) -> Thinned:
@@ -193,7 +222,7 @@ def _take_in(work: Work, curve: int, point: int, order: list[Item]) -> None:
         edges = np.array([item.at for item in order])
         point, target, reach = amid(edges, knots_of(work, curve), point)
         for item in sorted(work.items[curve], key=lambda each: abs(each.at - target)):
-            thinned = item.number < work.fixed_count and item.number not in work.chosen[curve]
+            thinned = is_thinned(work, curve, item)
             if thinned and abs(item.at - target) < reach:
                 crossing = item.number
                 break

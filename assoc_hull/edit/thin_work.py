@@ -193,11 +193,21 @@ def knots_of(work: Work, curve: int) -> FloatArray:
     return reference.knot[int(reference.start[curve]) : int(reference.start[curve + 1])]
 
 
+def is_thinned(work: Work, curve: int, item: Item) -> bool:
+    """Tell whether an item is a crossing left out for its spacing alone.
+
+    One that meets the other's plane at a small angle may define the curve under no rule: it
+    slides along the hull by metres where the hull moves by millimetres.
+    """
+    steep = item.angle_deg >= work.net.state.tolerances.transversal_deg
+    return steep and item.number < work.fixed_count and item.number not in work.chosen[curve]
+
+
 def thinned_at(work: Work, curve: int, point: int) -> int | None:
     """Give the number of the crossing at a given point that does not define the curve."""
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
-        near = item.number < work.fixed_count and item.number not in work.chosen[curve]
+        near = is_thinned(work, curve, item)
         if near and float(np.abs(xyz_of(work, item.number) - place).max()) < SAME:
             return item.number
     return None

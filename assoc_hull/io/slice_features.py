@@ -57,7 +57,7 @@ class FeatureRules:
     onset: float = 0.1
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
-    smooth_most: float = 1e-2
+    smooth_most: float = 2e-2
     adopt_least: float = 5e-3
     adopt_least_facets: float = 1e-2
     adopt_times: float = 3.0
