@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
+from assoc_hull.edit.field import on_flat
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -67,7 +68,7 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
     found = [
         row
-        for row in np.flatnonzero(live & ~rows.contact.data).tolist()
+        for row in np.flatnonzero(live & ~rows.contact.data & ~on_flat(hull.state)).tolist()
         if tuple(family(hull, int(c)) for c in rows.curve.data[row]) == pair
         and abs(rows.xyz.data[row, 1] - half) > 1e-9
         and rows.xyz.data[row, 2] > 1e-9

@@ -50,7 +50,11 @@ def test_an_edit_changes_only_what_it_reaches(dtc: ah.Hull) -> None:
 
 
 def test_an_edit_lofts_only_what_it_must(dtc: ah.Hull) -> None:
-    """I3: the curves of a brute-force walk of the tables, each once; a pass does nothing twice."""
+    """I3: the curves of a brute-force walk of the tables, each once; a pass does nothing twice.
+
+    In a field of several sub-steps a point may come back to its old bits: no curve that is
+    lofted besides has then changed.
+    """
     with passes() as heard:
         for step in walk(dtc, 3, STEPS):
             report, wanted = step.report, relofted(step.before, dtc)
@@ -58,7 +62,9 @@ def test_an_edit_lofts_only_what_it_must(dtc: ah.Hull) -> None:
             assert wanted <= set(report.relofted)
             assert all(len(np.unique(each.evaluated)) == len(each.evaluated) for each in heard)
             if quiet(report):
-                assert wanted == set(report.relofted)
+                besides, now = set(report.relofted) - wanted, snapshot(dtc).curves
+                assert len(heard) > 1 or not besides
+                assert all(now[key] == step.before.curves[key] for key in besides)
                 seeds = dtc.document.history[-1].seeds.tolist()
                 moved = {dtc.state.rows.key.data[node >> 1] for node in seeds}
                 assert wanted <= closure(dtc, moved)
