@@ -144,13 +144,13 @@ def reshape(
     return act
 
 
-def reshape_mixed(hull: ah.Hull, at: list[int], amount: float) -> Act:
+def reshape_mixed(hull: ah.Hull, at: list[int], amount: float, fade: tuple[float, float]) -> Act:
     """Re-shape through each place the curve of one of its two families, turn about."""
     turn = {row: i % 2 for i, row in enumerate(at)}
 
     def act(edit: Edit, row: int) -> None:
         curve = int(hull.state.rows.curve.data[row, turn[row]])
-        reshape(hull, family(hull, curve), amount)(edit, row)
+        reshape(hull, family(hull, curve), amount, fade)(edit, row)
 
     return act
 

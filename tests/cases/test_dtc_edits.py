@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import attrs
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ from tests.cases import places
 
 PLACES = 48
 SEED = 1
+REACH = (20.0, 8.0)
+"""How far pulls reach and re-shapes fade, along the length and the girth, m."""
 
 LEAST_ACCEPTED = {
     "drag 5 mm": 46, "drag 20 mm": 44, "drag 50 mm": 40, "pull 20 mm": 47, "pull 50 mm": 45,
@@ -24,14 +28,20 @@ MOST_INFLECTIONS = {
 
 
 def _cases(hull: ah.Hull, at: list[int]) -> dict[str, places.Act]:
-    """Drags are pinned; pulls reach 20 x 8 m; re-shapes take the three families turn about."""
-    cases = {f"drag {1e3 * amount:.0f} mm": places.drag(hull, amount) for amount in (0.005, 0.02)}
-    cases["drag 50 mm"] = places.drag(hull, 0.05)
-    for amount in (0.02, 0.05):
-        cases[f"pull {1e3 * amount:.0f} mm"] = places.pull(hull, amount)
-    for amount in (0.02, 0.05):
-        cases[f"re-shape {1e3 * amount:.0f} mm"] = places.reshape_mixed(hull, at, amount)
-    return cases
+    """Drags are pinned; re-shapes take the three families turn about."""
+    acts: dict[str, tuple[tuple[float, ...], Callable[[float], places.Act]]] = {
+        "drag": ((0.005, 0.02, 0.05), lambda amount: places.drag(hull, amount)),
+        "pull": ((0.02, 0.05), lambda amount: places.pull(hull, amount, REACH)),
+        "re-shape": (
+            (0.02, 0.05),
+            lambda amount: places.reshape_mixed(hull, at, amount, REACH),
+        ),
+    }
+    return {
+        f"{kind} {1e3 * amount:.0f} mm": act(amount)
+        for kind, (amounts, act) in acts.items()
+        for amount in amounts
+    }
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +123,7 @@ def session(dtc: ah.Hull) -> Session:
         row, amount = int(rng.choice(rows)), rng.uniform(0.02, 0.05) * rng.choice((-1.0, 1.0))
         try:
             with dtc.edit("pull") as edit:
-                places.pull(dtc, float(amount))(edit, row)
+                places.pull(dtc, float(amount), REACH)(edit, row)
         except ah.RefusedEditError:
             accepted.append(False)
             continue
