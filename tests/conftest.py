@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull, examples
+from tests.cases.dtc import read_dtc
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -53,3 +54,9 @@ def series60_70() -> Hull:
 def bulk_carrier() -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
     return examples.bulk_carrier_207k()
+
+
+@pytest.fixture(scope="session")
+def dtc(data_folder: Path) -> Hull:
+    """The DTC container ship at 10 mm, from its mesh; a test that edits it undoes its edits."""
+    return read_dtc(data_folder)

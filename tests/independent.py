@@ -282,18 +282,24 @@ def relofted(before: Snapshot, hull: ah.Hull) -> set[str]:
 def closure(hull: ah.Hull, points: set[str]) -> set[str]:
     """Give the curves that a change of points can reach, by a walk of the role table."""
     state, rows = hull.state, hull.state.rows
-    number = {rows.key.data[row]: row for row in state.live("rows").tolist()}
-    front, seen = [number[key] for key in sorted(points)], set[int]()
-    curves: set[int] = set()
+    live = state.live("rows").tolist()
+    driven: dict[int, list[int]] = {}
+    riding: dict[int, list[int]] = {}
+    for row in live:
+        driven.setdefault(_driver(state, row), []).append(row)
+        for anchor in rows.anchor.data[row].tolist():
+            riding.setdefault(anchor, []).append(row)
+    front = [row for row in live if rows.key.data[row] in points]
+    seen, curves = set[int](), set[int]()
     while front:
         row = front.pop()
         if row in seen:
             continue
         seen.add(row)
-        front += [each for each in number.values() if row in rows.anchor.data[each]]
+        front += riding.get(row, [])
         for curve in _defined_by(state, row) - curves:
             curves.add(curve)
-            front += [each for each in number.values() if _driver(state, each) == curve]
+            front += driven.get(curve, [])
     return {state.curves.key.data[curve] for curve in curves}
 
 
@@ -306,8 +312,10 @@ def _defined_by(state: HullState, row: int) -> set[int]:
     return {Role.SHARED: {a, b}, Role.DRIVES_A: {a}, Role.DRIVES_B: {b}, Role.WATCHED: set()}[role]
 
 
-def _driver(state: HullState, row: int) -> int | None:
+def _driver(state: HullState, row: int) -> int:
+    """Which curve a point is computed from, from its sort and role alone; -1 if from none."""
     a, b = state.rows.curve.data[row].tolist()
     if state.rows.sort.data[row] != Sort.CROSSING:
-        return None
-    return {Role.DRIVES_A: b, Role.DRIVES_B: a}.get(Role(int(state.rows.role.data[row])))
+        return -1
+    drivers: dict[Role, int] = {Role.DRIVES_A: b, Role.DRIVES_B: a}
+    return drivers.get(Role(int(state.rows.role.data[row])), -1)

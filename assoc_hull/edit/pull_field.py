@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.field import Field, FieldContext, Shift, bell, move_normal
+from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Role, Sort, State
@@ -104,9 +105,34 @@ def unreached(state: HullState, fields: Sequence[Field], pinned: Collection[int]
         return
     reached = pull.reached(state)
     if abs(reached - pull.amount) > _NEARLY * abs(pull.amount):
-        name = "" if driver < 0 else f", {state.lines.name.data[state.line_of(driver)]} drives it"
         yield (
             f"{where} came {1e3 * reached:.1f} mm along the normal where {1e3 * pull.amount:.1f} "
-            f"mm were asked{name}: placed points, ends and flats beside it stay; pull one of "
-            "the points that can move, by less, or with another radius"
+            f"mm were asked{_what_held(state, pull)}"
         )
+
+
+def _what_held(state: HullState, pull: Pull) -> str:
+    """Say why a point did not come where it was pulled, and what to do."""
+    driver = int(state.rows.driver.data[pull.row])
+    if driver < 0 and _slides(state, pull):
+        return (
+            ": it is free almost along the hull only, so it stays and dents the hull; make it "
+            "watched (edit.set_role), or pull another point"
+        )
+    name = "" if driver < 0 else f", {state.lines.name.data[state.line_of(driver)]} drives it"
+    return (
+        f"{name}: placed points, ends and flats beside it stay; pull one of the points that can "
+        "move, by less, or with another radius"
+    )
+
+
+def _slides(state: HullState, pull: Pull) -> bool:
+    """Tell whether fields leave the pulled point alone, as the hull was or as it is now."""
+    if state.rows.sort.data[pull.row] != Sort.CROSSING:
+        return False
+    if state.rows.role.data[pull.row] == Role.WATCHED:
+        return False
+    normal = np.stack([pull.normal, hull_normals(state)[pull.row]])
+    along = free_normals(state, np.array([pull.row, pull.row]), normal)
+    least = float(np.sqrt((along * along).sum(axis=1)).min())
+    return least < state.tolerances.field_normal

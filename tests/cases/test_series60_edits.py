@@ -8,7 +8,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.normals import hull_normals
 from assoc_hull.model.handles import Point
-from tests.cases import series60_places as places
+from tests.cases import places
 
 PLACES = 24
 SEED = 1
@@ -41,9 +41,7 @@ def table(request: pytest.FixtureRequest, series60_70: ah.Hull) -> list[places.R
         at = places.places(series60_70, pairs, PLACES, request.param)
         rows.append(places.run(series60_70, kind, act, at))
     assert series60_70.fingerprint == before
-    print("\n" + "\n".join([places.HEAD, *map(str, rows)]))
-    for row in rows:
-        print("\n".join(f"  refused: {reason}" for reason in row.refused))
+    print(places.table(rows))
     return rows
 
 
@@ -56,6 +54,7 @@ def test_at_least_22_of_24_edits_of_each_kind_are_accepted(table: list[places.Ro
 def test_no_accepted_edit_leaves_a_gap_over_its_limit(table: list[places.Row]) -> None:
     """The limit of a watched gap is 10 mm here: twice the adoption tolerance."""
     assert max(row.largest_gap for row in table) <= 0.010
+    assert [row.kind for row in table if row.wide] == []
 
 
 def test_fields_add_at_most_5_inflections_in_the_mean(table: list[places.Row]) -> None:

@@ -14,7 +14,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.handles import Curve
-from tests.cases import series60_places as places
+from tests.cases import places
 from tests.independent import relofted, snapshot
 
 SEED = 1

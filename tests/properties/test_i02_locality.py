@@ -12,7 +12,7 @@ from assoc_hull.edit.field import FieldContext, Shift
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.state import HullState
-from tests.cases import series60_places as places
+from tests.cases import places
 from tests.independent import Snapshot, relofted, snapshot
 from tests.net_strategies import (
     SHAPES,

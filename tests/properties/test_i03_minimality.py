@@ -14,7 +14,7 @@ from assoc_hull.edit import work
 from assoc_hull.edit.report import EditReport
 from assoc_hull.graph import run as engine
 from assoc_hull.graph.run import Pass
-from tests.cases import series60_places as places
+from tests.cases import places
 from tests.independent import closure, relofted, snapshot
 from tests.net_strategies import (
     SHAPES,

@@ -28,7 +28,7 @@ from assoc_hull.model import network
 from assoc_hull.model.family import State
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import HullState
-from tests.cases import series60_places as places
+from tests.cases import places
 from tests.independent import closure, curve_bits, snapshot
 from tests.net_strategies import live_points
 from tests.properties.test_i03_minimality import passes

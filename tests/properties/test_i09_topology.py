@@ -131,6 +131,35 @@ def order_along(state: HullState, rows: list[int], curve: int, other: int) -> li
     return sorted(rows, key=at)
 
 
+Orders = dict[tuple[str, str], list[str]]
+
+
+def orders(hull: ah.Hull) -> Orders:
+    """Give the crossings of curves that cross more than once, in order along one and the other.
+
+    Around a bulb and its neck the two orders may differ.
+    """
+    state, found = hull.state, Orders()
+    pairs: dict[tuple[int, int], list[int]] = {}
+    for row in state.live("rows").tolist():
+        a, b = state.rows.curve.data[row].tolist()
+        if state.rows.sort.data[row] == Sort.CROSSING and not state.rows.contact.data[row]:
+            pairs.setdefault((a, b), []).append(row)
+    name, key = state.curves.key.data, state.rows.key.data
+    for (a, b), rows in pairs.items():
+        for curve, other in ((a, b), (b, a)) if len(rows) > 1 else ():
+            along = order_along(state, rows, curve, other)
+            found[name[curve], name[other]] = [key[row] for row in along]
+    return found
+
+
+def assert_orders_kept(before: Orders, hull: ah.Hull) -> None:
+    """Crossings that were there before and are there still follow one another as they did."""
+    for pair, now in orders(hull).items():
+        old = before.get(pair, [])
+        assert [key for key in now if key in old] == [key for key in old if key in now], pair
+
+
 @settings(max_examples=25)
 @given(hulls(), tasks(ROUGH, largest=0.8, most=4))
 def test_births_and_deaths_are_reported_and_ids_never_come_back(

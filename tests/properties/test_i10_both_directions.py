@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import assoc_hull as ah
 from assoc_hull.model.handles import Point
-from tests.cases import series60_places as places
+from tests.cases import places
 from tests.net_strategies import POOL, fresh, live_points
 
 
@@ -112,10 +112,9 @@ def test_most_ways_are_quiet() -> None:
     assert quiet >= 0.75 * POOL
 
 
-def test_both_directions_on_series_60(series60_70: ah.Hull) -> None:
-    """Through the section and through the waterline; the way back is exact."""
-    hull = series60_70
-    rows = places.places(hull, places.PAIRS, 6, 4)
+def assert_both_directions(hull: ah.Hull, count: int, seed: int) -> None:
+    """Set values at seeded places through the first and the second handles, and go back."""
+    rows = places.places(hull, places.PAIRS, count, seed)
     start, found = hull.fingerprint, set[str]()
     keys = [hull.state.rows.key.data[row] for row in rows]
     home = {
@@ -131,3 +130,8 @@ def test_both_directions_on_series_60(series60_70: ah.Hull) -> None:
         assert hull.fingerprint == start
     assert len(found) == 1
     hull.undo(len(hull.history))
+
+
+def test_both_directions_on_series_60(series60_70: ah.Hull) -> None:
+    """Through the section and through the waterline; the way back is exact."""
+    assert_both_directions(series60_70, 6, 4)

@@ -99,6 +99,23 @@ def test_a_pull_that_cannot_reach_is_refused_with_both_numbers() -> None:
     assert "ST 3 drives it" in message
 
 
+def test_a_pull_of_a_point_that_slides_along_the_hull_says_so() -> None:
+    """A waterline and a buttock made to cross amidships by a role; watched, it can be pulled."""
+    hull = fresh(2)
+    point = hull.crossings["BTK 1.712 x WL 5.014 #2"].points[0]
+    with hull.edit("role") as edit:
+        edit.set_role(point, "shared")
+    message = refused(
+        hull, lambda edit: edit.pull(point, 0.02, RADIUS), ah.RefusedEditError, "report"
+    )
+    assert "came 0.0 mm along the normal where 20.0 mm were asked" in message
+    assert "it is free almost along the hull only" in message
+    assert "edit.set_role" in message
+    with hull.edit("role") as edit:
+        edit.set_role(point, "watched")
+    assert pulled(hull, point, 0.02)[1] == pytest.approx(0.02, rel=0.01)
+
+
 def test_pulls_of_several_points_add() -> None:
     """Where two fields overlap neither point is asked to be where one of them alone pulls."""
     hull = fresh(4)

@@ -1,4 +1,4 @@
-"""Seeded places on Series 60, and the edits that are tried at them."""
+"""Seeded places on a ship, the edits that are tried at them, and a table of how they went."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
+from assoc_hull.edit.field import on_flat
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -22,7 +23,11 @@ Act = Callable[[Edit, int], None]
 
 @attrs.frozen
 class Row:
-    """One line of the table of edits."""
+    """One line of the table of edits.
+
+    `relofts` and `inflections` are means over the accepted edits, `mended` counts curves that
+    were given a point, `wide` gaps that are over their limit after an accepted edit.
+    """
 
     kind: str
     places: int
@@ -30,6 +35,7 @@ class Row:
     refused: tuple[str, ...]
     relofts: float
     largest_gap: float
+    wide: int
     mended: int
     inflections: float
     folds: int
@@ -37,12 +43,18 @@ class Row:
     def __str__(self) -> str:
         return (
             f"{self.kind:24s} {self.accepted:3d}/{self.places:<3d} {self.relofts:8.1f} "
-            f"{1e3 * self.largest_gap:8.2f} {self.mended:7d} {self.inflections:11.2f} "
-            f"{self.folds:6d}"
+            f"{1e3 * self.largest_gap:8.2f} {self.wide:5d} {self.mended:7d} "
+            f"{self.inflections:11.2f} {self.folds:6d}"
         )
 
 
-HEAD = "edit                     accepted re-lofts   gap mm  mended inflections  folds"
+HEAD = "edit                     accepted re-lofts   gap mm  over  mended inflections  folds"
+
+
+def table(rows: list[Row]) -> str:
+    """Put lines of the table together, with the reasons of all refusals."""
+    told = [f"  {row.kind} refused: {reason}" for row in rows for reason in row.refused]
+    return "\n".join(["", HEAD, *map(str, rows), *told])
 
 
 def family(hull: ah.Hull, curve: int) -> str:
@@ -56,7 +68,7 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
     found = [
         row
-        for row in np.flatnonzero(live & ~rows.contact.data).tolist()
+        for row in np.flatnonzero(live & ~rows.contact.data & ~on_flat(hull.state)).tolist()
         if tuple(family(hull, int(c)) for c in rows.curve.data[row]) == pair
         and abs(rows.xyz.data[row, 1] - half) > 1e-9
         and rows.xyz.data[row, 2] > 1e-9
@@ -132,6 +144,26 @@ def reshape(
     return act
 
 
+def reshape_mixed(hull: ah.Hull, at: list[int], amount: float, fade: tuple[float, float]) -> Act:
+    """Re-shape through each place the curve of one of its two families, turn about."""
+    turn = {row: i % 2 for i, row in enumerate(at)}
+
+    def act(edit: Edit, row: int) -> None:
+        curve = int(hull.state.rows.curve.data[row, turn[row]])
+        reshape(hull, family(hull, curve), amount, fade)(edit, row)
+
+    return act
+
+
+def over_limit(hull: ah.Hull) -> IntArray:
+    """Give the watched crossings whose gap is over its limit."""
+    rows = hull.state.rows
+    watched = rows.alive.data & (rows.sort.data == Sort.CROSSING)
+    watched &= rows.role.data == Role.WATCHED
+    found: IntArray = np.flatnonzero(watched & (rows.gap.data > rows.limit.data))
+    return found
+
+
 def folded(hull: ah.Hull, names: tuple[str, ...]) -> int:
     """Count the places where re-lofted curves turn back on themselves."""
     number = {key: i for i, key in enumerate(hull.state.curves.key.data)}
@@ -141,7 +173,7 @@ def folded(hull: ah.Hull, names: tuple[str, ...]) -> int:
 def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
     """Try an edit at every place, each from the same hull; undo what was accepted."""
     refused: list[str] = []
-    counts, bent = np.zeros(4), 0
+    lofted, gap, wide, mended, bent, more = 0, 0.0, 0, 0, 0, 0
     for row in at:
         try:
             with hull.edit(kind) as edit:
@@ -151,13 +183,13 @@ def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
             continue
         report = edit.report
         assert report is not None
-        more = sum(count for _, count in report.inflections)
-        counts += [len(report.relofted), 0.0, len(report.mended), more]
-        counts[1] = max(counts[1], report.largest_gap)
+        lofted, mended = lofted + len(report.relofted), mended + len(report.mended)
+        gap, wide = max(gap, report.largest_gap), wide + len(over_limit(hull))
+        more += sum(count for _, count in report.inflections)
         bent += folded(hull, report.relofted)
         hull.undo()
-    done = max(1, len(at) - len(refused))
+    accepted = len(at) - len(refused)
+    done = max(1, accepted)
     return Row(
-        kind, len(at), len(at) - len(refused), tuple(refused), counts[0] / done, counts[1],
-        int(counts[2]), counts[3] / done, bent,
-    )  # fmt: skip
+        kind, len(at), accepted, tuple(refused), lofted / done, gap, wide, mended, more / done, bent
+    )
