@@ -1,0 +1,62 @@
+"""What the adoption of a real hull promises: the DTC container ship, from its mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import assoc_hull as ah
+from assoc_hull.geometry.curves import PointKind
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.gaps import tangents
+
+SPACING = 0.2
+"""Adopted points keep this far from crossings, along the curve, m."""
+
+
+def test_watched_gaps_are_4_mm_at_p95_and_nothing_is_found(dtc: ah.Hull) -> None:
+    """Lines of three families, smoothed jointly, meet; check and verify are clean."""
+    gaps = [each.gap for each in dtc.crossings.values() if each.gap is not None]
+    print(f"\n{len(gaps)} watched gaps, p95 {1e3 * np.percentile(gaps, 95):.2f} mm")
+    assert len(gaps) > 100
+    assert np.percentile(gaps, 95) <= 0.004
+    assert dtc.check() == ()
+    assert dtc.verify() == ()
+
+
+def test_at_most_600_points_are_adopted(dtc: ah.Hull) -> None:
+    """Points that no crossing holds, of all curves."""
+    rows, live = dtc.state.rows, dtc.state.live("rows")
+    assert int((rows.sort.data[live] == Sort.ADOPTED).sum()) <= 600
+
+
+def test_only_steep_crossings_define_a_curve(dtc: ah.Hull) -> None:
+    """The role rule asks for 15 degrees with the plane of the partner, whatever was re-admitted.
+
+    A degree is left for the curve that came to differ from the line the rule looked at.
+    """
+    state = dtc.state
+    rows, live = state.rows, state.live("rows")
+    crossing = live[(rows.curve.data[live] >= 0).all(axis=1) & ~rows.contact.data[live]]
+    seen = 0
+    for side, driven in ((0, Role.DRIVES_A), (1, Role.DRIVES_B)):
+        mine = crossing[np.isin(rows.role.data[crossing], [Role.SHARED, driven])]
+        planes = np.array([state.line_of(c) for c in rows.curve.data[mine, 1 - side].tolist()])
+        along = tangents(state, rows.curve.data[mine, side], rows.parameter.data[mine, side])
+        sine = np.abs((along * state.lines.normal.data[planes]).sum(axis=1))
+        assert np.degrees(np.arcsin(sine)).min() > 14.0
+        seen += len(mine)
+    assert seen > 2000
+
+
+def test_adopted_points_keep_clear_of_crossings(dtc: ah.Hull) -> None:
+    """A drag of 50 mm at a crossing shall not fold the curve at the point beside it."""
+    state, rows = dtc.state, dtc.state.rows
+    for curve in state.live("curves").tolist():
+        own = state.curves.rows.data[curve]
+        knot = state.curves.spline.data[curve].knot
+        both = (rows.curve.data[own] >= 0).all(axis=1) & ~rows.contact.data[own]
+        smooth = (rows.sort.data[own] == Sort.ADOPTED) & (rows.kind.data[own, 0] == PointKind.SMOOTH)
+        smooth[[0, -1]] = False
+        if both.any() and smooth.any():
+            beside = np.abs(knot[smooth][:, None] - knot[both]).min(axis=1)
+            assert beside.min() > 0.9 * SPACING
