@@ -139,14 +139,13 @@ def _adopt_slices(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], 
     )
     hull = Hull(state)
     hull.adoption = report.adoption
-    facts = {field: getattr(report, field) for field in _FACTS}
+    totals = {"adopted": report.adopted, "inflections": report.inflections}
+    facts = _SCHEMA | plain(report) | totals
     return hull, facts, slice_words(hull.particulars.name, report)
 
 
-_FACTS = (
-    "slices", "joins", "rules", "tolerance", "noise", "smoothing", "knuckles", "adoption",
-    "adopted", "inflections",
-)  # fmt: skip
+_SCHEMA = {"format": "assoc-hull report", "schema": 1}
+"""What a report begins with; the number grows when a field changes its meaning or goes."""
 
 
 def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
@@ -164,7 +163,7 @@ def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
         {"z": z, "rounding": amount}
         for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True)
     ]
-    report = {"offsets": offsets, "rounding": rounding, "adoption": adoption}
+    report = _SCHEMA | {"offsets": offsets, "rounding": rounding, "adoption": adoption}
     return hull, report, adoption_words(table, offsets, adoption)
 
 

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.edit.adoption_report import AdoptionReport, report_lines
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import Left, Net, Thinned, thin
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.graph.journal import Journal
@@ -29,36 +28,7 @@ from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["AdoptionReport", "LineReport", "adopt"]
-
-
-@attrs.frozen
-class LineReport:
-    """How one curve was adopted.
-
-    Attributes
-    ----------
-    curve : str
-        Key of the curve.
-    given, defining, adopted : int
-        Points given, points that define the curve, those of them that no crossing holds.
-    deviation : float, m
-        Largest distance of a given point from the curve.
-    """
-
-    curve: str
-    given: int
-    defining: int
-    adopted: int
-    deviation: float
-
-
-@attrs.frozen
-class AdoptionReport:
-    """What adoption made of the given lines; notes say what was assumed or left out."""
-
-    lines: tuple[LineReport, ...]
-    notes: tuple[str, ...]
+__all__ = ["AdoptionReport", "adopt", "source_order"]
 
 
 def adopt(
@@ -101,7 +71,7 @@ def adopt(
     state = HullState(particulars, tolerances or Tolerances())
     journal = Journal()
     maker = Maker(state, journal)
-    ordered = sorted(sources, key=_order)
+    ordered = sorted(sources, key=source_order)
     _make_lines(maker, ordered, associations)
     reference = loft(_data(ordered), list(state.curves.key.data))
     net = Net(state, tuple(ordered), reference, *_matches(state, ordered, reference))
@@ -110,11 +80,11 @@ def adopt(
     notes += _loft(maker)
     ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
-    return state, AdoptionReport(_report(net, thinned), tuple(notes))
+    return state, AdoptionReport(report_lines(net), tuple(notes))
 
 
-def _order(source: LineSource) -> tuple[int, str, float, str, bytes]:
-    """Order by content alone: creation order must change nothing."""
+def source_order(source: LineSource) -> tuple[int, str, float, str, bytes]:
+    """Give what lines are sorted by, content alone: the order of input changes nothing."""
     offset = source.offset if source.normal is not None else 0.0
     rank = FAMILIES[source.family].rank
     return rank, source.group, offset, source.name, source.points.tobytes()
@@ -228,19 +198,3 @@ def _release(maker: Maker, row: int) -> None:
         rows = maker.state.curves.rows.data[curve]
         maker.define(curve, np.where(rows == row, point, rows))
     maker.remove_rows([row])
-
-
-def _report(net: Net, thinned: Thinned) -> tuple[LineReport, ...]:
-    curves = net.state.curves
-    splines = SplineBatch.join([curves.spline.data[i] for i in range(curves.count)])
-    found: list[LineReport] = []
-    for i, source in enumerate(net.sources):
-        away = closest(splines, i, source.points)[2]
-        rows = curves.rows.data[i]
-        adopted = int((net.state.rows.sort.data[rows] == Sort.ADOPTED).sum())
-        found.append(
-            LineReport(
-                curves.key.data[i], len(source.points), len(rows), adopted, float(away.max())
-            )
-        )
-    return tuple(found)

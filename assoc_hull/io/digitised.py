@@ -30,8 +30,8 @@ from assoc_hull.geometry.polyline import drop_repeats
 from assoc_hull.io.digitised_text import RawPiece, parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
-from assoc_hull.io.slice_chain import Gaps, join_pieces
-from assoc_hull.io.slice_types import AXES, Join, Piece, SliceLine, Slices
+from assoc_hull.io.slice_chain import join_pieces
+from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_lines"]
 
@@ -108,7 +108,7 @@ def read_lines(
     default = Path(source).stem if source != "text" else "lines"
     return Slices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
-        book.report(), False, every.min(axis=0), every.max(axis=0),
+        book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
     )  # fmt: skip
 
 

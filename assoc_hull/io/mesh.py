@@ -33,9 +33,9 @@ from assoc_hull.io.mesh_file import Triangles, read_triangles
 from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
 from assoc_hull.io.offset_report import Notebook
-from assoc_hull.io.slice_chain import Gaps, cut_shell, join_pieces, rim_pieces
+from assoc_hull.io.slice_chain import cut_shell, join_pieces, rim_pieces
 from assoc_hull.io.slice_places import Places, places_of
-from assoc_hull.io.slice_types import AXES, Join, Piece, SliceLine, Slices
+from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_mesh", "slice_mesh"]
 
@@ -141,7 +141,7 @@ def slice_mesh(
     _tell_joins(joins, book)
     return Slices(
         name, tuple(lines), tuple(_boundaries(shell, limits, joins, book)), tuple(joins),
-        book.report(), True, low, high, facet_depth(shell.mesh),
+        book.report(), True, low, high, facet_depth(shell.mesh), limits,
     )  # fmt: skip
 
 

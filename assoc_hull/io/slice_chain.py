@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polyline import distinct, drop_repeats, order_paths
 from assoc_hull.io.mesh_shell import Rim, Shell
-from assoc_hull.io.slice_types import Join, Piece
+from assoc_hull.io.slice_types import Gaps, Join, Piece
 
-__all__ = ["Gaps", "cut_shell", "join_pieces", "rim_pieces"]
+__all__ = ["cut_shell", "join_pieces", "rim_pieces"]
 
 _SAME = 1e-6
-
-
-@attrs.frozen
-class Gaps:
-    """What to do about gaps between pieces.
-
-    Attributes
-    ----------
-    join : float, m
-        Loose ends this close are joined.
-    refuse : float, m
-        Loose ends farther apart than `join`, and up to this, are an error: a line that should
-        chain does not.
-    """
-
-    join: float = 0.06
-    refuse: float = 0.2
 
 
 def cut_shell(shell: Shell, axis: int, offset: float) -> list[Piece]:

@@ -11,75 +11,33 @@ Examples
 >>> mesh = grid_triangles(np.stack([x, y, z], axis=2))
 >>> slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=2)
 >>> state, report = net_from_slices(slices)
->>> len(report.adoption.lines), report.inflections
+>>> len(report.adoption.lines), report.adoption.inflections
 (18, (0, 0))
 """
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
-from assoc_hull.edit.adopt import AdoptionReport, adopt
+from assoc_hull.edit.adopt import adopt, source_order
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, SplineBatch
-from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import loft
 from assoc_hull.io.offset_net import ASSOCIATIONS
-from assoc_hull.io.offset_report import OffsetReport
 from assoc_hull.io.slice_features import (
     FeatureRules,
     KnuckleLine,
     PieceFeatures,
     find_features,
 )
+from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
-from assoc_hull.io.slice_types import Join, Slices
+from assoc_hull.io.slice_types import Slices
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
-
-
-@attrs.frozen(eq=False)
-class SliceReport:
-    """What became of slices.
-
-    Attributes
-    ----------
-    slices : OffsetReport
-        What was assumed, mended and found suspicious when they were read.
-    joins : tuple of Join
-        Every join across a gap.
-    rules : FeatureRules
-        The thresholds.
-    tolerance : float, m
-        How far an adopted curve may pass its smooth line.
-    noise : float, m
-        Of the noisiest piece, or the depth of the facets of the mesh.
-    smoothing : tuple of SmoothReport
-        Per piece.
-    knuckles : tuple of KnuckleLine
-        Knuckle lines found.
-    adoption : AdoptionReport
-        Per curve.
-    adopted : int
-        Points that no crossing holds.
-    inflections : (int, int)
-        In all plane curves: of the smooth lines, and what the adopted curves have more.
-    """
-
-    slices: OffsetReport
-    joins: tuple[Join, ...]
-    rules: FeatureRules
-    tolerance: float
-    noise: float
-    smoothing: tuple[SmoothReport, ...]
-    knuckles: tuple[KnuckleLine, ...]
-    adoption: AdoptionReport
-    adopted: int
-    inflections: tuple[int, int]
 
 
 def sources_from_slices(
@@ -161,14 +119,15 @@ def net_from_slices(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
         0.5 * float(size[2]),
     )  # fmt: skip
+    # Reports of pieces stand in the order of the curves that are made of them.
+    pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
     groups = {source.group for source in sources}
     links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
-        slices.report, slices.joins, wanted, allowed,
-        max([slices.depth, *(each.noise for each in smoothing)]), tuple(smoothing),
-        tuple(knuckles), adoption, sum(line.adopted for line in adoption.lines),
-        _inflections(state, sources),
+        slices.report, slices.joins, slices.gaps, wanted, state.tolerances,
+        max([slices.depth, *(each.noise for each in smoothing)]), slices.depth,
+        tuple(each for _, each in pairs), tuple(knuckles), adoption,
     )  # fmt: skip
     return state, report
 
@@ -181,24 +140,3 @@ def _loft(source: LineSource) -> SplineBatch:
             np.array([source.ends.kind], np.int8), np.array([source.ends.vector], np.float64),
         )
     )  # fmt: skip
-
-
-def _inflections(state: HullState, sources: list[LineSource]) -> tuple[int, int]:
-    """Count inflections of the smooth lines, and those that the net has more, line by line."""
-    given: dict[tuple[str, str], int] = {}
-    for source in sources:
-        if source.normal is None:
-            continue
-        key = (source.group, source.name)
-        given[key] = given.get(key, 0) + int(inflections(_loft(source), source.normal)[0][0])
-    more = 0
-    curves, lines = state.curves, state.lines
-    for line in np.flatnonzero(lines.planar.data[: len(lines.name.data)]).tolist():
-        numbers = list(lines.curves.data[line])
-        batch = SplineBatch.join([curves.spline.data[i] for i in numbers])
-        count = int(
-            inflections(batch, np.tile(lines.normal.data[line], (len(numbers), 1)))[0].sum()
-        )
-        group = state.groups.name.data[int(lines.group.data[line])]
-        more += max(0, count - given.get((group, lines.name.data[line]), 0))
-    return sum(given.values()), more
