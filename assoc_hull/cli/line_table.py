@@ -15,7 +15,8 @@ _WIDTH = 160
 
 _SMOOTHED = ("points", "noise", "smoothed")
 _ADOPTED = (
-    "median", "p95", "max", "allowed", "at x, y, z (m)", "crossings", "adopted", "placed", "inflections",
+    "median", "p95", "max", "allowed", "at x, y, z (m)", "crossings", "adopted", "placed",
+    "inflections",
 )  # fmt: skip
 
 
@@ -57,10 +58,10 @@ def _legend(smoothed: bool) -> Iterator[str]:
     """Say what the columns mean."""
     given = "smooth" if smoothed else "given"
     if smoothed:
-        yield "points: given > of the smooth line; noise of the given points, mm; smoothed: farthest"
-        yield "the smooth line passes a given place, mm"
-    yield f"median, p95, max: distances of the points of the {given} line from the adopted curve, mm;"
-    yield "allowed and at: at the farthest of them; crossings, adopted, placed: points that define"
+        yield "points: given > of the smooth line; noise: of the given points, mm; smoothed: how"
+        yield "far the smooth line passes the farthest of them, mm"
+    yield f"median, p95, max: distances of the {given} line's points from the adopted curve, mm;"
+    yield "allowed, at: for the farthest of them; crossings, adopted, placed: points that define"
     yield f"the curve; inflections: of the {given} line > of the adopted curve"
 
 

@@ -42,12 +42,12 @@ def line(report: AdoptionReport, name: str) -> LineReport:
 
 
 def test_deviations_are_those_of_a_close_look_at_the_curve() -> None:
-    """Median, p95, largest and its place, against distances from places of the curve under a millimetre apart."""
+    """Median, p95, largest and its place, against places of the curve under 1 mm apart."""
     sources, state, report = net()
     row = line(report, "WL 3")
     curve = state.curves.key.data.index(row.curve)
     places = sample(state.spline(curve), 20000)[1]
-    away = cKDTree(places).query(sources[0].points)[0]
+    away = np.asarray(cKDTree(places).query(sources[0].points)[0])
     assert row.deviation == pytest.approx(away.max(), abs=1e-5)
     assert row.deviation_median == pytest.approx(np.median(away), abs=1e-4)
     assert row.deviation_p95 == pytest.approx(np.percentile(away, 95), abs=1e-4)
