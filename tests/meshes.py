@@ -25,9 +25,10 @@ def wigley_half(nx: int = 81, nz: int = 31) -> Triangles:
 
 
 def mirrored(mesh: Triangles) -> Triangles:
-    """Both halves of a hull."""
+    """Both halves of a hull; triangles that lie in the centre plane are in its inside."""
+    face = mesh.face[(mesh.corners[:, :, 1] != 0.0).any(axis=1)]
     other = mesh.xyz * np.array([1.0, -1.0, 1.0])
-    face = np.concatenate([mesh.face, mesh.face[:, ::-1] + len(mesh.xyz)])
+    face = np.concatenate([face, face[:, ::-1] + len(mesh.xyz)])
     return merge_vertices(np.concatenate([mesh.xyz, other]), face)
 
 
@@ -37,7 +38,7 @@ def closed_wigley(nx: int = 81, nz: int = 31) -> Triangles:
     y = wigley_y(x, np.full_like(x, T)) * t
     deck = grid_triangles(np.stack([x, y, np.full_like(x, T)], axis=2))
     shell = mirrored(wigley_half(nx, nz))
-    face = np.concatenate([shell.face, deck.face[:, ::-1] + len(shell.xyz)])
+    face = np.concatenate([shell.face, deck.face + len(shell.xyz)])
     return merge_vertices(np.concatenate([shell.xyz, deck.xyz]), face)
 
 

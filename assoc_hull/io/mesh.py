@@ -27,13 +27,13 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polyline import self_crossings
 from assoc_hull.io.mesh_doctor import facet_depth, mend_mesh
 from assoc_hull.io.mesh_file import Triangles, read_triangles
 from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.slice_chain import cut_shell, join_pieces, rim_pieces
+from assoc_hull.io.slice_order import tell_crossings
 from assoc_hull.io.slice_places import Places, places_of
 from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
@@ -156,7 +156,7 @@ def _cut(
             raise BadInputError(f"{name} cuts no triangle", "in the mesh", "give another place")
         joins += made
         _tell_ends(name, pieces, book)
-        _tell_crossings(name, pieces, axis, book)
+        tell_crossings(name, pieces, axis, book)
         found.append(SliceLine(group, name, place, tuple(_in_order(pieces, group))))
     return found
 
@@ -190,17 +190,6 @@ def _tell_ends(name: str, pieces: list[Piece], book: Notebook) -> None:
         x, y, z = loose[0].tolist()
         what = f"{len(loose)} ends lie on no boundary, first ({x:.4g}, {y:.4g}, {z:.4g}) m"
         book.suspect("loose end", name, what, len(loose))
-
-
-def _tell_crossings(name: str, pieces: list[Piece], axis: int, book: Notebook) -> None:
-    plane = [other for other in range(3) if other != axis]
-    start = np.concatenate([piece.points[:-1, plane] for piece in pieces])
-    end = np.concatenate([piece.points[1:, plane] for piece in pieces])
-    places = self_crossings(start, end)
-    if len(places):
-        letters = " ".join(f"{'xyz'[a]} = {v:.4g}" for a, v in zip(plane, places[0], strict=True))
-        what = f"the line crosses itself {len(places)} times, first at {letters} m"
-        book.suspect("self-crossing", name, what, len(places))
 
 
 def _tell_joins(joins: list[Join], book: Notebook) -> None:

@@ -123,7 +123,7 @@ class LineSource:
 
 def _tolerance(tolerance: ArrayLike, count: int, where: str) -> float | FloatArray:
     """Take one tolerance, or one a point, m, each above 0."""
-    if np.ndim(tolerance) == 0:
+    if not isinstance(tolerance, np.ndarray | list | tuple):
         return positive(tolerance, "tolerance", where)
     found = numbers(tolerance, "tolerance", where)
     if found.shape != (count,) or not (found > 0.0).all():
