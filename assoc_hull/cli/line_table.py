@@ -13,7 +13,7 @@ __all__ = ["line_table"]
 _WIDTH = 160
 """Room for every column, whatever is printed to: a table that is cut tells nothing."""
 
-_SMOOTHED = ("points", "noise", "smoothed")
+_SMOOTHED = ("points", "noise", "smoothed", "band")
 _ADOPTED = (
     "median", "p95", "max", "allowed", "at x, y, z (m)", "crossings", "adopted", "placed",
     "inflections",
@@ -46,7 +46,7 @@ def line_table(adoption: AdoptionReport, smoothing: Sequence[SmoothReport] = ())
     for title in (*(_SMOOTHED if smoothing else ()), *_ADOPTED):
         table.add_column(title, justify="right", no_wrap=True)
     for line, piece in zip_longest(adoption.lines, smoothing):
-        table.add_row(line.line, *_smoothed(piece), *_adopted(line))
+        table.add_row(line.line, *_smoothed(piece, line), *_adopted(line))
     console = Console(width=_WIDTH, color_system=None, force_terminal=False, legacy_windows=False)
     with console.capture() as text:
         console.print(table)
@@ -59,17 +59,19 @@ def _legend(smoothed: bool) -> Iterator[str]:
     given = "smooth" if smoothed else "given"
     if smoothed:
         yield "points: given > of the smooth line; noise: of the given points, mm; smoothed: how"
-        yield "far the smooth line passes the farthest of them, mm"
+        yield "far the smooth line passes the farthest of them, mm; band: how far the hull may lie"
+        yield "off the adopted curve, mm"
     yield f"median, p95, max: distances of the {given} line's points from the adopted curve, mm;"
     yield "allowed, at: for the farthest of them; crossings, adopted, placed: points that define"
     yield f"the curve; inflections: of the {given} line > of the adopted curve"
 
 
-def _smoothed(piece: SmoothReport | None) -> Iterator[str]:
+def _smoothed(piece: SmoothReport | None, line: LineReport) -> Iterator[str]:
     if piece is not None:
         yield f"{piece.given} > {piece.points}"
         yield f"{1e3 * piece.noise:.2f}"
         yield f"{1e3 * piece.residual:.2f}"
+        yield f"{1e3 * (piece.band + line.deviation):.2f}"
 
 
 def _adopted(line: LineReport) -> Iterator[str]:

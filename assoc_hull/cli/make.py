@@ -139,7 +139,9 @@ def _adopt_slices(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], 
     )
     hull = Hull(state)
     hull.adoption = report.adoption
-    totals = {"adopted": report.adopted, "inflections": report.inflections}
+    totals = {
+        "bands": report.bands, "adopted": report.adopted, "inflections": report.inflections
+    }  # fmt: skip
     facts = _SCHEMA | plain(report) | totals
     return hull, facts, slice_words(hull.particulars.name, report)
 

@@ -60,6 +60,15 @@ class SliceReport:
         return self.tolerances.adoption
 
     @property
+    def bands(self) -> tuple[float, ...]:
+        """How far (m) the hull may lie off each curve, in the order of `adoption.lines`.
+
+        The band of the smooth line, and what the adopted curve passes that by.
+        """
+        pairs = zip(self.smoothing, self.adoption.lines, strict=True)
+        return tuple(piece.band + line.deviation for piece, line in pairs)
+
+    @property
     def adopted(self) -> int:
         """Points that no crossing holds."""
         return self.adoption.own_points
