@@ -24,6 +24,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.io.offset_net import ASSOCIATIONS
+from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_features import (
     FeatureRules,
     KnuckleLine,
@@ -87,6 +88,7 @@ def net_from_slices(
     particulars: Particulars | None = None,
     tolerance: float | None = None,
     rules: FeatureRules | None = None,
+    tell: Tell = silent,
 ) -> tuple[HullState, SliceReport]:
     """Adopt slices as a net.
 
@@ -98,6 +100,8 @@ def net_from_slices(
         By default from the extent of the hull, the draught at half its depth.
     tolerance, rules
         As for `sources_from_slices`.
+    tell : callable
+        Hears what is being done.
 
     Returns
     -------
@@ -113,6 +117,7 @@ def net_from_slices(
             f"{len(slices.lines)} line(s)", f"in {slices.name}", "give two or more lines"
         )
     wanted = rules or FeatureRules()
+    tell("finding features and smoothing", 0, 0)
     sources, smoothing, knuckles, allowed = sources_from_slices(slices, tolerance, wanted)
     size = slices.high - slices.low
     ship = particulars or Particulars(
@@ -123,6 +128,7 @@ def net_from_slices(
     pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
     groups = {source.group for source in sources}
     links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
+    tell("adopting", 0, 0)
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
         slices.report, slices.joins, slices.gaps, wanted, state.tolerances,

@@ -11,12 +11,14 @@ from assoc_hull.edit.adoption_report import AdoptionReport, LineReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.plot.block import caption, frame, title_block
-from assoc_hull.plot.drawing import Drawing, Sketchable, drawing
+from assoc_hull.plot.drawing import Drawing, DrawnLine, Sketchable, drawing
+from assoc_hull.plot.layout import BLOCK, place_body
 from assoc_hull.plot.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.pens import FAMILY_COLOURS, GRID, LINE, TINT
 from assoc_hull.plot.rails import overlaps
 from assoc_hull.plot.sheet import Path_, Sheet, save
 from assoc_hull.plot.view import View, scale_of
+from assoc_hull.plot.views import body_halves
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,7 +27,7 @@ __all__ = ["adoption_deviations"]
 
 _LIST = 128.0  # width of the list of lines, mm at A3; so are the other lengths
 _NAME, _TAIL = 27.0, 15.0  # of it, for names and inflections
-_HEAD = 17.0
+_HEAD, _BELOW = 17.0, 14.0  # above the list, and below each view
 _PITCH = (2.2, 4.4)  # least and greatest distance of two rows
 _NAMED = 12
 """So many of the worst places are named in the views."""
@@ -91,15 +93,15 @@ def adoption_deviations(
     margin = MARGIN * sheet.paper.factor
     frame(sheet, margin)
     _rows(sheet, made.lines)
-    low = _words(sheet, plan, made, title)
-    _views(sheet, plan, made.lines, low)
+    _words(sheet, plan, made, title)
+    _views(sheet, plan, made.lines)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
 
 
-def _words(sheet: Sheet, plan: Drawing, made: AdoptionReport, title: str | None) -> float:
-    """Write the totals; give the lower edge of their block, mm."""
+def _words(sheet: Sheet, plan: Drawing, made: AdoptionReport, title: str | None) -> None:
+    """Write the totals."""
     given, more = made.inflections
     worst, points = made.worst, sum(each.defining for each in made.lines)
     rows = [
@@ -109,11 +111,15 @@ def _words(sheet: Sheet, plan: Drawing, made: AdoptionReport, title: str | None)
         ("Largest deviation", f"{1e3 * worst.deviation:.2f} mm, {worst.line}"),
         ("at", "({:.2f}, {:.2f}, {:.2f}) m".format(*worst.place)),
     ]
-    notes = ["Deviation: distance of points of the given line from the adopted curve."]
+    notes = [
+        "Deviation: of points of the given line from the adopted curve. Dots: median and",
+        "largest, red over the tolerance; bar: to p95; stroke: tolerance at the largest.",
+        f"In the views: the largest of each curve, mm; the {_NAMED} worst are named.",
+    ]
     margin = MARGIN * sheet.paper.factor
     corner = (sheet.paper.width - margin, sheet.paper.height - margin)
     name = title or plan.particulars.name
-    return title_block(sheet, corner, 92.0 * sheet.paper.factor, name, rows, notes)
+    title_block(sheet, corner, BLOCK * sheet.paper.factor, name, rows, notes)
 
 
 def _rows(sheet: Sheet, lines: Sequence[LineReport]) -> None:
@@ -135,7 +141,7 @@ def _rows(sheet: Sheet, lines: Sequence[LineReport]) -> None:
     head += "" if shown is lines else f" (the {len(shown)} worst of {len(lines)})"
     place = (left + 0.5 * wide, top + 8.5 * factor)
     sheet.take(sheet.text(place, head, size=1.1, bold=True, name="label/head"))
-    side = (left + wide + 0.5 * _TAIL * factor, top + 3.5 * factor)
+    side = (left + wide + 0.5 * _TAIL * factor, top + 6.0 * factor)
     sheet.take(sheet.text(side, "inflections\nbefore > after", size=0.9, name="label/inflections"))
     for i, line in enumerate(shown):
         y = top - (i + 0.5) * pitch
@@ -183,56 +189,52 @@ def _row(
         sheet.text(place, words, size=0.9, colour=TINT if more else "black", name="label/bends")
 
 
-def _views(sheet: Sheet, plan: Drawing, lines: Sequence[LineReport], top: float) -> None:
-    """Draw profile, half-breadth plan and body plan with the largest deviations in them."""
+def _views(sheet: Sheet, plan: Drawing, lines: Sequence[LineReport]) -> None:
+    """Draw half-breadth plan, profile and, beside the block, body plan with the deviations."""
     factor = sheet.paper.factor
     low, high = plan.bounds
-    size = high - low
-    left = (MARGIN + _LIST + 6.0) * factor
+    size, left = high - low, (MARGIN + _LIST + 6.0) * factor
     wide = sheet.paper.width - (MARGIN + 6.0) * factor - left
-    bottom = (MARGIN + 8.0) * factor
-    tall = top - bottom - 24.0 * factor
-    scale = max(scale_of(float(size[0]), wide), scale_of(float(size[1] + size[2]), 0.6 * tall))
+    scale = scale_of(float(size[0]), wide)
     unit = 1e3 / scale
-    body = max(scale_of(float(size[2]), 0.4 * tall), scale_of(2.0 * float(high[1]), wide))
-    body = min(body, scale)
     x = left + 0.5 * (wide - unit * float(size[0])) - unit * float(low[0])
-    half = View("half-breadth", (0, 1), scale, (x, bottom))
-    base = bottom + unit * float(high[1]) + 12.0 * factor
+    base = (MARGIN + _BELOW) * factor
+    half = View("half-breadth", (0, 1), scale, (x, base))
+    base += unit * float(high[1]) + _BELOW * factor
     profile = View("profile", (0, 2), scale, (x, base - unit * float(low[2])))
-    up = base + unit * float(size[2]) + 12.0 * factor - float(low[2]) * 1e3 / body
-    both = View("body", (1, 2), body, (left + 0.5 * wide, up))
+    base += unit * float(size[2]) + _BELOW * factor
+    room = (wide - (BLOCK + 6.0) * factor, sheet.paper.height - (MARGIN + 6.0) * factor - base)
+    body = min(scale, place_body(float(high[1]), float(size[2]), room))
+    up = base - float(low[2]) * 1e3 / body
+    both = View("body", (1, 2), body, (left + 0.5 * room[0], up))
     middle = 0.5 * plan.particulars.length
-    for view, families in (
-        (half, ("boundary", "waterlines")), (profile, ("boundary", "buttocks")),
-    ):  # fmt: skip
-        _courses(sheet, view, plan, families)
-        _spots(sheet, view, lines)
-        caption(sheet, (view.across(middle), view.up(0.0) - 1.5 * factor), view.name.upper())
-    for half_body, mine in ((both.mirrored(), -1.0), (both, 1.0)):
-        for line in plan.of("sections"):
-            if mine * (line.offset - middle) >= -1e-6:
-                for points in line.polylines:
-                    sheet.line(half_body.on_paper(points), _COURSE, f"body/{line.name}")
-        _spots(sheet, half_body, [e for e in lines if mine * (e.place[0] - middle) >= 0.0])
-    caption(sheet, (both.across(0.0), both.up(float(low[2])) - 1.5 * factor), "BODY")
+    most = max(max(each.deviation for each in lines), 1e-12)
+    for view, family in ((half, "waterlines"), (profile, "buttocks")):
+        _courses(sheet, view, [*plan.of("boundary"), *plan.of(family)])
+        place = (view.across(middle), view.up(low[2] if view is profile else 0.0) - 2.0 * factor)
+        caption(sheet, place, f"{view.name.upper()}  1:{scale:g}")
+        _spots(sheet, view, lines, most)
+    words = f"BODY PLAN  1:{body:g}"
+    caption(sheet, (both.across(0.0), both.up(float(low[2])) - 2.0 * factor), words)
+    halves = (both.mirrored(), both)
+    for i, (view, sections) in enumerate(zip(halves, body_halves(plan.of("sections"), middle),
+                                             strict=True)):  # fmt: skip
+        _courses(sheet, view, sections)
+        mine = [each for each in lines if (each.place[0] < middle) == (i == 0)]
+        _spots(sheet, view, mine, most)
 
 
-def _courses(sheet: Sheet, view: View, plan: Drawing, families: Sequence[str]) -> None:
-    for family in families:
-        pen = LINE if family == "boundary" else _COURSE
-        for line in plan.of(family):
-            for points in line.polylines:
-                sheet.line(view.on_paper(points), pen, f"{view.name}/{line.name}")
+def _courses(sheet: Sheet, view: View, lines: Sequence[DrawnLine]) -> None:
+    for line in lines:
+        pen = LINE if line.boundary is not None else _COURSE
+        for points in line.polylines:
+            sheet.line(view.on_paper(points), pen, f"{view.name}/{line.name}")
 
 
-def _spots(sheet: Sheet, view: View, lines: Sequence[LineReport]) -> None:
+def _spots(sheet: Sheet, view: View, lines: Sequence[LineReport], most: float) -> None:
     """Draw the largest deviation of each curve as a dot, as large as its root; name the worst."""
     factor = sheet.paper.factor
     order = sorted(lines, key=lambda each: -each.deviation)
-    if not order:
-        return
-    most = max(order[0].deviation, 1e-12)
     for each in order:
         spot = view.on_paper(np.array([each.place]))
         wide = max(0.4, 2.4 * float(np.sqrt(each.deviation / most)))

@@ -291,9 +291,10 @@ def test_a_plane_through_a_gap_is_named() -> None:
         slice_mesh(torn(meshes.wigley_half(), 1.0), stations=0, waterlines=[3.6], buttocks=0)
 
 
-def test_a_hole_is_seen() -> None:
+@pytest.mark.parametrize("nx", [81, 21], ids=["fine", "coarse"])
+def test_a_hole_is_seen(nx: int) -> None:
     """A missing bottom is reported, with the lowest place of its edge and the loose ends."""
-    mesh = meshes.wigley_half()
+    mesh = meshes.wigley_half(nx)
     mesh = Triangles(mesh.xyz, mesh.face[mesh.corners.mean(axis=1)[:, 2] > 0.9])
     slices = slice_mesh(mesh, axes="+x+y+z", **CUTS)
     assert {"hole", "loose end"} <= set(slices.report.kinds())
