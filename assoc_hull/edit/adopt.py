@@ -18,13 +18,13 @@ from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import Left, Net, Thinned, thin
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, SplineBatch
+from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.attach import loft_all, set_limits
 from assoc_hull.model.family import FAMILIES, Sort
 from assoc_hull.model.make import CrossingSpec, Maker, PointSpec
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.source import LineSource, curve_data
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -73,7 +73,7 @@ def adopt(
     maker = Maker(state, journal)
     ordered = sorted(sources, key=source_order)
     _make_lines(maker, ordered, associations)
-    reference = loft(_data(ordered), list(state.curves.key.data))
+    reference = loft(curve_data(ordered), list(state.curves.key.data))
     net = Net(state, tuple(ordered), reference, *_matches(state, ordered, reference))
     thinned = thin(net)
     notes = _write(maker, net, thinned)
@@ -110,19 +110,6 @@ def _make_lines(
         maker.curve(lines[source.group, source.name], source.ends)
     for link in sorted(associations, key=lambda each: (each.a, each.b)):
         maker.associate(link)
-
-
-def _data(sources: Sequence[LineSource]) -> CurveData:
-    start = np.zeros(len(sources) + 1, np.int64)
-    np.cumsum([len(source.points) for source in sources], out=start[1:])
-    return CurveData(
-        start,
-        np.concatenate([source.points for source in sources]),
-        np.concatenate([source.kind for source in sources]),
-        np.concatenate([source.direction for source in sources]),
-        np.array([source.ends.kind for source in sources], np.int8),
-        np.array([source.ends.vector for source in sources], np.float64),
-    )
 
 
 def _matches(

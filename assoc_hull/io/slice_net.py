@@ -21,7 +21,7 @@ import numpy as np
 
 from assoc_hull.edit.adopt import adopt, source_order
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, SplineBatch
+from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.io.offset_net import ASSOCIATIONS
 from assoc_hull.io.progress import Tell, silent
@@ -34,7 +34,7 @@ from assoc_hull.io.slice_features import (
 from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
 from assoc_hull.io.slice_types import Slices
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.source import LineSource, curve_data
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -140,9 +140,4 @@ def net_from_slices(
 
 def _loft(source: LineSource) -> SplineBatch:
     """Loft a line through its own points."""
-    return loft(
-        CurveData(
-            np.array([0, len(source.points)]), source.points, source.kind, source.direction,
-            np.array([source.ends.kind], np.int8), np.array([source.ends.vector], np.float64),
-        )
-    )  # fmt: skip
+    return loft(curve_data([source]))
