@@ -30,8 +30,8 @@ from assoc_hull.geometry.polyline import drop_repeats
 from assoc_hull.io.digitised_text import RawPiece, parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
-from assoc_hull.io.slice_chain import join_pieces
-from assoc_hull.io.slice_order import put_in_order, tell_crossings
+from assoc_hull.io.slice_chain import enough, join_pieces, nearest_ends
+from assoc_hull.io.slice_order import put_in_order, tell_crossings, tell_joins
 from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_lines"]
@@ -71,7 +71,8 @@ def read_lines(
     unit : {"auto", "m", "mm", "cm"}
         Unit of the file.
     gaps : Gaps or None
-        Loose ends this close are joined, 60 mm by default; farther ones stay apart.
+        Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
+        and those up to `refuse` are told.
     name : str or None
         Of the hull; that of the file by default.
 
@@ -92,7 +93,6 @@ def read_lines(
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
     limits = gaps or Gaps()
-    limits = Gaps(limits.join, limits.join)
     boundaries = [
         SliceLine(
             "boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {}, book))
@@ -107,6 +107,7 @@ def read_lines(
         for title, mine in _by_name(raw, boundary=False).items()
     ]
     _refuse_twins(lines, source)
+    tell_joins(joins, book)
     lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
     default = Path(source).stem if source != "text" else "lines"
     return Slices(
@@ -166,9 +167,24 @@ def _chain(
                                 "give two or more")  # fmt: skip
         points = put_in_order(name, points, book)
         pieces.append(Piece(points, (_under(points[0], borders), _under(points[-1], borders))))
-    pieces, made = join_pieces(name, pieces, gaps)
+    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
+    _tell_gap(name, pieces, gaps, book)
     return pieces
+
+
+def _tell_gap(name: str, pieces: list[Piece], gaps: Gaps, book: Notebook) -> None:
+    """Tell of loose ends that face one another across a gap too wide to be closed unasked."""
+    near = nearest_ends(pieces)
+    if near is None or near[0] > gaps.refuse or near[1][0] == near[2][0]:
+        return
+    gap, (piece, end), _ = near
+    x, y, z = pieces[piece].points[-end].tolist()
+    what = (
+        f"two pieces end {1e3 * gap:.0f} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
+        f"joined; if they are one line give join= of {enough(gap)} m or more"
+    )
+    book.suspect("gap", name, what, gap)
 
 
 def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:

@@ -33,7 +33,7 @@ from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_chain import cut_shell, join_pieces, rim_pieces
-from assoc_hull.io.slice_order import tell_crossings
+from assoc_hull.io.slice_order import tell_crossings, tell_joins
 from assoc_hull.io.slice_places import Places, places_of
 from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
@@ -146,7 +146,7 @@ def slice_mesh(
     for i, (group, place) in enumerate(places):
         tell("cutting lines", i, len(places))
         lines.append(_cut(shell, group, place, limits, joins, book))
-    _tell_joins(joins, book)
+    tell_joins(joins, book)
     return Slices(
         name, tuple(lines), tuple(_boundaries(shell, limits, joins, book)), tuple(joins),
         book.report(), True, low, high, facet_depth(shell.mesh), limits,
@@ -200,17 +200,6 @@ def _tell_ends(name: str, pieces: list[Piece], book: Notebook) -> None:
         x, y, z = loose[0].tolist()
         what = f"{len(loose)} ends lie on no boundary, first ({x:.4g}, {y:.4g}, {z:.4g}) m"
         book.suspect("loose end", name, what, len(loose))
-
-
-def _tell_joins(joins: list[Join], book: Notebook) -> None:
-    wide = [join for join in joins if join.gap > 5e-3]
-    if joins:
-        widest = max(joins, key=lambda each: each.gap)
-        what = (
-            f"{len(joins)} joins, {len(wide)} of them over 5 mm, the widest "
-            f"{1e3 * widest.gap:.3g} mm in {widest.line}"
-        )
-        book.repair("join", "the lines", what, widest.gap)
 
 
 def _boundaries(shell: Shell, gaps: Gaps, joins: list[Join], book: Notebook) -> list[SliceLine]:

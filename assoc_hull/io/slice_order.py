@@ -1,4 +1,4 @@
-"""Points of a line that are out of order, and lines that cross themselves: mended or named.
+"""Points out of order, lines that cross themselves, joins and gaps: mended or named.
 
 Examples
 --------
@@ -20,9 +20,9 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polyline import order_paths, self_crossings
 from assoc_hull.io.offset_report import Notebook
-from assoc_hull.io.slice_types import Piece
+from assoc_hull.io.slice_types import Join, Piece
 
-__all__ = ["put_in_order", "tell_crossings"]
+__all__ = ["put_in_order", "tell_crossings", "tell_joins"]
 
 _BACK = np.cos(np.deg2rad(135.0))
 """A line that turns by more than this between two points turns back."""
@@ -114,3 +114,23 @@ def tell_crossings(name: str, pieces: list[Piece], axis: int, book: Notebook) ->
         letters = " ".join(f"{'xyz'[a]} = {v:.4g}" for a, v in zip(plane, places[0], strict=True))
         what = f"the line crosses itself {len(places)} times, first at {letters} m"
         book.suspect("self-crossing", name, what, len(places))
+
+
+def tell_joins(joins: list[Join], book: Notebook) -> None:
+    """Tell how many ends were joined across gaps, and the widest of these.
+
+    Parameters
+    ----------
+    joins : list of Join
+        Those that were made.
+    book : Notebook
+        Takes them as one repair.
+    """
+    wide = [join for join in joins if join.gap > 5e-3]
+    if joins:
+        widest = max(joins, key=lambda each: each.gap)
+        what = (
+            f"{len(joins)} joins, {len(wide)} of them over 5 mm, the widest "
+            f"{1e3 * widest.gap:.3g} mm in {widest.line}"
+        )
+        book.repair("join", "the lines", what, widest.gap)

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -130,6 +131,9 @@ def test_the_width_of_a_gap_is_given(tmp_path: Path, capsys: pytest.CaptureFixtu
     asked = ["import", str(mesh), "-o", str(tmp_path / "w.hull.json"), "--buttocks", "1"]
     asked += ["--stations", "5", "--waterlines", "1,5"]
     assert main(asked) == 2
-    assert "do not chain: two ends 100 mm apart" in capsys.readouterr().err
-    assert main([*asked, "--join", "0.11"]) == 0
+    message = capsys.readouterr().err
+    assert "do not chain: two ends 100 mm apart" in message
+    told = re.search(r"give join= of ([\d.]+) m", message)
+    assert told is not None
+    assert main([*asked, "--join", told.group(1)]) == 0
     assert "join: ST 50: 100.0 mm at (50.000, " in capsys.readouterr().out

@@ -1,12 +1,14 @@
 """Digitised lines: what is read, mended and refused."""
 
+import re
+
 import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.mesh import slice_mesh
-from assoc_hull.io.slice_types import Slices
+from assoc_hull.io.slice_types import Gaps, Slices
 from tests import meshes
 
 
@@ -41,6 +43,28 @@ def test_pieces_are_joined_where_they_touch() -> None:
     text = "line,x,y,z\n" + "\n\n".join(rows) + "\n"
     line = read_lines(text)["ST 1"]
     assert [piece.points[[0, -1], 2].tolist() for piece in line.pieces] == [[0.0, 4.0], [9.0, 9.0]]
+
+
+@pytest.mark.parametrize(
+    ("gap", "repairs", "suspicions"),
+    [(0.03, ("join",), ()), (0.12, (), ("gap",)), (0.9, (), ())],
+    ids=["closed", "told", "two pieces"],
+)
+def test_gaps_are_closed_or_told(
+    gap: float, repairs: tuple[str, ...], suspicions: tuple[str, ...]
+) -> None:
+    """Within 60 mm pieces are joined, up to 200 mm they are named with what to give."""
+    text = f"line,x,y,z\nST 1,5,0,0\nST 1,5,1,1\n\nST 1,5,1,{1.0 + gap}\nST 1,5,3,4\n"
+    slices = read_lines(text)
+    assert slices.report.kinds("repairs") == repairs
+    assert slices.report.kinds("suspicions") == suspicions
+    if suspicions:
+        (note,) = slices.report.suspicions
+        assert "end 120 mm apart at (5, 1, 1" in note.what
+        told = re.search(r"give join= of ([\d.]+) m", note.what)
+        assert told is not None
+        closed = read_lines(text, gaps=Gaps(float(told.group(1)), 0.2))
+        assert len(closed["ST 1"].pieces) == 1
 
 
 def test_points_beside_their_plane_are_put_into_it() -> None:
