@@ -16,7 +16,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
-from drawings.stern import bulk_carrier, counter
+from drawings.stern import bulk_carrier, carrier_combs, counter
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
@@ -43,9 +43,11 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "completions": completions,
     "bulk_carrier": bulk_carrier,
     "counter": counter,
+    "carrier_combs": carrier_combs,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
+DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96}
 PLANS = ("series60", "bulk_carrier", "dtc")
 
 
@@ -53,7 +55,7 @@ def write(name: str) -> int:
     """Draw one picture, take its colours down to a palette, give its size in bytes."""
     figure = PICTURES[name]()
     path = FOLDER / f"{name}.png"
-    dpi = 110 if name in (*PLANS, "dtc_report") else 120
+    dpi = DPI.get(name, 120)
     figure.savefig(path, dpi=dpi, facecolor="white", bbox_inches=None)
     plt.close(figure)
     colours = 16 if name in PLANS else 64

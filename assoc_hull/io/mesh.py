@@ -164,7 +164,10 @@ def _cut(
     axis, name = AXES[group], f"{_PREFIX[group]} {place:g}"
     pieces, made = join_pieces(name, cut_shell(shell, axis, place), gaps)
     if not pieces:
-        raise BadInputError(f"{name} cuts no triangle", "in the mesh", "give another place")
+        raise BadInputError(
+            f"{name} cuts no triangle", "in the mesh",
+            f"mend the gap there, or give {group} at other places",
+        )  # fmt: skip
     joins += made
     _tell_ends(name, pieces, book)
     tell_crossings(name, pieces, axis, book)

@@ -86,7 +86,7 @@ def combs_plan(
         bends, curvature = _view(sheet, shown)
         low = float(layout.low[2]) if view.axes[1] == 2 else 0.0
         told = f"{words}  1:{view.denominator:g};  tooth of 10 mm: {curvature:.3g} 1/m"
-        caption(sheet, (view.across(centre), view.up(low) - 9.0 * factor), told)
+        caption(sheet, (view.across(centre), view.up(low) - 13.0 * factor), told)
         rows.append((f"Inflections, {words.lower()}", f"{bends}"))
     _boundaries(sheet, plan, (layout.profile, layout.half))
     notes = ["Combs stand on the outside; dots are inflections between lobes of 0.2 degrees."]
