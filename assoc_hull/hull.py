@@ -328,6 +328,7 @@ def read(
     unit: str | None = None,
     axes: str | None = None,
     tolerance: float | None = None,
+    join: float | None = None,
 ) -> Hull:
     """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
 
@@ -347,7 +348,7 @@ def read(
     file = Path(file_path(path, "in read"))
     named: dict[str, Any] = {
         "scale": scale, "stations": stations, "waterlines": waterlines, "buttocks": buttocks,
-        "unit": unit, "axes": axes, "tolerance": tolerance,
+        "unit": unit, "axes": axes, "tolerance": tolerance, "join": join,
     }  # fmt: skip
     options = {name: value for name, value in named.items() if value is not None}
     if holds_lines(file):

@@ -25,9 +25,10 @@ def wigley_half(nx: int = 81, nz: int = 31) -> Triangles:
 
 
 def mirrored(mesh: Triangles) -> Triangles:
-    """Both halves of a hull."""
+    """Both halves of a hull; triangles that lie in the centre plane are in its inside."""
+    face = mesh.face[(mesh.corners[:, :, 1] != 0.0).any(axis=1)]
     other = mesh.xyz * np.array([1.0, -1.0, 1.0])
-    face = np.concatenate([mesh.face, mesh.face[:, ::-1] + len(mesh.xyz)])
+    face = np.concatenate([face, face[:, ::-1] + len(mesh.xyz)])
     return merge_vertices(np.concatenate([mesh.xyz, other]), face)
 
 
@@ -37,7 +38,7 @@ def closed_wigley(nx: int = 81, nz: int = 31) -> Triangles:
     y = wigley_y(x, np.full_like(x, T)) * t
     deck = grid_triangles(np.stack([x, y, np.full_like(x, T)], axis=2))
     shell = mirrored(wigley_half(nx, nz))
-    face = np.concatenate([shell.face, deck.face[:, ::-1] + len(shell.xyz)])
+    face = np.concatenate([shell.face, deck.face + len(shell.xyz)])
     return merge_vertices(np.concatenate([shell.xyz, deck.xyz]), face)
 
 
@@ -90,3 +91,26 @@ def wigley_off(xyz: FloatArray) -> FloatArray:
     along = (wigley_y(x + h, z) - wigley_y(x - h, z)) / (2 * h)
     down = (wigley_y(x, z + h) - wigley_y(x, z - h)) / (2 * h)
     return np.asarray(np.abs(y - wigley_y(x, z)) / np.sqrt(1.0 + along**2 + down**2))
+
+
+def wigley_sheet(family: str, offset: float) -> FloatArray:
+    """400 places of a line of the Wigley hull in its plane, (n, 2), m."""
+    t = np.linspace(0.0, 1.0, 400)
+    if family == "sections":
+        return np.column_stack([wigley_y(np.full(400, offset), T * t), T * t])
+    if family == "waterlines":
+        return np.column_stack([L * t, wigley_y(L * t, np.full(400, offset))])
+    reach = np.sqrt(1.0 - 2.0 * offset / B)
+    part = reach * (2.0 * t - 1.0)
+    depth = np.sqrt(np.maximum(1.0 - 2.0 * offset / B / (1.0 - part**2), 0.0))
+    return np.column_stack([0.5 * L * (1.0 + part), T * (1.0 - depth)])[1:-1]
+
+
+def ellipsoid_sheet(family: str, offset: float) -> FloatArray:
+    """400 places of a line of the ellipsoid in its plane, (n, 2), m: ellipses or halves of them."""
+    axes = {"sections": (A_Y, A_Z), "waterlines": (A_X, A_Y), "buttocks": (A_X, A_Z)}[family]
+    local = {"sections": (offset - A_X) / A_X, "waterlines": (offset - A_Z) / A_Z,
+             "buttocks": offset / A_Y}[family]  # fmt: skip
+    angle = np.linspace(0.0, np.pi, 400)
+    shrink = np.sqrt(1.0 - local**2)
+    return np.asarray(shrink * np.column_stack([axes[0] * np.cos(angle), axes[1] * np.sin(angle)]))

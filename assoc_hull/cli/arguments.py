@@ -12,9 +12,10 @@ if TYPE_CHECKING:
 else:
     Commands = argparse._SubParsersAction
 
-__all__ = ["HULL_ENDINGS", "Commands", "add_command", "add_hull", "add_json"]
+__all__ = ["HULL_ENDINGS", "PICTURE_ENDINGS", "Commands", "add_command", "add_hull", "add_json"]
 
 HULL_ENDINGS = (".hull.json",)
+PICTURE_ENDINGS = (".pdf", ".svg", ".png")
 
 
 def add_command(

@@ -7,12 +7,19 @@ import json
 from pathlib import Path
 from typing import Any
 
-from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_json
-from assoc_hull.cli.output import emit, plain, progress
+from assoc_hull.cli.arguments import (
+    HULL_ENDINGS,
+    PICTURE_ENDINGS,
+    Commands,
+    add_command,
+    add_json,
+)
+from assoc_hull.cli.output import emit, plain, progress, progress_bar
 from assoc_hull.cli.problems import check_target
 from assoc_hull.cli.words import adoption_words, hull_words, slice_words
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull, examples
+from assoc_hull.io.progress import Tell
 
 __all__ = ["add"]
 
@@ -45,6 +52,7 @@ def _add_import(commands: Commands) -> None:
         commands, "import", "make a hull from offsets, a mesh or digitised lines", _import,
         """assoc-hull import offsets.csv -o ship.hull.json
         assoc-hull import hull.stl -o ship.hull.json --scale 59.407 --stations 41
+        assoc-hull import hull.stl -o ship.hull.json --report report.json --picture report.pdf
         assoc-hull import offsets.csv -o ship.hull.json --unit mm --draught 8.5
         assoc-hull import offsets.csv -o ship.hull.json --station-zero fp --report report.json""",
     )  # fmt: skip
@@ -67,12 +75,20 @@ def _add_import(commands: Commands) -> None:
         "--tolerance", type=float, metavar="M", help="of a mesh or lines: adopted within this, m"
     )
     parser.add_argument(
+        "--join", type=float, metavar="M",
+        help="of a mesh or lines: loose ends this close are joined, m; 0.06 by default",
+    )  # fmt: skip
+    parser.add_argument(
         "--station-zero", choices=("auto", "ap", "fp"), default="auto",
         help="perpendicular of station 0",
     )  # fmt: skip
     parser.add_argument(
         "--report", metavar="FILE", type=Path, help="write all assumptions and deviations as JSON"
     )
+    parser.add_argument(
+        "--picture", metavar="FILE", type=Path,
+        help="draw the deviations of all lines, and where they are: .pdf, .svg or .png",
+    )  # fmt: skip
     add_json(parser)
 
 
@@ -95,13 +111,33 @@ def _import(arguments: argparse.Namespace) -> int:
     check_target(arguments.out, HULL_ENDINGS)
     if arguments.report is not None:
         check_target(arguments.report, (".json",))
-    with progress(f"adopting {arguments.file}"):
-        hull, report, text = _adopt(arguments)
+    if arguments.picture is not None:
+        check_target(arguments.picture, PICTURE_ENDINGS)
+        _require_plot()
+    with progress_bar(f"importing {arguments.file.name}", hidden=arguments.json) as tell:
+        hull, report, text = _adopt(arguments, tell)
+        if arguments.picture is not None:
+            tell("drawing", 0, 0)
+            _draw(hull, arguments.picture)
     hull.save(arguments.out)
     if arguments.report is not None:
         arguments.report.write_text(json.dumps(plain(report), indent=1) + "\n", "utf-8")
     _tell(arguments, hull, {"report": report}, text + "\n")
     return 0
+
+
+def _require_plot() -> None:
+    """Say before anything is computed that pictures cannot be drawn."""
+    from assoc_hull.plot.sheet import require_matplotlib
+
+    require_matplotlib()
+
+
+def _draw(hull: Hull, path: Path) -> None:
+    """Draw the deviations of all lines."""
+    from assoc_hull.plot import adoption_deviations
+
+    adoption_deviations(hull, path=path)
 
 
 def _places(text: str) -> int | list[float]:
@@ -112,14 +148,14 @@ def _places(text: str) -> int | list[float]:
         raise argparse.ArgumentTypeError(f"{text!r} is no number and no list of places") from error
 
 
-_OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance")
+_OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance", "join")
 
 
-def _adopt(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.slice_read import holds_lines
 
     if holds_lines(arguments.file):
-        return _adopt_slices(arguments)
+        return _adopt_slices(arguments, tell)
     wrong = [name for name in _OF_SLICES if getattr(arguments, name) is not None]
     if wrong:
         raise BadInputError(
@@ -129,24 +165,24 @@ def _adopt(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
     return _adopt_offsets(arguments)
 
 
-def _adopt_slices(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.slice_read import read_slices
 
     names = ("length", "breadth", "draught", "unit", *_OF_SLICES)
     given = {name: getattr(arguments, name) for name in names}
-    state, report = read_slices(
-        arguments.file, **{name: value for name, value in given.items() if value is not None}
-    )
+    options = {name: value for name, value in given.items() if value is not None}
+    state, report = read_slices(arguments.file, tell=tell, **options)
     hull = Hull(state)
     hull.adoption = report.adoption
-    facts = {field: getattr(report, field) for field in _FACTS}
+    totals = {
+        "bands": report.bands, "adopted": report.adopted, "inflections": report.inflections
+    }  # fmt: skip
+    facts = _SCHEMA | plain(report) | totals
     return hull, facts, slice_words(hull.particulars.name, report)
 
 
-_FACTS = (
-    "slices", "joins", "rules", "tolerance", "noise", "smoothing", "knuckles", "adoption",
-    "adopted", "inflections",
-)  # fmt: skip
+_SCHEMA = {"format": "assoc-hull report", "schema": 1}
+"""What a report begins with; the number grows when a field changes its meaning or goes."""
 
 
 def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
@@ -164,7 +200,7 @@ def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
         {"z": z, "rounding": amount}
         for z, amount in zip(table.z.tolist(), table.rounding.tolist(), strict=True)
     ]
-    report = {"offsets": offsets, "rounding": rounding, "adoption": adoption}
+    report = _SCHEMA | {"offsets": offsets, "rounding": rounding, "adoption": adoption}
     return hull, report, adoption_words(table, offsets, adoption)
 
 

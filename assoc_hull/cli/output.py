@@ -6,8 +6,9 @@ import argparse
 import contextlib
 import json
 import math
+import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.explain import Why
+from assoc_hull.io.progress import Tell, silent
 
-__all__ = ["emit", "plain", "progress", "why_document"]
+__all__ = ["emit", "plain", "progress", "progress_bar", "why_document"]
 
 _PATIENCE = 1.0
 """Seconds after which a person is told what takes so long."""
@@ -80,26 +82,67 @@ def progress(what: str) -> Iterator[None]:
 
     Nothing may be printed meanwhile.
     """
-    with contextlib.ExitStack() as shown:
+
+    def show() -> contextlib.AbstractContextManager[Any]:
+        from rich.console import Console
+        from rich.live import Live
+        from rich.spinner import Spinner
+
+        return Live(
+            Spinner("dots", f"{what} ..."), console=Console(stderr=True), transient=True,
+            redirect_stdout=False, redirect_stderr=False,
+        )  # fmt: skip
+
+    with _patiently(show):
+        yield
+
+
+@contextlib.contextmanager
+def progress_bar(what: str, *, hidden: bool) -> Iterator[Tell]:
+    """Show on standard error how far work is, on a terminal and unless it is hidden.
+
+    Parameters
+    ----------
+    what : str
+        What is done, until work tells more.
+    hidden : bool
+        Whether nothing is shown.
+
+    Yields
+    ------
+    callable
+        What work is to tell: the step, parts done, and of how many.
+    """
+    if hidden or sys.stderr is None or not sys.stderr.isatty():
+        yield silent
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    bar = Progress(
+        SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(),
+        console=Console(stderr=True), transient=True, redirect_stdout=False, redirect_stderr=False,
+    )  # fmt: skip
+    task = bar.add_task(what, total=None)
+
+    def tell(step: str, done: int, of: int) -> None:
+        bar.update(task, description=f"{what}: {step}", completed=done, total=of or None)
+
+    with _patiently(lambda: bar):
+        yield tell
+
+
+@contextlib.contextmanager
+def _patiently(shown: Callable[[], contextlib.AbstractContextManager[Any]]) -> Iterator[None]:
+    """Enter a context after some time, from another thread, if work is not done by then."""
+    with contextlib.ExitStack() as stack:
         lock, done = threading.Lock(), threading.Event()
 
         def show() -> None:
-            from rich.console import Console
-            from rich.live import Live
-            from rich.spinner import Spinner
-
-            spinner, console = Spinner("dots", f"{what} ..."), Console(stderr=True)
+            context = shown()
             with lock:
                 if not done.is_set():
-                    shown.enter_context(
-                        Live(
-                            spinner,
-                            console=console,
-                            transient=True,
-                            redirect_stdout=False,
-                            redirect_stderr=False,
-                        )
-                    )
+                    stack.enter_context(context)
 
         timer = threading.Timer(_PATIENCE, show)
         timer.daemon = True

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from assoc_hull.cli.arguments import Commands, add_command, add_hull
+from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull
 from assoc_hull.cli.output import progress
 from assoc_hull.cli.problems import check_target
 from assoc_hull.hull import open as open_hull
@@ -33,7 +33,7 @@ def add(commands: Commands) -> None:
 def _plot(arguments: argparse.Namespace) -> int:
     from assoc_hull.plot import lines_plan
 
-    check_target(arguments.out, (".pdf", ".svg", ".png"))
+    check_target(arguments.out, PICTURE_ENDINGS)
     hull = open_hull(arguments.hull)
     with progress(f"drawing {arguments.out}"):
         if arguments.combs:

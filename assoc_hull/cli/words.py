@@ -7,12 +7,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from assoc_hull.cli.line_table import line_table
 from assoc_hull.edit.adopt import AdoptionReport
 from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
 from assoc_hull.io.offset_report import OffsetReport
 from assoc_hull.io.offset_table import OffsetTable
-from assoc_hull.io.slice_net import SliceReport
+from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Sort
 from assoc_hull.model.handles import Curve
@@ -24,8 +25,13 @@ __all__ = [
     "hull_facts",
     "hull_words",
     "largest_gap",
+    "slice_words",
     "wrapped",
 ]
+
+
+_MOST_JOINS = 20
+"""So many joins are named."""
 
 
 def wrapped(title: str, names: Iterable[str], indent: str = "  ") -> str:
@@ -87,14 +93,14 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
 
 def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: AdoptionReport) -> str:
     """Say how a table was read, how exact it is, and how well the net holds it."""
-    worst = max(adoption.lines, key=lambda each: each.deviation)
-    own = sum(each.adopted for each in adoption.lines)
+    worst, own = adoption.worst, adoption.own_points
     lines = [
+        line_table(adoption),
         f"{table.name}: {len(table.x)} stations, {len(table.z)} waterlines",
         *(f"  {line}" for line in str(offsets).splitlines()),
         *_rounding(table),
         f"adopted {len(adoption.lines)} curves, {own} points of theirs that no crossing holds; "
-        f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.curve})",
+        f"they pass within {1e3 * worst.deviation:.3f} mm of every given point ({worst.line})",
         *(f"  {note}" for note in adoption.notes),
     ]
     return "\n".join(lines)
@@ -103,18 +109,31 @@ def adoption_words(table: OffsetTable, offsets: OffsetReport, adoption: Adoption
 def slice_words(name: str, report: SliceReport) -> str:
     """Say how a mesh or digitised lines were read, smoothed and adopted."""
     worst = max(report.smoothing, key=lambda each: each.residual)
+    adopted = report.adoption.worst
     lines = [
+        line_table(report.adoption, report.smoothing),
         name,
         *(f"  {line}" for line in str(report.slices).splitlines()),
-        *(f"  join: {e.line}: {1e3 * e.gap:.1f} mm at {e.place}" for e in report.joins[:20]),
+        *_joins(report),
         f"noise {1e3 * report.noise:.2g} mm; smoothed by at most {1e3 * worst.residual:.2g} mm "
         f"({worst.line}); {len(report.knuckles)} knuckle lines",
         f"adopted {len(report.adoption.lines)} curves within {1e3 * report.tolerance:.2g} mm, "
-        f"{report.adopted} points of theirs that no crossing holds; {report.inflections[0]} "
+        f"{report.adopted} points of theirs that no crossing holds; the farthest smooth point is "
+        f"{1e3 * adopted.deviation:.3g} mm off ({adopted.line}); {report.inflections[0]} "
         f"inflections, {report.inflections[1]} more in the net",
         *(f"  {note}" for note in report.adoption.notes),
     ]
     return "\n".join(lines)
+
+
+def _joins(report: SliceReport) -> Iterator[str]:
+    """Name the widest joins across gaps."""
+    widest = sorted(report.joins, key=lambda each: -each.gap)
+    for each in widest[:_MOST_JOINS]:
+        x, y, z = each.place
+        yield f"  join: {each.line}: {1e3 * each.gap:.1f} mm at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    if len(widest) > _MOST_JOINS:
+        yield f"  join: {len(widest) - _MOST_JOINS} more, narrower ones; all in --report"
 
 
 def _rounding(table: OffsetTable) -> Iterator[str]:

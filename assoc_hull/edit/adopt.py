@@ -10,56 +10,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.edit.adoption_report import AdoptionReport, report_lines
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import thin
 from assoc_hull.edit.thin_work import Left, Net, Thinned
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import CurveData, SplineBatch
+from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.attach import loft_all, set_limits
 from assoc_hull.model.family import FAMILIES, Sort
 from assoc_hull.model.make import CrossingSpec, Maker, PointSpec
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.source import LineSource, curve_data
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["AdoptionReport", "LineReport", "adopt", "where_they_meet"]
-
-
-@attrs.frozen
-class LineReport:
-    """How one curve was adopted.
-
-    Attributes
-    ----------
-    curve : str
-        Key of the curve.
-    given, defining, adopted : int
-        Points given, points that define the curve, those of them that no crossing holds.
-    deviation : float, m
-        Largest distance of a given point from the curve.
-    """
-
-    curve: str
-    given: int
-    defining: int
-    adopted: int
-    deviation: float
-
-
-@attrs.frozen
-class AdoptionReport:
-    """What adoption made of the given lines; notes say what was assumed or left out."""
-
-    lines: tuple[LineReport, ...]
-    notes: tuple[str, ...]
+__all__ = ["AdoptionReport", "adopt", "source_order", "where_they_meet"]
 
 
 def adopt(
@@ -102,16 +72,16 @@ def adopt(
     state = HullState(particulars, tolerances or Tolerances())
     journal = Journal()
     maker = Maker(state, journal)
-    ordered = sorted(sources, key=_order)
+    ordered = sorted(sources, key=source_order)
     _make_lines(maker, ordered, associations)
-    reference = loft(_data(ordered), list(state.curves.key.data))
+    reference = loft(curve_data(ordered), list(state.curves.key.data))
     net = Net(state, tuple(ordered), reference, *_matches(state, ordered, reference))
     thinned = thin(net)
     notes = _write(maker, net, thinned)
     notes += _loft(maker)
     ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
-    return state, AdoptionReport(_report(net, thinned), tuple(notes))
+    return state, AdoptionReport(report_lines(net), tuple(notes))
 
 
 def where_they_meet(
@@ -133,12 +103,12 @@ def where_they_meet(
     """
     state = HullState(Particulars("lines", 1.0, 1.0, 1.0, 1.0), Tolerances())
     _make_lines(Maker(state, Journal()), sources, associations)
-    reference = loft(_data(sources), list(state.curves.key.data))
+    reference = loft(curve_data(sources), list(state.curves.key.data))
     return reference, tuple(find_meetings(state, reference))
 
 
-def _order(source: LineSource) -> tuple[int, str, float, str, bytes]:
-    """Order by content alone: creation order must change nothing."""
+def source_order(source: LineSource) -> tuple[int, str, float, str, bytes]:
+    """Give what lines are sorted by, content alone: the order of input changes nothing."""
     offset = source.offset if source.normal is not None else 0.0
     rank = FAMILIES[source.family].rank
     return rank, source.group, offset, source.name, source.points.tobytes()
@@ -164,19 +134,6 @@ def _make_lines(
         maker.curve(lines[source.group, source.name], source.ends)
     for link in sorted(associations, key=lambda each: (each.a, each.b)):
         maker.associate(link)
-
-
-def _data(sources: Sequence[LineSource]) -> CurveData:
-    start = np.zeros(len(sources) + 1, np.int64)
-    np.cumsum([len(source.points) for source in sources], out=start[1:])
-    return CurveData(
-        start,
-        np.concatenate([source.points for source in sources]),
-        np.concatenate([source.kind for source in sources]),
-        np.concatenate([source.direction for source in sources]),
-        np.array([source.ends.kind for source in sources], np.int8),
-        np.array([source.ends.vector for source in sources], np.float64),
-    )
 
 
 def _matches(
@@ -257,19 +214,3 @@ def _release(maker: Maker, row: int) -> None:
         rows = maker.state.curves.rows.data[curve]
         maker.define(curve, np.where(rows == row, point, rows))
     maker.remove_rows([row])
-
-
-def _report(net: Net, thinned: Thinned) -> tuple[LineReport, ...]:
-    curves = net.state.curves
-    splines = SplineBatch.join([curves.spline.data[i] for i in range(curves.count)])
-    found: list[LineReport] = []
-    for i, source in enumerate(net.sources):
-        away = closest(splines, i, source.points)[2]
-        rows = curves.rows.data[i]
-        adopted = int((net.state.rows.sort.data[rows] == Sort.ADOPTED).sum())
-        found.append(
-            LineReport(
-                curves.key.data[i], len(source.points), len(rows), adopted, float(away.max())
-            )
-        )
-    return tuple(found)

@@ -30,13 +30,14 @@ from assoc_hull.geometry.polyline import drop_repeats
 from assoc_hull.io.digitised_text import RawPiece, parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
-from assoc_hull.io.slice_chain import Gaps, join_pieces
-from assoc_hull.io.slice_types import AXES, Join, Piece, SliceLine, Slices
+from assoc_hull.io.slice_chain import enough, join_pieces, nearest_ends
+from assoc_hull.io.slice_order import put_in_order, tell_crossings, tell_joins
+from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_lines"]
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
-_LONGEST = 600.0
+_LONGEST, _SHORTEST = 600.0, 1.0
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
 
@@ -70,7 +71,8 @@ def read_lines(
     unit : {"auto", "m", "mm", "cm"}
         Unit of the file.
     gaps : Gaps or None
-        Loose ends this close are joined, 60 mm by default; farther ones stay apart.
+        Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
+        and those up to `refuse` are told.
     name : str or None
         Of the hull; that of the file by default.
 
@@ -91,9 +93,10 @@ def read_lines(
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
     limits = gaps or Gaps()
-    limits = Gaps(limits.join, limits.join)
     boundaries = [
-        SliceLine("boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {})))
+        SliceLine(
+            "boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {}, book))
+        )
         for title, mine in _by_name(raw, boundary=True).items()
     ]
     borders = {
@@ -104,11 +107,12 @@ def read_lines(
         for title, mine in _by_name(raw, boundary=False).items()
     ]
     _refuse_twins(lines, source)
+    tell_joins(joins, book)
     lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
     default = Path(source).stem if source != "text" else "lines"
     return Slices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
-        book.report(), False, every.min(axis=0), every.max(axis=0),
+        book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
     )  # fmt: skip
 
 
@@ -126,6 +130,9 @@ def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source
     if size * _UNITS[unit] > _LONGEST:
         raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}",
                             f"at {source}", "give unit='mm', or another scale")  # fmt: skip
+    if 0.0 < size * _UNITS[unit] < _SHORTEST:
+        raise BadInputError(f"the lines are only {size * _UNITS[unit]:.4g} m long in {unit}",
+                            f"at {source}", "give unit='m', or the scale")  # fmt: skip
     return scale * _UNITS[unit]
 
 
@@ -149,18 +156,35 @@ def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]
 
 
 def _chain(
-    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray]
-) -> list[Piece]:
+    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    book: Notebook,
+) -> list[Piece]:  # fmt: skip
     pieces: list[Piece] = []
     for each in raw:
         points = drop_repeats(each.points, 1e-6)
         if len(points) < 2:
             raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
                                 "give two or more")  # fmt: skip
+        points = put_in_order(name, points, book)
         pieces.append(Piece(points, (_under(points[0], borders), _under(points[-1], borders))))
-    pieces, made = join_pieces(name, pieces, gaps)
+    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
     joins += made
+    _tell_gap(name, pieces, gaps, book)
     return pieces
+
+
+def _tell_gap(name: str, pieces: list[Piece], gaps: Gaps, book: Notebook) -> None:
+    """Tell of loose ends that face one another across a gap too wide to be closed unasked."""
+    near = nearest_ends(pieces)
+    if near is None or near[0] > gaps.refuse or near[1][0] == near[2][0]:
+        return
+    gap, (piece, end), _ = near
+    x, y, z = pieces[piece].points[-end].tolist()
+    what = (
+        f"two pieces end {1e3 * gap:.0f} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
+        f"joined; if they are one line give join= of {enough(gap)} m or more"
+    )
+    book.suspect("gap", name, what, gap)
 
 
 def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:
@@ -188,21 +212,33 @@ def _line(
     offset = round(float(np.median(every[:, axis])), 9)
     off = float(np.abs(every[:, axis] - offset).max())
     if off > _OFF_PLANE:
-        raise BadInputError(
-            f"{name} lies in no plane: {'xyz'[axis]} runs to {off:.3g} m off {offset:.6g} m",
-            f"in {raw[0].where}", "give each line its own name",
-        )  # fmt: skip
+        raise _no_plane(name, every, axis, off, raw[0].where)
     if off > 1e-9:
         what = f"points up to {1e3 * off:.3g} mm off {'xyz'[axis]} = {offset:.6g} m put into it"
         book.repair("plane", name, what, off)
     flat = [RawPiece(each.line, _flattened(each.points, axis, offset), each.where) for each in raw]
-    pieces = _chain(name, flat, gaps, joins, borders)
+    pieces = _chain(name, flat, gaps, joins, borders, book)
+    tell_crossings(name, pieces, axis, book)
     way = 2 if group == "sections" else 0
     turned = [
         each if each.points[-1, way] >= each.points[0, way] else each.reversed() for each in pieces
     ]
     turned.sort(key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
     return SliceLine(group, name, offset, tuple(turned))
+
+
+def _no_plane(name: str, every: FloatArray, axis: int, off: float, where: str) -> BadInputError:
+    """Say how a line lies: in the plane of another family, or in none."""
+    spread = np.ptp(every, axis=0)
+    other = int(np.argmin(spread))
+    median = float(np.median(every[:, axis]))
+    what = f"{name} lies in no plane: {'xyz'[axis]} runs to {off:.3g} m off {median:.6g} m"
+    if other != axis and spread[other] < _OFF_PLANE:
+        return BadInputError(
+            f"{what}, but {'xyz'[other]} is constant", f"in {where}",
+            "the hull lies on its side: give x forward, y to port, z up; or the name is wrong",
+        )  # fmt: skip
+    return BadInputError(what, f"in {where}", "give each line its own name")
 
 
 def _flattened(points: FloatArray, axis: int, offset: float) -> FloatArray:

@@ -26,16 +26,16 @@ from pathlib import Path
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.polyline import self_crossings
 from assoc_hull.io.mesh_doctor import facet_depth, mend_mesh
 from assoc_hull.io.mesh_file import Triangles, read_triangles
 from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
 from assoc_hull.io.offset_report import Notebook
-from assoc_hull.io.slice_chain import Gaps, cut_shell, join_pieces, rim_pieces
+from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slice_chain import cut_shell, join_pieces, rim_pieces
+from assoc_hull.io.slice_order import tell_crossings, tell_joins
 from assoc_hull.io.slice_places import Places, places_of
-from assoc_hull.io.slice_types import AXES, Join, Piece, SliceLine, Slices
+from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_mesh", "slice_mesh"]
 
@@ -53,6 +53,7 @@ def read_mesh(
     axes: str = "auto",
     gaps: Gaps | None = None,
     name: str | None = None,
+    tell: Tell = silent,
 ) -> Slices:
     """Read a triangulated hull and cut it; arguments as for `slice_mesh`.
 
@@ -69,11 +70,12 @@ def read_mesh(
         trimesh is not installed.
     """
     file = Path(path)
+    tell("reading the mesh", 0, 0)
     mesh = read_triangles(file)
     title = file.name.removesuffix(".gz") if name is None else name
     return slice_mesh(
         mesh, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale, unit=unit,
-        axes=axes, gaps=gaps, name=Path(title).stem if name is None else title,
+        axes=axes, gaps=gaps, name=Path(title).stem if name is None else title, tell=tell,
     )  # fmt: skip
 
 
@@ -88,6 +90,7 @@ def slice_mesh(
     axes: str = "auto",
     gaps: Gaps | None = None,
     name: str = "hull",
+    tell: Tell = silent,
 ) -> Slices:
     """Cut a mesh into stations, waterlines, buttocks and boundary curves.
 
@@ -108,6 +111,8 @@ def slice_mesh(
         What is joined; by default ends up to 60 mm apart.
     name : str
         Name of the hull.
+    tell : callable
+        Hears which line is being cut.
 
     Returns
     -------
@@ -129,36 +134,44 @@ def slice_mesh(
     limits = gaps or Gaps()
     joins: list[Join] = []
     lines: list[SliceLine] = []
-    for group, label, wanted in (
-        ("sections", "stations", stations),
-        ("waterlines", "waterlines", waterlines),
-        ("buttocks", "buttocks", buttocks),
-    ):
-        axis = AXES[group]
-        dense = group == "sections"
-        places = places_of(label, wanted, float(low[axis]), float(high[axis]), dense=dense)
-        lines += _cut(shell, group, places, limits, joins, book)
-    _tell_joins(joins, book)
+    places = [
+        (group, place)
+        for group, label, wanted in (
+            ("sections", "stations", stations),
+            ("waterlines", "waterlines", waterlines),
+            ("buttocks", "buttocks", buttocks),
+        )
+        for place in _places(label, wanted, low[AXES[group]], high[AXES[group]], group)
+    ]
+    for i, (group, place) in enumerate(places):
+        tell("cutting lines", i, len(places))
+        lines.append(_cut(shell, group, place, limits, joins, book))
+    tell_joins(joins, book)
     return Slices(
         name, tuple(lines), tuple(_boundaries(shell, limits, joins, book)), tuple(joins),
-        book.report(), True, low, high, facet_depth(shell.mesh),
+        book.report(), True, low, high, facet_depth(shell.mesh), limits,
     )  # fmt: skip
 
 
+def _places(label: str, wanted: Places, low: float, high: float, group: str) -> list[float]:
+    dense = group == "sections"
+    return [float(each) for each in places_of(label, wanted, float(low), float(high), dense=dense)]
+
+
 def _cut(
-    shell: Shell, group: str, places: FloatArray, gaps: Gaps, joins: list[Join], book: Notebook
-) -> list[SliceLine]:
-    axis, found = AXES[group], []
-    for place in places.tolist():
-        name = f"{_PREFIX[group]} {place:g}"
-        pieces, made = join_pieces(name, cut_shell(shell, axis, place), gaps)
-        if not pieces:
-            raise BadInputError(f"{name} cuts no triangle", "in the mesh", "give another place")
-        joins += made
-        _tell_ends(name, pieces, book)
-        _tell_crossings(name, pieces, axis, book)
-        found.append(SliceLine(group, name, place, tuple(_in_order(pieces, group))))
-    return found
+    shell: Shell, group: str, place: float, gaps: Gaps, joins: list[Join], book: Notebook
+) -> SliceLine:
+    axis, name = AXES[group], f"{_PREFIX[group]} {place:g}"
+    pieces, made = join_pieces(name, cut_shell(shell, axis, place), gaps)
+    if not pieces:
+        raise BadInputError(
+            f"{name} cuts no triangle", "in the mesh",
+            f"mend the gap there, or give {group} at other places",
+        )  # fmt: skip
+    joins += made
+    _tell_ends(name, pieces, book)
+    tell_crossings(name, pieces, axis, book)
+    return SliceLine(group, name, place, tuple(_in_order(pieces, group)))
 
 
 def _in_order(pieces: list[Piece], group: str) -> list[Piece]:
@@ -190,28 +203,6 @@ def _tell_ends(name: str, pieces: list[Piece], book: Notebook) -> None:
         x, y, z = loose[0].tolist()
         what = f"{len(loose)} ends lie on no boundary, first ({x:.4g}, {y:.4g}, {z:.4g}) m"
         book.suspect("loose end", name, what, len(loose))
-
-
-def _tell_crossings(name: str, pieces: list[Piece], axis: int, book: Notebook) -> None:
-    plane = [other for other in range(3) if other != axis]
-    start = np.concatenate([piece.points[:-1, plane] for piece in pieces])
-    end = np.concatenate([piece.points[1:, plane] for piece in pieces])
-    places = self_crossings(start, end)
-    if len(places):
-        letters = " ".join(f"{'xyz'[a]} = {v:.4g}" for a, v in zip(plane, places[0], strict=True))
-        what = f"the line crosses itself {len(places)} times, first at {letters} m"
-        book.suspect("self-crossing", name, what, len(places))
-
-
-def _tell_joins(joins: list[Join], book: Notebook) -> None:
-    wide = [join for join in joins if join.gap > 5e-3]
-    if joins:
-        widest = max(joins, key=lambda each: each.gap)
-        what = (
-            f"{len(joins)} joins, {len(wide)} of them over 5 mm, the widest "
-            f"{1e3 * widest.gap:.3g} mm in {widest.line}"
-        )
-        book.repair("join", "the lines", what, widest.gap)
 
 
 def _boundaries(shell: Shell, gaps: Gaps, joins: list[Join], book: Notebook) -> list[SliceLine]:

@@ -12,6 +12,11 @@ from assoc_hull.io.offset_report import Notebook
 __all__ = ["boundary_edges", "facet_depth", "mend_mesh"]
 
 _WHERE = "the mesh"
+_ROUNDING = 1e-6
+"""Vertices this part of the size of the mesh apart are one, but for rounding."""
+
+_PART = 0.01
+"""Separate parts are told of from this part of the surface on."""
 
 
 def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
@@ -35,6 +40,7 @@ def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
     _refuse_branches(mesh, book)
     mesh = _wind(mesh, book)
     _tell_open(mesh, book)
+    _tell_parts(mesh, book)
     return mesh
 
 
@@ -54,15 +60,32 @@ def _drop_degenerate(mesh: Triangles, book: Notebook) -> Triangles:
 
 
 def _drop_duplicates(mesh: Triangles, book: Notebook) -> Triangles:
-    i, j, k = np.sort(mesh.face, axis=1).T
+    """Keep each triangle once, also where its copy differs by rounding."""
+    i, j, k = np.sort(_labels(mesh)[mesh.face], axis=1).T
     order = np.lexsort((k, j, i))
     same = np.stack([np.diff(each[order]) == 0 for each in (i, j, k)]).all(axis=0)
+    # Slivers within rounding have two labels that are one: these are no copies.
+    same &= ((i < j) & (j < k))[order[1:]]
     first = order[np.append(True, ~same)]
     twice = len(mesh.face) - len(first)
     if not twice:
         return mesh
     book.repair("duplicate", _WHERE, f"{twice} triangles occur twice; each is kept once", twice)
     return Triangles(mesh.xyz, mesh.face[np.sort(first)])
+
+
+def _labels(mesh: Triangles) -> IntArray:
+    """Give each vertex a number; those that differ by rounding have one."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(mesh.xyz).query_pairs(_ROUNDING * _size(mesh), output_type="ndarray")
+    count = len(mesh.xyz)
+    if not len(pairs):
+        return np.arange(count)
+    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    return np.asarray(connected_components(graph, directed=False)[1], np.int64)
 
 
 def boundary_edges(mesh: Triangles) -> IntArray:
@@ -79,7 +102,7 @@ def _weld(mesh: Triangles, book: Notebook) -> Triangles:
     from scipy.spatial import cKDTree
 
     rim = np.unique(boundary_edges(mesh))
-    reach = 1e-6 * _size(mesh)
+    reach = _ROUNDING * _size(mesh)
     pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
     if not len(pairs):
         return mesh
@@ -211,6 +234,26 @@ def _tell_open(mesh: Triangles, book: Notebook) -> None:
             f"open: {len(rim)} edges have one triangle only, from {_words(low)} to {_words(high)}"
         )
         book.assume("open", _WHERE, what, len(rim))
+
+
+def _tell_parts(mesh: Triangles, book: Notebook) -> None:
+    """Tell of large parts that touch nowhere: appendages, a second hull, patches not sewn."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    ends = mesh.edges().T
+    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(len(mesh.xyz),) * 2)
+    label = connected_components(graph, directed=False)[1][mesh.face[:, 0]]
+    area = np.bincount(label, np.linalg.norm(mesh.area_vectors(), axis=1))
+    large = np.flatnonzero(area > _PART * area.sum())
+    if len(large) < 2:
+        return
+    corners = mesh.corners[label == large[1]].reshape(-1, 3)
+    what = (
+        f"{len(large)} parts that touch nowhere, the second from {_words(corners.min(axis=0))} to "
+        f"{_words(corners.max(axis=0))}; all are cut: leave out what is no hull, or sew the patches"
+    )
+    book.suspect("parts", _WHERE, what, len(large))
 
 
 def _words(place: FloatArray) -> str:

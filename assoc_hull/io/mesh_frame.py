@@ -17,6 +17,9 @@ __all__ = ["place_mesh", "scale_mesh"]
 
 _WHERE = "the mesh"
 _LONGEST, _SHORTEST = 600.0, 1.0
+_USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
+"""Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
+
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 
 
@@ -38,7 +41,8 @@ def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Tria
     Raises
     ------
     BadInputError
-        A scale that is not positive, an unknown unit, or a ship longer than 600 m.
+        A scale that is not positive, an unknown unit, or a ship longer than 600 m or shorter
+        than 1 m.
     """
     if not (np.isfinite(scale) and scale > 0.0):
         raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
@@ -53,8 +57,10 @@ def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Tria
             "are these millimetres? give unit='mm', or another scale",
         )  # fmt: skip
     if length < _SHORTEST:
-        what = f"only {length:.4g} m long; for a model or metres read as millimetres give scale="
-        book.suspect("small", _WHERE, what, length)
+        raise BadInputError(
+            f"the mesh is only {length:.4g} m long in {chosen} at scale {scale:g}", f"in {_WHERE}",
+            "are these metres? give unit='m', or the scale of the model",
+        )  # fmt: skip
     return Triangles(mesh.xyz * (scale * _UNITS[chosen]), mesh.face)
 
 
@@ -88,13 +94,13 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
         Unknown axes, or a mesh whose axes cannot be told.
     """
     if axes != "auto":
-        turn = _parse(axes)
-        moved = _turned(mesh, turn)
-        return _centred(moved, book)
-    columns = _find_columns(mesh, book)
-    moved = _turned(mesh, np.eye(3)[list(columns)])
-    moved = _upright(_centred(moved, book), book)
-    return _grounded(_bow_forward(moved, book), book)
+        placed = _centred(_turned(mesh, _parse(axes)), book)
+    else:
+        moved = _turned(mesh, np.eye(3)[list(_find_columns(mesh, book))])
+        moved = _upright(_centred(moved, book), book)
+        placed = _grounded(_bow_forward(moved, book), book)
+    _tell_proportions(placed, book)
+    return placed
 
 
 def _parse(axes: str) -> FloatArray:
@@ -123,7 +129,10 @@ def _find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
     offs = {axis: _asymmetry(mesh, axis) for axis in others}
     y = min(others, key=lambda axis: offs[axis])
     tried = 1 if x != 1 else others[0]
-    if tried != y and offs[tried] < 2.0 * offs[y] + 1e-3:
+    sides = {axis: _half_side(mesh, axis) for axis in others}
+    if None not in sides.values():
+        y = _centre_axis(mesh, x, others, tried)
+    elif tried != y and offs[tried] < 2.0 * offs[y] + 1e-3:
         y = tried
     if offs[y] > 0.02:
         raise BadInputError(
@@ -138,6 +147,25 @@ def _find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
     else:
         book.repair("axes", _WHERE, f"{said}; turned into ship axes", offs[y])
     return x, y, z
+
+
+def _centre_axis(mesh: Triangles, x: int, others: list[int], tried: int) -> int:
+    """Tell the centre plane of a half hull from its open deck: the keel is straighter."""
+    share = {axis: _straight_share(mesh, x, axis, *(a for a in others if a != axis))
+             for axis in others}  # fmt: skip
+    best = max(others, key=lambda axis: share[axis])
+    return best if share[best] > share[tried] + 0.05 else tried
+
+
+def _straight_share(mesh: Triangles, x: int, axis: int, other: int) -> float:
+    """Give the part of the length on which the edge in one open plane is farthest from another."""
+    rim, size = boundary_edges(mesh), np.ptp(mesh.xyz, axis=0)
+    plane, away = _half_side(mesh, axis), _half_side(mesh, other)
+    middle = mesh.xyz[rim].mean(axis=1)
+    step = np.abs(np.diff(mesh.xyz[rim], axis=1)[:, 0, x])
+    on = np.abs(middle[:, axis] - plane) < 1e-5 * size.max()
+    far = np.abs(middle[:, other] - away) > 0.98 * size[other]
+    return float(step[on & far].sum() / size[x])
 
 
 def _asymmetry(mesh: Triangles, axis: int) -> float:
@@ -202,14 +230,21 @@ def _centred(mesh: Triangles, book: Notebook) -> Triangles:
         xyz[:, 1] -= middle
     elif side is None:
         _tell_asymmetry(mesh, size, book)
-    face = mesh.face
-    if side is not None and xyz[:, 1].max() < 1e-3 * size:
+    moved = Triangles(xyz, mesh.face)
+    if _is_starboard(moved):
         book.repair("mirrored", _WHERE, "the half at negative y was mirrored to port")
-        xyz[:, 1] = -xyz[:, 1] + 0.0
-        face = face[:, ::-1].copy()
     kind = "half" if side is not None else "whole"
     book.assume("half or whole", _WHERE, f"the mesh is a {kind} hull")
-    return Triangles(xyz, face)
+    return _to_port(moved)
+
+
+def _is_starboard(mesh: Triangles) -> bool:
+    """Tell whether this is half a hull, at negative y."""
+    return float(mesh.xyz[:, 1].max()) < 1e-3 * float(np.ptp(mesh.xyz, axis=0).max())
+
+
+def _to_port(mesh: Triangles) -> Triangles:
+    return _turned(mesh, np.diag([1.0, -1.0, 1.0])) if _is_starboard(mesh) else mesh
 
 
 def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
@@ -217,6 +252,20 @@ def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
     if off > 1e-3:
         what = f"the halves differ by {off * size:.3g} m at one vertex of ten; port is taken"
         book.suspect("asymmetry", _WHERE, what, off * size)
+
+
+def _tell_proportions(mesh: Triangles, book: Notebook) -> None:
+    """Tell of a hull that no ship is like: a unit or scale that differs between the axes."""
+    half, (length, _, depth) = float(mesh.xyz[:, 1].max()), np.ptp(mesh.xyz, axis=0).tolist()
+    ratios = {"L/B": 0.5 * length / half, "L/D": length / depth, "B/D": 2.0 * half / depth}
+    odd = [
+        f"{name} is {ratio:.3g}"
+        for name, ratio in ratios.items()
+        if not _USUAL[name][0] <= ratio <= _USUAL[name][1]
+    ]
+    if odd:
+        what = f"{', '.join(odd)}: check unit and scale of each axis, or give axes="
+        book.suspect("proportions", _WHERE, what)
 
 
 def _upright(mesh: Triangles, book: Notebook) -> Triangles:
@@ -233,7 +282,7 @@ def _upright(mesh: Triangles, book: Notebook) -> Triangles:
     narrow = len(below) and len(above) and below.max() > 1.02 * above.max()
     if narrow and lower > upper:
         book.repair("upside down", _WHERE, "the hull narrows upward; turned about its length")
-        return _turned(mesh, np.diag([1.0, -1.0, -1.0]))
+        return _to_port(_turned(mesh, np.diag([1.0, -1.0, -1.0])))
     return mesh
 
 
@@ -257,7 +306,7 @@ def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
         return mesh
     what = f"the bow was at low x (half-breadth {aft:.4g} m there, {fore:.4g} m at high x); turned"
     book.repair("bow at negative x", _WHERE, what, fore - aft)
-    return _turned(mesh, np.diag([-1.0, -1.0, 1.0]))
+    return _to_port(_turned(mesh, np.diag([-1.0, -1.0, 1.0])))
 
 
 def _end_breadth(mesh: Triangles, end: float) -> float:

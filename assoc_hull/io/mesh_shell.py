@@ -220,6 +220,8 @@ def _top(mesh: Triangles, x: FloatArray) -> FloatArray:
     part = np.clip(np.searchsorted(edges, mesh.xyz[:, 0]) - 1, 0, 63)
     top = np.full(64, -np.inf)
     np.maximum.at(top, part, mesh.xyz[:, 2])
+    known = np.flatnonzero(np.isfinite(top))  # a coarse mesh has no vertex in some parts
+    top = np.interp(np.arange(64), known, top[known])
     return np.asarray(top[np.clip(np.searchsorted(edges, x) - 1, 0, 63)])
 
 

@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.polyline import distinct, drop_repeats, order_paths
 from assoc_hull.io.mesh_shell import Rim, Shell
-from assoc_hull.io.slice_types import Join, Piece
+from assoc_hull.io.slice_types import Gaps, Join, Piece
 
-__all__ = ["Gaps", "cut_shell", "join_pieces", "rim_pieces"]
+__all__ = ["cut_shell", "enough", "join_pieces", "nearest_ends", "rim_pieces"]
 
 _SAME = 1e-6
-
-
-@attrs.frozen
-class Gaps:
-    """What to do about gaps between pieces.
-
-    Attributes
-    ----------
-    join : float, m
-        Loose ends this close are joined.
-    refuse : float, m
-        Loose ends farther apart than `join`, and up to this, are an error: a line that should
-        chain does not.
-    """
-
-    join: float = 0.06
-    refuse: float = 0.2
 
 
 def cut_shell(shell: Shell, axis: int, offset: float) -> list[Piece]:
@@ -137,7 +119,7 @@ def join_pieces(name: str, pieces: list[Piece], gaps: Gaps) -> tuple[list[Piece]
     done: list[Join] = []
     pieces = list(pieces)
     while True:
-        near = _nearest(pieces)
+        near = nearest_ends(pieces)
         if near is None or near[0] > gaps.refuse:
             return pieces, done
         gap, (i, end), (j, other) = near
@@ -147,19 +129,31 @@ def join_pieces(name: str, pieces: list[Piece], gaps: Gaps) -> tuple[list[Piece]
             raise BadInputError(
                 f"the pieces do not chain: two ends {1e3 * gap:.0f} mm apart at "
                 f"({x:.4g}, {y:.4g}, {z:.4g}) m", f"in {name}",
-                f"mend the mesh there, or give join= of {gap:.3g} m or more",
+                f"mend the mesh there, or give join= of {enough(gap)} m or more",
             )  # fmt: skip
         done.append(Join(name, (x, y, z), gap))
         joined = _join(pieces[i], end, pieces[j], other) if i != j else _close(pieces[i])
         pieces = [each for k, each in enumerate(pieces) if k not in (i, j)] + [joined]
 
 
+def enough(gap: float) -> str:
+    """Write the width (m) that closes a gap, rounded up to millimetres.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.slice_chain import enough
+    >>> enough(0.1201)
+    '0.121'
+    """
+    return f"{np.ceil(1e3 * gap) / 1e3:.3f}"
+
+
 def _end(piece: Piece, end: int) -> FloatArray:
     return np.asarray(piece.points[-end])
 
 
-def _nearest(pieces: list[Piece]) -> tuple[float, tuple[int, int], tuple[int, int]] | None:
-    """Give the two loose ends that lie closest."""
+def nearest_ends(pieces: list[Piece]) -> tuple[float, tuple[int, int], tuple[int, int]] | None:
+    """Give the two loose ends that lie closest: their gap (m), and piece and end of each."""
     loose = [
         (i, end)
         for i, piece in enumerate(pieces)

@@ -11,22 +11,20 @@ Examples
 >>> mesh = grid_triangles(np.stack([x, y, z], axis=2))
 >>> slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=2)
 >>> state, report = net_from_slices(slices)
->>> len(report.adoption.lines), report.inflections
+>>> len(report.adoption.lines), report.adoption.inflections
 (18, (0, 0))
 """
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
-from assoc_hull.edit.adopt import AdoptionReport, adopt
+from assoc_hull.edit.adopt import adopt, source_order
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, SplineBatch
-from assoc_hull.geometry.fairness import inflections
+from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.io.offset_net import ASSOCIATIONS
-from assoc_hull.io.offset_report import OffsetReport
+from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_features import (
     FeatureRules,
     KnuckleLine,
@@ -35,53 +33,14 @@ from assoc_hull.io.slice_features import (
 )
 from assoc_hull.io.slice_joint import join_plans
 from assoc_hull.io.slice_plan import plan_piece
+from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
-from assoc_hull.io.slice_types import Join, Slices
-from assoc_hull.model.source import LineSource
+from assoc_hull.io.slice_types import Slices
+from assoc_hull.model.source import LineSource, curve_data
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
-
-
-@attrs.frozen(eq=False)
-class SliceReport:
-    """What became of slices.
-
-    Attributes
-    ----------
-    slices : OffsetReport
-        What was assumed, mended and found suspicious when they were read.
-    joins : tuple of Join
-        Every join across a gap.
-    rules : FeatureRules
-        The thresholds.
-    tolerance : float, m
-        How far an adopted curve may pass its smooth line.
-    noise : float, m
-        Median over the pieces; of a mesh, the depth of its facets.
-    smoothing : tuple of SmoothReport
-        Per piece.
-    knuckles : tuple of KnuckleLine
-        Knuckle lines found.
-    adoption : AdoptionReport
-        Per curve.
-    adopted : int
-        Points that no crossing holds.
-    inflections : (int, int)
-        In all plane curves: of the smooth lines, and what the adopted curves have more.
-    """
-
-    slices: OffsetReport
-    joins: tuple[Join, ...]
-    rules: FeatureRules
-    tolerance: float
-    noise: float
-    smoothing: tuple[SmoothReport, ...]
-    knuckles: tuple[KnuckleLine, ...]
-    adoption: AdoptionReport
-    adopted: int
-    inflections: tuple[int, int]
 
 
 def sources_from_slices(
@@ -142,6 +101,7 @@ def net_from_slices(
     particulars: Particulars | None = None,
     tolerance: float | None = None,
     rules: FeatureRules | None = None,
+    tell: Tell = silent,
 ) -> tuple[HullState, SliceReport]:
     """Adopt slices as a net.
 
@@ -153,6 +113,8 @@ def net_from_slices(
         By default from the extent of the hull, the draught at half its depth.
     tolerance, rules
         As for `sources_from_slices`.
+    tell : callable
+        Hears what is being done.
 
     Returns
     -------
@@ -168,49 +130,26 @@ def net_from_slices(
             f"{len(slices.lines)} line(s)", f"in {slices.name}", "give two or more lines"
         )
     wanted = rules or FeatureRules()
+    tell("finding features and smoothing", 0, 0)
     sources, smoothing, knuckles, allowed = sources_from_slices(slices, tolerance, wanted)
     size = slices.high - slices.low
     ship = particulars or Particulars(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
         0.5 * float(size[2]),
     )  # fmt: skip
+    # Reports of pieces stand in the order of the curves that are made of them.
+    pairs = sorted(zip(sources, smoothing, strict=True), key=lambda each: source_order(each[0]))
     links = _links({source.group for source in sources})
+    tell("adopting", 0, 0)
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
-        slices.report, slices.joins, wanted, allowed,
-        float(np.median([each.noise for each in smoothing])), tuple(smoothing),
-        tuple(knuckles), adoption, sum(line.adopted for line in adoption.lines),
-        _inflections(state, sources),
+        slices.report, slices.joins, slices.gaps, wanted, state.tolerances,
+        float(np.median([each.noise for each in smoothing])), slices.depth,
+        tuple(each for _, each in pairs), tuple(knuckles), adoption,
     )  # fmt: skip
     return state, report
 
 
 def _loft(source: LineSource) -> SplineBatch:
     """Loft a line through its own points."""
-    return loft(
-        CurveData(
-            np.array([0, len(source.points)]), source.points, source.kind, source.direction,
-            np.array([source.ends.kind], np.int8), np.array([source.ends.vector], np.float64),
-        )
-    )  # fmt: skip
-
-
-def _inflections(state: HullState, sources: list[LineSource]) -> tuple[int, int]:
-    """Count inflections of the smooth lines, and those that the net has more, line by line."""
-    given: dict[tuple[str, str], int] = {}
-    for source in sources:
-        if source.normal is None:
-            continue
-        key = (source.group, source.name)
-        given[key] = given.get(key, 0) + int(inflections(_loft(source), source.normal)[0][0])
-    more = 0
-    curves, lines = state.curves, state.lines
-    for line in np.flatnonzero(lines.planar.data[: len(lines.name.data)]).tolist():
-        numbers = list(lines.curves.data[line])
-        batch = SplineBatch.join([curves.spline.data[i] for i in numbers])
-        count = int(
-            inflections(batch, np.tile(lines.normal.data[line], (len(numbers), 1)))[0].sum()
-        )
-        group = state.groups.name.data[int(lines.group.data[line])]
-        more += max(0, count - given.get((group, lines.name.data[line]), 0))
-    return sum(given.values()), more
+    return loft(curve_data([source]))

@@ -9,8 +9,10 @@ from assoc_hull.io.digitised_text import is_digitised
 from assoc_hull.io.mesh import read_mesh
 from assoc_hull.io.mesh_file import is_mesh_name
 from assoc_hull.io.offset_units import check_argument
+from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_net import SliceReport, net_from_slices
 from assoc_hull.io.slice_places import Places
+from assoc_hull.io.slice_types import Gaps
 from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices"]
@@ -39,6 +41,8 @@ def read_slices(
     unit: str = "auto",
     axes: str = "auto",
     tolerance: float | None = None,
+    join: float | None = None,
+    tell: Tell = silent,
 ) -> tuple[HullState, SliceReport]:
     """Read a mesh or digitised lines and adopt them.
 
@@ -53,6 +57,10 @@ def read_slices(
     tolerance : float or None, m
         How far an adopted curve may pass its smooth line; by default 3 times the median noise
         of the pieces, but at least 5 mm, of a mesh 10 mm.
+    join : float or None, m
+        Loose ends of pieces this close are joined; by default 60 mm.
+    tell : callable
+        Hears what is being done, and how far.
 
     Raises
     ------
@@ -60,16 +68,18 @@ def read_slices(
         As for `read_mesh`, `read_lines` and `net_from_slices`.
     """
     for name, value in (
-        ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance)
+        ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
+        ("join", join),
     ):  # fmt: skip
         check_argument(name, value)
+    gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
     if is_mesh_name(path):
         slices = read_mesh(
             path, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
-            unit=unit, axes=axes,
+            unit=unit, axes=axes, gaps=gaps, tell=tell,
         )  # fmt: skip
     else:
-        slices = read_lines(path, scale=scale, unit=unit)
+        slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
     size = slices.high - slices.low
     depth = float(size[2])
     ship = Particulars(
@@ -79,5 +89,5 @@ def read_slices(
         depth,
         0.5 * depth if draught is None else draught,
     )
-    state, report = net_from_slices(slices, ship, tolerance)
+    state, report = net_from_slices(slices, ship, tolerance, tell=tell)
     return state, report

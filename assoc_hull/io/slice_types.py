@@ -8,7 +8,7 @@ from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.io.offset_report import OffsetReport
 
-__all__ = ["AXES", "Join", "Piece", "SliceLine", "Slices"]
+__all__ = ["AXES", "Gaps", "Join", "Piece", "SliceLine", "Slices"]
 
 AXES = {"sections": 0, "buttocks": 1, "waterlines": 2}
 """The coordinate that is constant on a line of each group."""
@@ -87,6 +87,23 @@ class Join:
     gap: float
 
 
+@attrs.frozen
+class Gaps:
+    """What to do about gaps between pieces.
+
+    Attributes
+    ----------
+    join : float, m
+        Loose ends this close are joined.
+    refuse : float, m
+        Loose ends farther apart than `join`, and up to this, are an error: a line that should
+        chain does not.
+    """
+
+    join: float = 0.06
+    refuse: float = 0.2
+
+
 @attrs.frozen(eq=False)
 class Slices:
     """Lines of a hull as points, from a mesh or digitised.
@@ -109,6 +126,8 @@ class Slices:
         Extent of the hull.
     depth : float, m
         How deep facets of the mesh lie inside the hull, nil for digitised lines.
+    gaps : Gaps
+        What was joined and what would have been refused.
     """
 
     name: str
@@ -120,6 +139,7 @@ class Slices:
     low: FloatArray
     high: FloatArray
     depth: float = 0.0
+    gaps: Gaps = attrs.field(factory=Gaps)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.low, self.high)

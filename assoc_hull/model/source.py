@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import choice, flag, instance, numbers, places, positive, shown, text
 from assoc_hull.errors import BadInputError, TooFewPointsError
-from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
+from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, freeze
 from assoc_hull.geometry.plane import as_plane
 from assoc_hull.model.family import FAMILIES, BoundaryKind
 from assoc_hull.model.state import Ends
 
-__all__ = ["LineSource"]
+__all__ = ["LineSource", "curve_data"]
 
 
 @attrs.frozen(eq=False)
@@ -119,6 +119,29 @@ class LineSource:
             flag(placed, "placed", where), _tolerance(tolerance, len(xyz), where),
             flag(dense, "dense", where),
         )  # fmt: skip
+
+
+def curve_data(sources: Sequence[LineSource]) -> CurveData:
+    """Give what a loft of lines through all their own points needs.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.spline import loft
+    >>> from assoc_hull.model.source import LineSource, curve_data
+    >>> line = LineSource.make("waterlines", "WL 1", [[0, 0, 1], [5, 2, 1], [9, 0, 1]])
+    >>> loft(curve_data([line])).count
+    1
+    """
+    start = np.zeros(len(sources) + 1, np.int64)
+    np.cumsum([len(source.points) for source in sources], out=start[1:])
+    return CurveData(
+        start,
+        np.concatenate([source.points for source in sources]),
+        np.concatenate([source.kind for source in sources]),
+        np.concatenate([source.direction for source in sources]),
+        np.array([source.ends.kind for source in sources], np.int8),
+        np.array([source.ends.vector for source in sources], np.float64),
+    )
 
 
 def _tolerance(tolerance: ArrayLike, count: int, where: str) -> float | FloatArray:

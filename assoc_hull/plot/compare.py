@@ -9,9 +9,9 @@ import numpy as np
 
 from assoc_hull.plot.block import caption, frame, title_block
 from assoc_hull.plot.drawing import Drawing, DrawnLine, Sketchable, drawing
-from assoc_hull.plot.layout import BLOCK, MARGIN, place_body
+from assoc_hull.plot.layout import BLOCK, place_body
 from assoc_hull.plot.movement import LEAST, LineMovement, moved_parts, movements, same
-from assoc_hull.plot.paper import PaperName, Pen
+from assoc_hull.plot.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.pens import BEFORE, TINT
 from assoc_hull.plot.sheet import Path_, Sheet, save
 from assoc_hull.plot.view import View, scale_of

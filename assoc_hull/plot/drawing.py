@@ -26,9 +26,18 @@ from assoc_hull.model.family import FAMILIES, BoundaryKind
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.state import HullState, Particulars
 
-__all__ = ["Crossings", "Drawing", "DrawnLine", "Sketchable", "drawing", "state_of"]
+__all__ = [
+    "CHORDS",
+    "Crossings",
+    "Drawing",
+    "DrawnLine",
+    "Sketchable",
+    "drawing",
+    "short_name",
+    "state_of",
+]
 
-_CHORDS = 8
+CHORDS = 8
 """Chords that stand for one segment of a line, and four times as many for a boundary."""
 
 
@@ -183,12 +192,12 @@ def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:
     table, family = state.lines, state.family(line)
     boundary = int(table.boundary.data[line])
     splines = tuple(state.spline(curve) for curve in _curves(state, line))
-    chords = _CHORDS if boundary < 0 else 4 * _CHORDS
+    chords = CHORDS if boundary < 0 else 4 * CHORDS
     normal = table.normal.data[line].copy()
     flat = bool(table.planar.data[line])
     return DrawnLine(
         book.line_name(line),
-        _short(str(table.name.data[line]), family.prefix),
+        short_name(str(table.name.data[line]), family.prefix),
         family.name,
         None if boundary < 0 else BoundaryKind(boundary),
         normal if flat else np.full(3, np.nan),
@@ -208,6 +217,7 @@ def _curves(state: HullState, line: int) -> list[int]:
     ]
 
 
-def _short(name: str, prefix: str) -> str:
+def short_name(name: str, prefix: str) -> str:
+    """Give the name of a line without the prefix of its family, if that leaves anything."""
     found = name.removeprefix(prefix).strip() if prefix else name
     return found or name

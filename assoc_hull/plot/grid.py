@@ -52,8 +52,6 @@ class Grid:
         factor, breadth = self.sheet.paper.factor, self.high[1]
         left, right = view.across(-breadth) - self.over, view.across(breadth) + self.over
         self._level_lines(view, left, right)
-        self._level_labels(view, "left", left)
-        self._level_labels(view, "right", right)
         low, high = view.up(self.low[2]) - self.over, view.up(self.high[2]) + self.over
         below = low - 2.0 * factor
         ends, words = [], []
@@ -72,6 +70,8 @@ class Grid:
             self.sheet.rule(
                 (view.across(edge), low), (view.across(edge), high), GRID, "body/grid/side"
             )
+        self._level_labels(view, "left", left)
+        self._level_labels(view, "right", right)
 
     def stations(self, view: View, low: float, high: float) -> None:
         """Draw the sections as upright straight lines, labelled below."""
@@ -84,11 +84,15 @@ class Grid:
         ends_ = np.array(ends).reshape(-1, 2)
         rail(
             self.sheet, ends_, words, "below", below,
-            heading="ST", name=f"label/{view.name}/sections",
+            heading="ST", sparse=True, name=f"label/{view.name}/sections",
         )  # fmt: skip
 
     def levels(self, view: View, low: float, high: float) -> None:
-        """Draw the waterlines as level straight lines, labelled at both ends."""
+        """Draw the waterlines as level straight lines, labelled at both ends.
+
+        Rows above and below the view are written first: names on the left that would reach into
+        them are left out, the body plan has them all.
+        """
         left, right = view.across(low) - self.over, view.across(high) + self.over
         self._level_lines(view, left, right)
         self._level_labels(view, "left", left)
@@ -113,10 +117,11 @@ class Grid:
         ends = np.array([(end, view.up(height)) for height, _ in marks]).reshape(-1, 2)
         off = (2.5 if side == "right" else -2.5) * self.sheet.paper.factor
         words = [name for _, name in marks]
-        rail(self.sheet, ends, words, side, end + off, name=f"label/{view.name}/{side}")
+        name, sparse = f"label/{view.name}/{side}", side == "left" and view.name != "body"
+        rail(self.sheet, ends, words, side, end + off, sparse=sparse, name=name)
 
     def lanes(self, view: View, low: float, high: float) -> None:
-        """Draw the buttocks as straight lines along the ship, labelled on the left."""
+        """Draw the buttocks as straight lines along the ship, labelled on the left as `levels`."""
         left, right = view.across(low) - self.over, view.across(high) + self.over
         lines = self.drawing.of("buttocks")
         for line in lines:
@@ -126,14 +131,8 @@ class Grid:
         marks = [(0.0, "CL"), *((line.offset, line.name) for line in lines)]
         ends = np.array([(left, view.up(offset)) for offset, _ in marks])
         at = left - 2.5 * self.sheet.paper.factor
-        rail(
-            self.sheet,
-            ends,
-            [name for _, name in marks],
-            "left",
-            at,
-            name=f"label/{view.name}/left",
-        )
+        words = [name for _, name in marks]
+        rail(self.sheet, ends, words, "left", at, sparse=True, name=f"label/{view.name}/left")
 
     def perpendiculars(self, view: View, low: float, high: float) -> None:
         """Draw both perpendiculars and the middle between them, named in a row below."""

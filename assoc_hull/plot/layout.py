@@ -7,16 +7,13 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.drawing import Drawing
-from assoc_hull.plot.paper import Paper
+from assoc_hull.plot.paper import MARGIN, Paper
 from assoc_hull.plot.view import View, scale_of
 
 __all__ = ["Layout", "lay_out", "place_body"]
 
-MARGIN = 8.0
-"""Of the frame, mm at A3; so are the other lengths."""
-
 BLOCK = 92.0
-"""Width of the block of particulars."""
+"""Width of the block of particulars, mm at A3; so are the other lengths."""
 
 _SIDE = 17.0  # for labels left and right of a view
 _ABOVE, _BELOW, _CAPTION = 9.0, 9.0, 7.0

@@ -9,8 +9,8 @@ import attrs
 
 from assoc_hull.plot.block import caption, frame, particulars_of, scale_bar, title_block
 from assoc_hull.plot.drawing import Drawing, Sketchable, drawing
-from assoc_hull.plot.layout import BLOCK, MARGIN, Layout, lay_out
-from assoc_hull.plot.paper import PaperName
+from assoc_hull.plot.layout import BLOCK, Layout, lay_out
+from assoc_hull.plot.paper import MARGIN, PaperName
 from assoc_hull.plot.sheet import Path_, Sheet, save
 from assoc_hull.plot.views import Views
 

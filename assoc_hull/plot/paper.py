@@ -8,10 +8,13 @@ import attrs
 
 from assoc_hull.errors import BadInputError
 
-__all__ = ["PAPERS", "POINT", "Paper", "PaperName", "Pen", "paper_of"]
+__all__ = ["MARGIN", "PAPERS", "POINT", "Paper", "PaperName", "Pen", "paper_of"]
 
 POINT = 25.4 / 72.0
 """Millimetres in a typographic point."""
+
+MARGIN = 8.0
+"""Of the frame from the edge of the sheet, mm at A3."""
 
 PaperName = Literal["A1", "A3", "A4"]
 

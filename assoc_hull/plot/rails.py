@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.paper import Pen
+from assoc_hull.plot.paper import MARGIN, Pen
 from assoc_hull.plot.sheet import Sheet
 from assoc_hull.plot.spread import spread
 
@@ -32,6 +32,7 @@ def rail(
     *,
     upright: bool = False,
     heading: str = "",
+    sparse: bool = False,
     name: str = "label",
 ) -> None:
     """Write labels in a row beside a view, each with a leader to what it names.
@@ -52,6 +53,9 @@ def rail(
         Whether the words run upward.
     heading : str
         Written before the row.
+    sparse : bool
+        Whether labels may be left out where the row would cover others or leave the frame: then
+        those are written that have room right beside what they name.
     name : str
         Begins the ids of the labels.
     """
@@ -61,9 +65,17 @@ def rail(
     texts = [_write(sheet, side, at, upright, each, f"{name}/{each}") for each in words]
     boxes = np.array([sheet.box(text) for text in texts])
     size = boxes[:, along + 2] - boxes[:, along]
-    gap = _GAP if upright or along else _GAP_ALONG
-    place = spread(anchors[:, along], size, gap * sheet.paper.factor)
+    gap = (_GAP if upright or along else _GAP_ALONG) * sheet.paper.factor
+    place = spread(anchors[:, along], size, gap)
     shift = place - 0.5 * (boxes[:, along + 2] + boxes[:, along])
+    boxes[:, [along, along + 2]] += shift[:, None]
+    if sparse and (_leaves(sheet, boxes) or any(overlaps(box, sheet.taken) for box in boxes)):
+        for text in texts:
+            text.remove()
+        kept = _with_room(anchors[:, along], size + gap)
+        some = [words[i] for i in kept]
+        rail(sheet, anchors[kept], some, side, at, upright=upright, heading=heading, name=name)
+        return
     for text, anchor, middle, move in zip(texts, anchors, place, shift, strict=True):
         x, y = text.get_position()
         text.set_position((x + move, y) if along == 0 else (x, y + move))
@@ -72,6 +84,22 @@ def rail(
         sheet.line(_leader(anchor, end, along), _LEADER, f"leader/{text.get_text()}")
     if heading:
         _head(sheet, _write(sheet, side, at, False, heading, f"{name}/heading"), place, size)
+
+
+def _leaves(sheet: Sheet, boxes: FloatArray) -> bool:
+    """Tell whether labels reach beyond the frame of the sheet."""
+    edge = MARGIN * sheet.paper.factor
+    size = np.array([sheet.paper.width, sheet.paper.height]) - edge
+    return bool((boxes[:, :2] < edge).any() or (boxes[:, 2:] > size).any())
+
+
+def _with_room(wanted: FloatArray, size: FloatArray) -> list[int]:
+    """Choose, from the lowest on, the labels that do not reach into the one before."""
+    kept: list[int] = []
+    for i in np.argsort(wanted, kind="stable").tolist():
+        if not kept or wanted[i] - wanted[kept[-1]] >= 0.5 * (size[i] + size[kept[-1]]):
+            kept.append(i)
+    return kept
 
 
 def _head(sheet: Sheet, title: Text, place: FloatArray, size: FloatArray) -> None:

@@ -23,6 +23,15 @@ _NEAR = 1e-6
 """Planes within this distance (m) are the same."""
 
 
+@attrs.frozen(eq=False)
+class _Top:
+    """Where a section ends at the head of the body plan: label, place (2,), mm, and rank."""
+
+    label: str
+    place: FloatArray
+    order: tuple[float, float]
+
+
 @attrs.frozen
 class Views:
     """Draws the views of one hull.
@@ -71,7 +80,6 @@ class Views:
     def profile(self, view: View) -> None:
         """Draw the sheer plan: buttocks and boundaries over stations and waterlines."""
         self.grid.stations(view, self.low[2], self.high[2])
-        self.grid.levels(view, self.low[0], self.high[0])
         self.grid.perpendiculars(view, self.low[2], self.high[2])
         for line in self.drawing.of("boundary"):
             self.draw(view, line)
@@ -89,6 +97,7 @@ class Views:
             self.sheet, above, words, "above", top,
             upright=True, heading="BTK", name="label/profile/buttocks",
         )  # fmt: skip
+        self.grid.levels(view, self.low[0], self.high[0])
 
     @property
     def middle_height(self) -> float:
@@ -98,7 +107,6 @@ class Views:
     def half_breadth(self, view: View) -> None:
         """Draw the half-breadth plan: waterlines, boundaries; diagonals below the centre line."""
         self.grid.stations(view, 0.0, self.high[1])
-        self.grid.lanes(view, self.low[0], self.high[0])
         self.grid.perpendiculars(view, 0.0, self.high[1])
         lettered = []
         for line in (*self.drawing.of("boundary"), *self.drawing.of("waterlines")):
@@ -117,6 +125,7 @@ class Views:
             )
         top = view.up(self.high[1]) + 3.5 * self.sheet.paper.factor
         label_above(self.sheet, lettered, wanted, top, "label/half-breadth/above")
+        self.grid.lanes(view, self.low[0], self.high[0])
 
     def _along_grid(self, line: DrawnLine) -> bool:
         """Whether a line is straight along the ship when seen from above."""
@@ -135,44 +144,42 @@ class Views:
 
     def body(self, view: View) -> None:
         """Draw the body plan: aft body on the left, fore body on the right."""
-        self.grid.body(view)
-        for mirrored in (True, False):
-            half = view.mirrored() if mirrored else view
-            self._half_body(half, body_halves(self.sections, self.middle)[0 if mirrored else 1])
+        tops: list[_Top] = []
+        for half, sections in zip(
+            (view.mirrored(), view), body_halves(self.sections, self.middle), strict=True
+        ):
+            tops += self._half_body(half, sections)
             for line in self.drawing.of("boundary"):
                 if line is not self.drawing.profile:
                     self._half_boundary(half, line)
             for line in self.drawing.of("diagonals"):
                 self.draw(half, line)
-
-    def _half_body(self, view: View, sections: Sequence[DrawnLine]) -> None:
-        """Draw the sections of one half, labelled above the deck and on the lines."""
-        tops, words, lettered = [], [], []
-        for line in sections:
-            for points in self.draw(view, line):
-                lettered.append(Lettered(line.label, points))
-                tops.append(points[np.argmax(points[:, 1])])
-                words.append(line.label)
-        edge = view.up(self.high[2])
-        part = "aft" if view.sign < 0.0 else "fore"
-        order = sorted(
-            range(len(tops)), key=lambda i: self._outward(view, tops[i], sections, words[i])
-        )
-        factor = self.sheet.paper.factor
+        tops.sort(key=lambda top: top.order)
+        above = view.up(self.high[2]) + 5.5 * self.sheet.paper.factor
         rail(
-            self.sheet, np.array([tops[i] for i in order]).reshape(-1, 2),
-            [words[i] for i in order], "above", edge + 5.5 * factor, upright=True,
-            heading="ST" if part == "aft" else "", name=f"label/body/{part}",
+            self.sheet, np.array([top.place for top in tops]).reshape(-1, 2),
+            [top.label for top in tops], "above", above, upright=True,
+            heading="ST", name="label/body/top",
         )  # fmt: skip
-        low = view.up(self.low[2])
-        label_lines(self.sheet, lettered, low, edge, axis=1, name=f"label/body/on {part}")
+        self.grid.body(view)
 
-    def _outward(
-        self, view: View, top: FloatArray, sections: Sequence[DrawnLine], label: str
-    ) -> tuple[float, float]:
-        """Sort sections across the sheet; those that end at one place, midship outermost."""
-        offset = next(line.offset for line in sections if line.label == label)
-        return (round(float(top[0]), 2), -view.sign * abs(offset - self.middle))
+    def _half_body(self, view: View, sections: Sequence[DrawnLine]) -> list[_Top]:
+        """Draw the sections of one half, labelled on the lines; give their tops."""
+        tops, lettered = [], []
+        for line in sections:
+            found = [points for points in self.draw(view, line) if len(points)]
+            lettered += [Lettered(line.label, points) for points in found]
+            if found:
+                # Of a section in several pieces the highest reaches the deck.
+                every = np.concatenate(found)
+                place = every[np.argmax(every[:, 1])]
+                # Those that end at one place: midship outermost.
+                inward = -view.sign * abs(line.offset - self.middle)
+                tops.append(_Top(line.label, place, (round(float(place[0]), 2), inward)))
+        low, edge = view.up(self.low[2]), view.up(self.high[2])
+        part = "aft" if view.sign < 0.0 else "fore"
+        label_lines(self.sheet, lettered, low, edge, axis=1, name=f"label/body/on {part}")
+        return tops
 
     def _half_boundary(self, view: View, line: DrawnLine) -> None:
         """Draw what of a boundary lies abaft (mirrored) or before the middle."""

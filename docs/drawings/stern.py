@@ -7,10 +7,10 @@ from matplotlib.lines import Line2D
 
 import assoc_hull as ah
 from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.plot import lines_plan
+from assoc_hull.plot import combs_plan, lines_plan
 from drawings.common import ACCENT, INK, PALE, SHARED, Floats
 
-__all__ = ["bulk_carrier", "counter"]
+__all__ = ["bulk_carrier", "carrier_combs", "counter"]
 
 _SCALE = 10.0
 _NAMES = {"BTK 0.5": (10.0, 0.4), "BTK 1": (10.0, 2.5)}
@@ -21,6 +21,11 @@ _AHEAD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 def bulk_carrier() -> Figure:
     """Draw the lines plan."""
     return lines_plan(ah.examples.bulk_carrier_207k(), paper="A4")
+
+
+def carrier_combs() -> Figure:
+    """Draw all lines with their curvature combs."""
+    return combs_plan(ah.examples.bulk_carrier_207k())
 
 
 def counter() -> Figure:

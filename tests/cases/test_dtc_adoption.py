@@ -55,7 +55,9 @@ def test_adopted_points_keep_clear_of_crossings(dtc: ah.Hull) -> None:
         own = state.curves.rows.data[curve]
         knot = state.curves.spline.data[curve].knot
         both = (rows.curve.data[own] >= 0).all(axis=1) & ~rows.contact.data[own]
-        smooth = (rows.sort.data[own] == Sort.ADOPTED) & (rows.kind.data[own, 0] == PointKind.SMOOTH)
+        smooth = (rows.sort.data[own] == Sort.ADOPTED) & (
+            rows.kind.data[own, 0] == PointKind.SMOOTH
+        )
         smooth[[0, -1]] = False
         if both.any() and smooth.any():
             beside = np.abs(knot[smooth][:, None] - knot[both]).min(axis=1)

@@ -1,14 +1,20 @@
 """Importing a mesh from the command line."""
 
+import io
 import json
+import re
+import sys
 from pathlib import Path
 
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.cli import main
+from assoc_hull.cli import main, output
 from assoc_hull.errors import BadInputError
+from assoc_hull.hull import Hull
+from assoc_hull.io.slice_read import read_slices
 from tests import meshes
+from tests.unit.io.test_mesh import torn
 
 
 def test_a_mesh_is_imported_with_its_report(
@@ -21,7 +27,20 @@ def test_a_mesh_is_imported_with_its_report(
     code = main(["import", str(mesh), "-o", str(out), "--report", str(report), *arguments])
     assert code == 0, capsys.readouterr().err
     facts = json.loads(report.read_text())
-    assert {"slices", "joins", "smoothing", "adoption", "rules"} <= set(facts)
+    assert (facts["format"], facts["schema"]) == ("assoc-hull report", 1)
+    assert {
+        "slices", "joins", "gaps", "rules", "tolerances", "noise", "facet_depth", "smoothing",
+        "knuckles", "adoption", "bands", "adopted", "inflections",
+    } <= set(facts)  # fmt: skip
+    assert len(facts["bands"]) == len(facts["smoothing"]) == len(facts["adoption"]["lines"])
+    text = capsys.readouterr().out
+    rows = [row.split() for row in text.splitlines()]
+    for line, piece in zip(facts["adoption"]["lines"], facts["smoothing"], strict=True):
+        words = line["line"].split()
+        (row,) = (each for each in rows if each[: len(words)] == words and ">" in each)
+        assert row[len(words)] == str(piece["given"])
+        assert f"{1e3 * line['deviation']:.2f}" in row
+        assert row[-3:] == [str(line["inflections_given"]), ">", str(line["inflections"])]
     hull = ah.open(out)
     assert hull.particulars.draught == 5.0
     assert hull.check() == ()
@@ -39,3 +58,82 @@ def test_options_of_another_form_are_refused(
     assert "meshes" in capsys.readouterr().err
     with pytest.raises(BadInputError, match="stations"):
         ah.read(table, stations=9)
+
+
+class Terminal(io.StringIO):
+    """Standard error as a terminal has it."""
+
+    def isatty(self) -> bool:
+        """Say that a person looks on."""
+        return True
+
+
+@pytest.mark.parametrize(
+    ("terminal", "options", "shown"),
+    [
+        pytest.param(True, [], True, id="on a terminal"),
+        pytest.param(True, ["--json"], False, id="for a program"),
+        pytest.param(False, [], False, id="piped"),
+    ],
+)
+def test_progress_is_for_people(
+    terminal: bool, options: list[str], shown: bool,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """A bar with the step stands on standard error of a terminal, and nothing elsewhere."""
+    mesh = meshes.write(meshes.closed_wigley(121, 31), tmp_path / "w.stl")
+    stream = Terminal() if terminal else io.StringIO()
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(output, "_PATIENCE", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    asked = ["import", str(mesh), "-o", str(tmp_path / "w.hull.json"), "--buttocks", "1", *options]
+    assert main([*asked, "--stations", "7", "--waterlines", "2"]) == 0
+    assert ("importing w.stl" in stream.getvalue()) == shown
+    assert shown or stream.getvalue() == ""
+
+
+def test_work_tells_how_far_it_is(tmp_path: Path) -> None:
+    """Every step is told, lines one by one, and telling changes nothing."""
+    path = meshes.write(meshes.wigley_half(41, 16), tmp_path / "w.stl")
+    heard: list[tuple[str, int, int]] = []
+    state, _ = read_slices(
+        path, stations=3, waterlines=2, buttocks=1, tell=lambda *step: heard.append(step)
+    )
+    assert [each for each in heard if each[0] == "cutting lines"] == [
+        ("cutting lines", i, 6) for i in range(6)
+    ]
+    steps = list(dict.fromkeys(each[0] for each in heard))
+    assert steps == [
+        "reading the mesh", "cutting lines", "finding features and smoothing", "adopting",
+    ]  # fmt: skip
+    silently = ah.read(path, stations=3, waterlines=2, buttocks=1)
+    assert silently.fingerprint == Hull(state).fingerprint
+
+
+def test_the_report_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """--picture writes a picture; another ending is refused before anything is computed."""
+    pytest.importorskip("matplotlib")
+    mesh = meshes.write(meshes.wigley_half(41, 16), tmp_path / "w.stl")
+    out = tmp_path / "w.hull.json"
+    few = ["--stations", "5", "--waterlines", "2", "--buttocks", "1"]
+    assert main(["import", str(mesh), "-o", str(out), *few,
+                 "--picture", str(tmp_path / "p.gif")]) == 2  # fmt: skip
+    assert "end the name in .pdf or .svg or .png" in capsys.readouterr().err
+    assert not out.exists()
+    assert main(["import", str(mesh), "-o", str(out), *few,
+                 "--picture", str(tmp_path / "p.png")]) == 0  # fmt: skip
+    assert (tmp_path / "p.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_width_of_a_gap_is_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Pieces 100 mm apart are refused with the option to give, and joined where it is given."""
+    mesh = meshes.write(torn(meshes.wigley_half(), 0.1), tmp_path / "w.stl")
+    asked = ["import", str(mesh), "-o", str(tmp_path / "w.hull.json"), "--buttocks", "1"]
+    asked += ["--stations", "5", "--waterlines", "1,5"]
+    assert main(asked) == 2
+    message = capsys.readouterr().err
+    assert "do not chain: two ends 100 mm apart" in message
+    told = re.search(r"give join= of ([\d.]+) m", message)
+    assert told is not None
+    assert main([*asked, "--join", told.group(1)]) == 0
+    assert "join: ST 50: 100.0 mm at (50.000, " in capsys.readouterr().out

@@ -1,12 +1,14 @@
 """Digitised lines: what is read, mended and refused."""
 
+import re
+
 import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.mesh import slice_mesh
-from assoc_hull.io.slice_types import Slices
+from assoc_hull.io.slice_types import Gaps, Slices
 from tests import meshes
 
 
@@ -43,12 +45,93 @@ def test_pieces_are_joined_where_they_touch() -> None:
     assert [piece.points[[0, -1], 2].tolist() for piece in line.pieces] == [[0.0, 4.0], [9.0, 9.0]]
 
 
+@pytest.mark.parametrize(
+    ("gap", "repairs", "suspicions"),
+    [(0.03, ("join",), ()), (0.12, (), ("gap",)), (0.9, (), ())],
+    ids=["closed", "told", "two pieces"],
+)
+def test_gaps_are_closed_or_told(
+    gap: float, repairs: tuple[str, ...], suspicions: tuple[str, ...]
+) -> None:
+    """Within 60 mm pieces are joined, up to 200 mm they are named with what to give."""
+    text = f"line,x,y,z\nST 1,5,0,0\nST 1,5,1,1\n\nST 1,5,1,{1.0 + gap}\nST 1,5,3,4\n"
+    slices = read_lines(text)
+    assert slices.report.kinds("repairs") == repairs
+    assert slices.report.kinds("suspicions") == suspicions
+    if suspicions:
+        (note,) = slices.report.suspicions
+        assert "end 120 mm apart at (5, 1, 1" in note.what
+        told = re.search(r"give join= of ([\d.]+) m", note.what)
+        assert told is not None
+        closed = read_lines(text, gaps=Gaps(float(told.group(1)), 0.2))
+        assert len(closed["ST 1"].pieces) == 1
+
+
 def test_points_beside_their_plane_are_put_into_it() -> None:
     """Points up to 20 mm off the plane of their line are repaired, and told."""
     text = "line,x,y,z\nST 1,5,0,0\nST 1,5.004,1,1\nST 1,5,2,2\n"
     slices = read_lines(text)
     assert slices.report.kinds("repairs") == ("plane",)
     assert slices["ST 1"].pieces[0].points[:, 0].tolist() == [5.0, 5.0, 5.0]
+
+
+def lines_of(order: list[int]) -> str:
+    """Section 1 through a stern bulb, its 13 points in some order, beside a waterline."""
+    angle = np.linspace(0.0, np.pi, 9)
+    bulb = np.column_stack([1.5 * np.sin(angle), 2.0 - 2.0 * np.cos(angle)])
+    neck = np.array([[0.4, 4.6], [1.2, 5.4], [3.0, 6.2], [6.0, 7.0]])
+    points = np.concatenate([bulb, neck])[order]
+    rows = [f"ST 1,5,{y:.6f},{z:.6f}" for y, z in points.tolist()]
+    return "\n".join(["line,x,y,z", *rows, "WL 3,0,1,3", "WL 3,5,1.3,3", "WL 3,9,0,3", ""])
+
+
+RIGHT = list(range(13))
+SHUFFLED = np.random.default_rng(3).permutation(13).tolist()
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        pytest.param([0, 1, 3, 2, *range(4, 13)], id="two exchanged"),
+        pytest.param([*range(6, 13), *range(6)], id="two blocks exchanged"),
+        pytest.param(SHUFFLED, id="shuffled"),
+    ],
+)
+def test_points_out_of_order_are_put_in_order(order: list[int]) -> None:
+    """The section is the one that was digitised, and the report says how many points moved."""
+    given, mended = read_lines(lines_of(RIGHT)), read_lines(lines_of(order))
+    assert given.report.kinds("repairs") == ()
+    assert mended.report.kinds("repairs") == ("order",)
+    assert "points put in order along the line" in mended.report.repairs[0].what
+    assert np.allclose(mended["ST 1"].pieces[0].points, given["ST 1"].pieces[0].points)
+
+
+def test_a_line_without_one_plain_order_is_named() -> None:
+    """A line that runs back over itself to begin a branch: the place, and what to give."""
+    text = "line,x,y,z\n" + "".join(
+        f"ST 1,5,{y},{z}\n" for y, z in ((0, 0), (1, 2), (1, 4), (1, 6), (1, 3.9), (3, 4), (5, 4))
+    )
+    report = read_lines(text).report
+    assert report.kinds("suspicions") == ("order",)
+    assert "turned back at (5, 1, 6) m" in report.suspicions[0].what
+    assert "give the points in order" in report.suspicions[0].what
+
+
+def test_noise_is_no_disorder() -> None:
+    """Points 3 mm apart that scatter by 0.5 mm are left as they are."""
+    y = np.linspace(0.0, 10.0, 5001)
+    z = y + np.random.default_rng(1).normal(0.0, 5e-4, 5001)
+    text = "line,x,y,z\n" + "".join(f"ST 1,5,{a:.6f},{b:.6f}\n" for a, b in zip(y, z, strict=True))
+    assert read_lines(text).report.suspicions == ()
+
+
+def test_a_digitised_line_that_crosses_itself_is_named() -> None:
+    """A loop is told with its place."""
+    points = ((0, 0), (4, 2), (4, 5), (2, 5), (3, 0))
+    text = "line,x,y,z\n" + "".join(f"ST 1,5,{y},{z}\n" for y, z in points)
+    (note,) = read_lines(text).report.suspicions
+    assert note.kind == "self-crossing"
+    assert "crosses itself 1 times" in note.what
 
 
 def test_millimetres_and_starboard_are_seen() -> None:
@@ -95,6 +178,14 @@ def test_polylines_of_a_drawing_are_lines() -> None:
         pytest.param("line,x,y,z\nST 1,5,0\n", "row 2", id="short row"),
         pytest.param("line,x,y,z\nST 1,5,0,0\n", "one point", id="one point"),
         pytest.param("line,x,y,z\nST 1,5,0,0\nST 1,6,1,1\n", "no plane", id="no plane"),
+        pytest.param(
+            "line,x,y,z\nST 1,0,5,0\nST 1,1,5,1\nST 1,3,5,4\n", "on its side", id="on its side"
+        ),
+        pytest.param(
+            "line,x,y,z\nWL 1,0,0,0.001\nWL 1,0.05,0.004,0.001\nWL 1,0.099,0,0.001\n",
+            r"only 0\.099 m long.*unit='m'",
+            id="too small",
+        ),
         pytest.param("line,x,y,z\na,5,0,0\na,6,1,1\n", "begin its name", id="unknown family"),
         pytest.param(
             "line,x,y,z\nST 1,5,0,0\nST 1,5,1,1\nST 2,5,0,0\nST 2,5,1,1\n", "one plane", id="twins"

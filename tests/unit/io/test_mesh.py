@@ -77,32 +77,66 @@ def scrambled(mesh: Triangles) -> Triangles:
     return Triangles(mesh.xyz, face)
 
 
+def copied(mesh: Triangles, away: FloatArray, *, turn: bool = False) -> Triangles:
+    """A mesh and its copy some way off, its triangles turned round if asked."""
+    face = mesh.face[:, ::-1] if turn else mesh.face
+    return Triangles(
+        np.concatenate([mesh.xyz, mesh.xyz + away]),
+        np.concatenate([mesh.face, face + len(mesh.xyz)]),
+    )
+
+
+ON_ITS_SIDE, KEEL_UP = [[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]
+OTHER_SIDE = [[1, 0, 0], [0, 0, 1], [0, -1, 0]]
 WRONG: list[Any] = [
-    pytest.param(lambda m: turned(m, [[-1, 0, 0], [0, -1, 0], [0, 0, 1]]), "axes", id="both ways"),
-    pytest.param(lambda m: turned(m, [[1, 0, 0], [0, 0, -1], [0, 1, 0]]), "axes", id="on its side"),
-    pytest.param(lambda m: turned(m, [[0, 0, 1], [1, 0, 0], [0, 1, 0]]), "axes", id="rolled axes"),
-    pytest.param(lambda m: turned(m, [[1, 0, 0], [0, -1, 0], [0, 0, -1]]), "upside down",
-                 id="keel up"),
-    pytest.param(lambda m: Triangles(m.xyz, m.face[:, ::-1].copy()), "inside-out", id="inside out"),
-    pytest.param(lambda m: turned(m, [[1, 0, 0], [0, -1, 0], [0, 0, 1]]), "inside-out",
-                 id="mirrored"),
-    pytest.param(scrambled, "winding", id="mixed winding"),
-    pytest.param(lambda m: Triangles(m.xyz, np.concatenate([m.face, m.face])), "duplicate",
-                 id="twice"),
-    pytest.param(lambda m: shifted(m, 0.0, 3.0, 0.0), "centre plane", id="off centre"),
-    pytest.param(lambda m: shifted(m, -50.0, 0.0, -6.25), "origin",
+    pytest.param(lambda m: turned(m, ON_ITS_SIDE), ["axes"], id="on its side"),
+    pytest.param(lambda m: turned(m, OTHER_SIDE), ["axes"], id="on its other side"),
+    pytest.param(lambda m: turned(m, [[0, 0, 1], [1, 0, 0], [0, 1, 0]]), ["axes"],
+                 id="rolled axes"),
+    pytest.param(lambda m: turned(m, [[0, 0, -1], [0, 1, 0], [1, 0, 0]]), ["axes"],
+                 id="on its stern"),
+    pytest.param(lambda m: turned(m, KEEL_UP), ["upside down"], id="keel up"),
+    pytest.param(lambda m: Triangles(m.xyz, m.face[:, ::-1].copy()), ["inside-out"],
+                 id="inside out"),
+    pytest.param(scrambled, ["winding"], id="mixed winding"),
+    pytest.param(lambda m: copied(m, np.zeros(3)), ["duplicate"], id="twice"),
+    pytest.param(lambda m: copied(m, np.zeros(3), turn=True), ["duplicate"], id="two-sided"),
+    pytest.param(lambda m: copied(m, np.full(3, 1e-7)), ["duplicate"], id="twice but for rounding"),
+    pytest.param(lambda m: shifted(m, 0.0, 3.0, 0.0), ["centre plane"], id="off centre"),
+    pytest.param(lambda m: shifted(m, -50.0, 0.0, -6.25), ["origin"],
                  id="origin amidships at the waterline"),
 ]  # fmt: skip
+HALF_OR_WHOLE = pytest.mark.parametrize(
+    "hull", [pytest.param(meshes.wigley_half, id="half"),
+             pytest.param(meshes.closed_wigley, id="whole")]
+)  # fmt: skip
 
 
-@pytest.mark.parametrize(("spoil", "kind"), WRONG)
+@HALF_OR_WHOLE
+def test_a_mesh_in_order_is_left_as_it_is(hull: Callable[[], Triangles]) -> None:
+    """Nothing is mended or suspected; what was assumed is told."""
+    report = slice_mesh(hull(), **CUTS).report
+    assert report.kinds("repairs") == report.kinds("suspicions") == ()
+    assert {"unit", "axes", "bow", "origin", "half or whole"} <= set(report.kinds("assumptions"))
+
+
+@HALF_OR_WHOLE
+@pytest.mark.parametrize(("spoil", "kinds"), WRONG)
 def test_a_mesh_that_is_out_of_order_is_mended_and_reported(
-    spoil: Callable[[Triangles], Triangles], kind: str
+    spoil: Callable[[Triangles], Triangles], kinds: list[str], hull: Callable[[], Triangles]
 ) -> None:
     """Whatever was done to the mesh is undone and named, and the lines are the hull's."""
-    slices = slice_mesh(spoil(meshes.closed_wigley()), **CUTS)
-    told = slices.report.kinds("repairs") + slices.report.kinds("assumptions")
-    assert kind in told
+    slices = slice_mesh(spoil(hull()), **CUTS)
+    assert set(kinds) <= set(slices.report.kinds("repairs"))
+    assert slices.report.kinds("suspicions") == ()
+    check_wigley(slices)
+
+
+def test_a_mirrored_whole_hull_is_inside_out() -> None:
+    """Mirroring exchanges the sides, which are alike, and turns the triangles inward."""
+    mesh = turned(meshes.closed_wigley(), [[1, 0, 0], [0, -1, 0], [0, 0, 1]])
+    slices = slice_mesh(mesh, **CUTS)
+    assert slices.report.kinds("repairs") == ("inside-out",)
     check_wigley(slices)
 
 
@@ -110,8 +144,33 @@ def test_a_starboard_half_is_mirrored() -> None:
     """Half a hull at negative y gives the lines to port, and says so."""
     half = meshes.moved(meshes.wigley_half(), lambda xyz: xyz * [1.0, -1.0, 1.0])
     slices = slice_mesh(half, **CUTS)
-    assert "mirrored" in slices.report.kinds("repairs")
+    assert slices.report.kinds("repairs") == ("inside-out", "mirrored")
     check_wigley(slices)
+
+
+def test_an_open_mesh_is_told() -> None:
+    """A hull without deck is read; how many edges are open, and where, is said."""
+    notes = slice_mesh(meshes.wigley_half(), **CUTS).report.assumptions
+    (note,) = (each for each in notes if each.kind == "open")
+    assert "220 edges have one triangle only, from (0, 0, 0) to (100, 5, 6.25)" in note.what
+
+
+def test_parts_that_touch_nowhere_are_told() -> None:
+    """A second hull above the first is cut too, so it is named, with its extent."""
+    two = copied(meshes.closed_wigley(), np.array([0.0, 0.0, 8.0]))
+    report = slice_mesh(two, **CUTS).report
+    (note,) = (each for each in report.suspicions if each.kind == "parts")
+    assert "2 parts" in note.what
+    assert "from (0, -5, 8) to (100, 5, 14.25)" in note.what
+
+
+def test_triangles_on_triangles_are_refused() -> None:
+    """A second deck on the first, of other triangles, leaves no one surface: what to leave out."""
+    mesh = meshes.wigley_half(41, 16)
+    face = np.concatenate([mesh.face, mesh.face[:, [0, 1, 2]], np.roll(mesh.face, 5, axis=0)])
+    face[len(mesh.face) :, 2] = np.roll(face[len(mesh.face) :, 2], 7)
+    with pytest.raises(BadInputError, match=r"three triangles or more.*leave out"):
+        slice_mesh(Triangles(mesh.xyz, face), **CUTS)
 
 
 def pointed(xyz: FloatArray) -> FloatArray:
@@ -121,17 +180,17 @@ def pointed(xyz: FloatArray) -> FloatArray:
     ]))  # fmt: skip
 
 
-def test_a_bow_at_negative_x_is_turned_forward() -> None:
+@HALF_OR_WHOLE
+def test_a_bow_at_negative_x_is_turned_forward(hull: Callable[[], Triangles]) -> None:
     """The finer end at the deck is the bow; turned round it gives the same lines."""
-    mesh = meshes.moved(meshes.closed_wigley(), pointed)
+    mesh = meshes.moved(hull(), pointed)
     there = slice_mesh(mesh, **CUTS)
     back = slice_mesh(turned(mesh, [[-1, 0, 0], [0, -1, 0], [0, 0, 1]]), **CUTS)
     assert "bow at negative x" in back.report.kinds("repairs")
     assert "bow at negative x" not in there.report.kinds("repairs")
-    moved = np.array([100.0 - 100.0, 0.0, 0.0])
-    assert np.allclose(
-        back["ST 25"].pieces[0].points[-1], there["ST 25"].pieces[0].points[-1] + moved, atol=1e-9
-    )
+    for line in there.lines:
+        for mine, other in zip(back[line.name].pieces, line.pieces, strict=True):
+            assert np.allclose(mine.points[[0, -1]], other.points[[0, -1]], atol=1e-9)
 
 
 def test_given_axes_are_taken() -> None:
@@ -155,6 +214,31 @@ def test_millimetres_read_as_metres_are_refused() -> None:
         slice_mesh(mesh, unit="m", **CUTS)
 
 
+@pytest.mark.parametrize(("unit", "metres"), [("cm", 0.01), ("ft", 0.3048), ("in", 0.0254)])
+def test_other_units_are_taken_where_given(unit: str, metres: float) -> None:
+    """Centimetres, feet and inches are not guessed at, but read."""
+    mesh = meshes.moved(meshes.closed_wigley(), lambda xyz: xyz / metres)
+    check_wigley(slice_mesh(mesh, unit=unit, **CUTS))
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("mm", 1.0), ("auto", 1e-3)], ids=["told so", "exported so"]
+)
+def test_metres_read_as_millimetres_are_refused(unit: str, factor: float) -> None:
+    """A ship of 100 mm is refused with what to give."""
+    mesh = meshes.moved(meshes.closed_wigley(), lambda xyz: factor * xyz)
+    with pytest.raises(BadInputError, match=r"only 0\.1 m long.*give unit='m', or the scale"):
+        slice_mesh(mesh, unit=unit, **CUTS)
+
+
+def test_units_that_differ_between_axes_are_seen() -> None:
+    """Length in metres, breadth and depth in decimetres: proportions that no ship has."""
+    mesh = meshes.moved(meshes.closed_wigley(), lambda xyz: xyz * [1.0, 10.0, 10.0])
+    report = slice_mesh(mesh, stations=3, waterlines=2, buttocks=0).report
+    (note,) = (each for each in report.suspicions if each.kind == "proportions")
+    assert "L/B is 1, L/D is 1.6" in note.what
+
+
 def test_a_model_is_scaled() -> None:
     """A model at 1:40 gives the ship at full scale."""
     mesh = meshes.moved(meshes.closed_wigley(), lambda xyz: xyz / 40.0)
@@ -165,6 +249,15 @@ def test_a_plane_that_misses_is_named() -> None:
     """A station ahead of the hull is an error with the range to stay in."""
     with pytest.raises(NoMeetingError, match=r"stations at 120 m.*between 0 and 100"):
         slice_mesh(meshes.closed_wigley(), stations=[50.0, 120.0])
+
+
+@pytest.mark.parametrize(
+    ("family", "place"), [("stations", -0.5), ("waterlines", 6.25), ("buttocks", 5.2)]
+)
+def test_every_family_names_the_plane_that_misses(family: str, place: float) -> None:
+    """Before the hull, at the deck, and beside it."""
+    with pytest.raises(NoMeetingError, match=f"the plane of {family} at {place:g} m"):
+        slice_mesh(meshes.closed_wigley(), **{**CUTS, family: [place]})
 
 
 def torn(mesh: Triangles, gap: float) -> Triangles:
@@ -192,9 +285,16 @@ def test_a_wide_gap_is_refused_with_its_place() -> None:
         slice_mesh(torn(meshes.wigley_half(), 0.15), **CUTS)
 
 
-def test_a_hole_is_seen() -> None:
+def test_a_plane_through_a_gap_is_named() -> None:
+    """A waterline within the extent of the hull that meets no triangle."""
+    with pytest.raises(BadInputError, match=r"WL 3\.6 cuts no triangle.*mend the gap"):
+        slice_mesh(torn(meshes.wigley_half(), 1.0), stations=0, waterlines=[3.6], buttocks=0)
+
+
+@pytest.mark.parametrize("nx", [81, 21], ids=["fine", "coarse"])
+def test_a_hole_is_seen(nx: int) -> None:
     """A missing bottom is reported, with the lowest place of its edge and the loose ends."""
-    mesh = meshes.wigley_half()
+    mesh = meshes.wigley_half(nx)
     mesh = Triangles(mesh.xyz, mesh.face[mesh.corners.mean(axis=1)[:, 2] > 0.9])
     slices = slice_mesh(mesh, axes="+x+y+z", **CUTS)
     assert {"hole", "loose end"} <= set(slices.report.kinds())

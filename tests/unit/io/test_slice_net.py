@@ -46,17 +46,61 @@ def test_smooth_lines_are_the_hull_within_their_band(
 
 @pytest.mark.parametrize(("mesh", "off"), HULLS)
 def test_the_net_is_the_hull(mesh: Triangles, off: Callable[[FloatArray], FloatArray]) -> None:
-    """The adopted net is consistent and without inflections, its crossings on the hull."""
-    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
-    state, report = net_from_slices(slices)
-    band = max(each.band for each in report.smoothing)
-    rows = state.rows
-    live = state.live("rows")
-    crossings = live[(rows.curve.data[live, 1] >= 0) & ~rows.contact.data[live]]
-    assert off(rows.xyz.data[crossings]).max() <= band + report.tolerance
+    """Every adopted curve lies on the hull within its stated band, and bends as the hull does.
+
+    Sections, waterlines and buttocks of both hulls have no inflection (see below).
+    """
+    state, report = net_from_slices(slice_mesh(mesh, stations=9, waterlines=5, buttocks=3))
+    seen = []
+    for line, band in zip(report.adoption.lines, report.bands, strict=True):
+        curve = state.curves.key.data.index(line.curve)
+        spline = state.spline(curve)
+        seen.append(line.group)
+        away = off(sample(spline, 17)[1]).max()
+        assert away <= band, line.line
+        assert away <= 1.5 * report.tolerance, line.line  # bands in grazing planes are wide
+        if line.group != "boundary":
+            normal = state.lines.normal.data[state.line_of(curve)]
+            assert inflections(spline, normal)[0].tolist() == [0], line.line
+            assert (line.inflections_given, line.inflections) == (0, 0), line.line
+    assert [seen.count(name) for name in ("sections", "waterlines", "buttocks")] == [9, 5, 3]
     assert report.inflections == (0, 0)
     assert Hull(state).check() == ()
     assert list(verify(state)) == []
+
+
+@pytest.mark.parametrize(("mesh", "off"), HULLS)
+def test_adopted_curves_end_where_the_hull_ends(
+    mesh: Triangles, off: Callable[[FloatArray], FloatArray]
+) -> None:
+    """Sections at keel and deck, waterlines on stem and stern, buttocks on the deck twice."""
+    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
+    state, report = net_from_slices(slices)
+    deck = float(slices.high[2])
+    for line in report.adoption.lines:
+        first, last = state.spline(state.curves.key.data.index(line.curve)).xyz[[0, -1]]
+        if line.group == "sections":
+            assert [first[1], last[2]] == pytest.approx([0.0, deck], abs=1e-6)
+        elif line.group == "waterlines":
+            assert [first[1], last[1]] == pytest.approx([0.0, 0.0], abs=1e-6)
+            assert first[0] < 50.0 < last[0]
+        elif line.group == "buttocks":
+            assert [first[2], last[2]] == pytest.approx([deck, deck], abs=1e-6)
+            assert first[0] < 50.0 < last[0]
+
+
+@pytest.mark.parametrize("form", [meshes.wigley_sheet, meshes.ellipsoid_sheet])
+def test_the_true_lines_have_no_inflection(form: Callable[[str, float], FloatArray]) -> None:
+    """Of the formulas themselves, from dense places: the bend of every line keeps its sign."""
+    for family, offset in (
+        ("sections", 2.3), ("sections", 50.0), ("sections", 97.7), ("waterlines", 0.6),
+        ("waterlines", 5.6), ("buttocks", 0.8), ("buttocks", 4.0),
+    ):  # fmt: skip
+        places = form(family, offset)
+        chord = np.diff(places, axis=0)
+        bend = chord[:-1, 0] * chord[1:, 1] - chord[:-1, 1] * chord[1:, 0]
+        bend = bend[np.abs(bend) > 1e-12 * np.abs(bend).max()]
+        assert (np.sign(bend) == np.sign(bend[0])).all(), (family, offset)
 
 
 def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:

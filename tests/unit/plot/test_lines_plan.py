@@ -20,6 +20,7 @@ Lines = Callable[[Figure, str], list[FloatArray]]
 Boxes = Callable[[Figure], dict[str, FloatArray]]
 
 HULLS = pytest.mark.parametrize("name", ["wigley", "series60"])
+EVERY = pytest.mark.parametrize("name", ["wigley", "series60", "bulk_carrier", "dtc"])
 
 
 @pytest.fixture
@@ -62,8 +63,8 @@ def test_the_grid_shows_the_planes_of_the_other_families(hull: Hull, lines_of: L
             assert all(np.ptp(points[:, axis]) == 0.0 for points in found)
 
 
-@pytest.mark.parametrize("paper", ["A3", "A1"])
-@HULLS
+@pytest.mark.parametrize("paper", ["A3", "A1", "A4"])
+@EVERY
 def test_no_label_covers_another_and_all_lie_within_the_frame(
     hull: Hull, paper: str, boxes_of: Boxes
 ) -> None:
@@ -85,7 +86,7 @@ def test_no_label_covers_another_and_all_lie_within_the_frame(
     assert (boxes[:, 2:] < [size.width - inside, size.height - inside]).all()
 
 
-@HULLS
+@EVERY
 def test_every_line_is_named_in_its_view(hull: Hull, boxes_of: Boxes) -> None:
     """No waterline of the half-breadth plan, no section and no buttock is without a label."""
     names = list(boxes_of(lines_plan(hull)))

@@ -1,0 +1,143 @@
+"""What adoption made of given lines: per curve how closely, with how many points, how fair.
+
+Examples
+--------
+>>> from assoc_hull.examples.series60 import series60_adopted
+>>> report = series60_adopted(0.70)[1]
+>>> worst = report.worst
+>>> worst.line, round(1e3 * worst.deviation, 2)
+('profile', 0.25)
+>>> report.own_points, report.inflections
+(17, (64, 0))
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.thin_work import Net
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness import inflections
+from assoc_hull.model.family import Sort
+from assoc_hull.model.state import HullState
+
+__all__ = ["AdoptionReport", "LineReport", "report_lines"]
+
+
+@attrs.frozen
+class LineReport:
+    """How one curve was adopted.
+
+    Attributes
+    ----------
+    curve : str
+        Key of the curve.
+    group, line : str
+        The line it belongs to; a line in several pieces has several curves.
+    given, defining : int
+        Points given, and points that define the curve.
+    crossings, adopted, placed : int
+        The defining points by sort; together they are `defining`.
+    deviation : float, m
+        Largest distance of a given point from the curve.
+    deviation_median, deviation_p95 : float, m
+        Half, and 19 of 20, of the given points lie this close.
+    place : (float, float, float), m
+        The given point that lies farthest off.
+    tolerance : float, m
+        How far the curve may pass that point.
+    inflections_given, inflections : int
+        Of the given line and of the curve; nil for a space curve, whose curvature has no sign.
+    """
+
+    curve: str
+    group: str
+    line: str
+    given: int
+    defining: int
+    crossings: int
+    adopted: int
+    placed: int
+    deviation: float
+    deviation_median: float
+    deviation_p95: float
+    place: tuple[float, float, float]
+    tolerance: float
+    inflections_given: int
+    inflections: int
+
+
+@attrs.frozen
+class AdoptionReport:
+    """What adoption made of the given lines; notes say what was assumed or left out."""
+
+    lines: tuple[LineReport, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def worst(self) -> LineReport:
+        """The curve with the largest deviation."""
+        return max(self.lines, key=lambda each: each.deviation)
+
+    @property
+    def own_points(self) -> int:
+        """Adopted points: those that define a curve and that no crossing holds."""
+        return sum(each.adopted for each in self.lines)
+
+    @property
+    def inflections(self) -> tuple[int, int]:
+        """Inflections of the given lines in all, and those that the net has more, by line."""
+        lines: dict[tuple[str, str], list[LineReport]] = defaultdict(list)
+        for each in self.lines:
+            lines[each.group, each.line].append(each)
+        more = (
+            sum(each.inflections - each.inflections_given for each in mine)
+            for mine in lines.values()
+        )
+        given = sum(each.inflections_given for each in self.lines)
+        return given, sum(max(0, count) for count in more)
+
+
+def report_lines(net: Net) -> tuple[LineReport, ...]:
+    """Compare the curves of a net with the lines it was adopted from.
+
+    Parameters
+    ----------
+    net : Net
+        The given lines, their references, and the net that was made of them.
+    """
+    curves = net.state.curves
+    splines = SplineBatch.join([curves.spline.data[i] for i in range(len(net.sources))])
+    normals = np.array(
+        [np.full(3, np.nan) if each.normal is None else each.normal for each in net.sources]
+    )
+    bends = (inflections(batch, normals)[0] for batch in (net.reference, splines))
+    given, found = bends
+    return tuple(
+        _line(net, i, closest(splines, i, source.points)[2], int(given[i]), int(found[i]))
+        for i, source in enumerate(net.sources)
+    )
+
+
+def _line(net: Net, number: int, away: FloatArray, given: int, found: int) -> LineReport:
+    state, source = net.state, net.sources[number]
+    crossings, adopted, placed = _sorts(state, state.curves.rows.data[number])
+    worst = int(np.argmax(away))
+    x, y, z = source.points[worst].tolist()
+    return LineReport(
+        state.curves.key.data[number], source.group, source.name, len(source.points),
+        crossings + adopted + placed, crossings, adopted, placed, float(away[worst]),
+        float(np.median(away)), float(np.percentile(away, 95.0)), (x, y, z),
+        float(np.broadcast_to(source.tolerance, len(away))[worst]), given, found,
+    )  # fmt: skip
+
+
+def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:
+    """Count the points of a curve: crossings, adopted and placed ones."""
+    sort = state.rows.sort.data[rows]
+    adopted, placed = int((sort == Sort.ADOPTED).sum()), int((sort == Sort.PLACED).sum())
+    return len(rows) - adopted - placed, adopted, placed

@@ -1,0 +1,30 @@
+"""The Duisburg Test Case, cut from its mesh: lines plan, and how well it was adopted."""
+
+import os
+from functools import cache
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+import assoc_hull as ah
+from assoc_hull.plot import adoption_deviations, lines_plan
+
+__all__ = ["dtc", "dtc_report"]
+
+_TITLE = "Duisburg Test Case"
+
+
+@cache
+def _ship() -> ah.Hull:
+    path = Path(os.environ["ASSOC_HULL_DATA"]) / "dtc" / "DTC-scaled.stl.gz"
+    return ah.read(path, scale=59.407, draught=14.5)
+
+
+def dtc() -> Figure:
+    """Draw the lines plan."""
+    return lines_plan(_ship(), paper="A4", title=_TITLE)
+
+
+def dtc_report() -> Figure:
+    """Draw the deviations of all curves."""
+    return adoption_deviations(_ship(), title=_TITLE)
