@@ -22,6 +22,7 @@ from assoc_hull.edit.thin_work import Net
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
+from assoc_hull.geometry.spline import evaluate
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import HullState
 
@@ -43,7 +44,8 @@ class LineReport:
     crossings, adopted, placed : int
         The defining points by sort; together they are `defining`.
     deviation : float, m
-        Largest distance of a given point from the curve.
+        Largest distance of a given point from the curve; of a densely drawn line, of a place
+        half-way between two points, too.
     deviation_median, deviation_p95 : float, m
         Half, and 19 of 20, of the given points lie this close.
     place : (float, float, float), m
@@ -118,22 +120,35 @@ def report_lines(net: Net) -> tuple[LineReport, ...]:
     bends = (inflections(batch, normals)[0] for batch in (net.reference, splines))
     given, found = bends
     return tuple(
-        _line(net, i, closest(splines, i, source.points)[2], int(given[i]), int(found[i]))
-        for i, source in enumerate(net.sources)
+        _line(net, i, splines, int(given[i]), int(found[i])) for i in range(len(net.sources))
     )
 
 
-def _line(net: Net, number: int, away: FloatArray, given: int, found: int) -> LineReport:
+def _line(net: Net, number: int, splines: SplineBatch, given: int, found: int) -> LineReport:
     state, source = net.state, net.sources[number]
     crossings, adopted, placed = _sorts(state, state.curves.rows.data[number])
+    points, tolerance = _measured(net, number)
+    away = closest(splines, number, points)[2]
     worst = int(np.argmax(away))
-    x, y, z = source.points[worst].tolist()
+    x, y, z = points[worst].tolist()
     return LineReport(
         state.curves.key.data[number], source.group, source.name, len(source.points),
         crossings + adopted + placed, crossings, adopted, placed, float(away[worst]),
         float(np.median(away)), float(np.percentile(away, 95.0)), (x, y, z),
-        float(np.broadcast_to(source.tolerance, len(away))[worst]), given, found,
+        float(tolerance[worst]), given, found,
     )  # fmt: skip
+
+
+def _measured(net: Net, number: int) -> tuple[FloatArray, FloatArray]:
+    """Give places of a line and how far they may be passed: of a dense one, between points too."""
+    source = net.sources[number]
+    tolerance = np.broadcast_to(source.tolerance, len(source.points)).astype(np.float64)
+    if not source.dense:
+        return source.points, tolerance
+    knot = net.reference.curve(number).knot
+    at = np.sort(np.concatenate([knot, 0.5 * (knot[1:] + knot[:-1])]))
+    points = evaluate(net.reference, np.full(len(at), number), at)
+    return points, np.interp(at, knot, tolerance)
 
 
 def _sorts(state: HullState, rows: IntArray) -> tuple[int, int, int]:

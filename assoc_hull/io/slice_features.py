@@ -38,7 +38,9 @@ class FeatureRules:
     smooth_times : float
         Else within this many times the scatter at the place ...
     smooth_most : float, m
-        ... but not within more than this, and 1.5 times the depth of facets.
+        ... but not within more than this, nor 1.5 times the depth of its own facets, ...
+    smooth_depths : float
+        ... nor this many times the depth of the facets of the mesh, whichever is most.
     adopt_least, adopt_least_facets : float, m
         Least tolerance of adoption, of digitised lines and of a mesh ...
     adopt_times : float
@@ -57,7 +59,8 @@ class FeatureRules:
     onset: float = 0.1
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
-    smooth_most: float = 2e-2
+    smooth_most: float = 1e-2
+    smooth_depths: float = 1.7
     adopt_least: float = 5e-3
     adopt_least_facets: float = 1e-2
     adopt_times: float = 3.0
@@ -194,7 +197,8 @@ def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) ->
     if slices.facets:
         noise = facet_depth(points)
         depths = np.minimum(facet_depths(points), 2.0 * noise)
-        waves = np.minimum(rules.smooth_times * local, rules.smooth_most / sine)
+        most = max(rules.smooth_most, rules.smooth_depths * slices.depth)
+        waves = np.minimum(rules.smooth_times * local, most / sine)
         allowed = np.maximum(1.5 * depths, waves)
         least = np.maximum(1.5 * noise, rules.smooth_least / sine)
     else:

@@ -32,7 +32,7 @@ class SliceReport:
         Those of the net; `tolerances.adoption` is how far, measured across the hull, an adopted
         curve may pass its smooth line.
     noise : float, m
-        Of the noisiest piece, or the depth of the facets of the mesh.
+        Median over the pieces.
     facet_depth : float, m
         How deep facets of the mesh lie inside the hull; nil for digitised lines.
     smoothing : tuple of SmoothReport
