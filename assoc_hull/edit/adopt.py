@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
-from assoc_hull.edit.adoption_report import AdoptionReport, report_lines
+from assoc_hull.edit.adoption_report import AdoptionReport, LineReport, report_lines
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import thin
@@ -30,6 +30,10 @@ from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["AdoptionReport", "adopt", "source_order", "where_they_meet"]
+
+
+_OVER = 1.05
+"""Between its points a curve may pass its line by this part more than at them."""
 
 
 def adopt(
@@ -81,7 +85,8 @@ def adopt(
     notes += _loft(maker)
     ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
-    return state, AdoptionReport(report_lines(net), tuple(notes))
+    lines = report_lines(net)
+    return state, AdoptionReport(lines, (*notes, *_over_notes(net, thinned, lines)))
 
 
 def where_they_meet(
@@ -190,6 +195,17 @@ def _left_note(net: Net, left: Left) -> str:
         f"{net.state.tolerances.adopted_spacing:g} m; the lines disagree there, mend the one "
         "that is wrong"
     )
+
+
+def _over_notes(net: Net, thinned: Thinned, lines: Sequence[LineReport]) -> list[str]:
+    """Name the densely drawn lines that are passed too far off and of which no point says so."""
+    told = {each.curve for each in thinned.left}
+    return [
+        f"{line.line} is passed by {line.tolerance_used:.2f} times what is allowed at some place: "
+        "no point could be adopted there, another stands too close"
+        for number, line in enumerate(lines)
+        if line.tolerance_used > _OVER and net.sources[number].dense and number not in told
+    ]
 
 
 def _loft(maker: Maker) -> list[str]:

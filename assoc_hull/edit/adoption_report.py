@@ -52,6 +52,8 @@ class LineReport:
         The given point that lies farthest off.
     tolerance : float, m
         How far the curve may pass that point.
+    tolerance_used : float
+        The largest part of what is allowed, at any place: up to 1 the curve is within.
     inflections_given, inflections : int
         Of the given line and of the curve; nil for a space curve, whose curvature has no sign.
     """
@@ -69,6 +71,7 @@ class LineReport:
     deviation_p95: float
     place: tuple[float, float, float]
     tolerance: float
+    tolerance_used: float
     inflections_given: int
     inflections: int
 
@@ -135,7 +138,7 @@ def _line(net: Net, number: int, splines: SplineBatch, given: int, found: int) -
         state.curves.key.data[number], source.group, source.name, len(source.points),
         crossings + adopted + placed, crossings, adopted, placed, float(away[worst]),
         float(np.median(away)), float(np.percentile(away, 95.0)), (x, y, z),
-        float(tolerance[worst]), given, found,
+        float(tolerance[worst]), float((away / tolerance).max()), given, found,
     )  # fmt: skip
 
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from assoc_hull.edit.dense import amid
 from assoc_hull.edit.match import Contact, Meeting
-from assoc_hull.edit.thin_driven import follow_drivers
 from assoc_hull.edit.thin_polish import polish
 from assoc_hull.edit.thin_work import (
     SAME,
@@ -41,14 +40,13 @@ __all__ = ["thin"]
 
 def thin(net: Net) -> Thinned:
     """Choose the defining crossings and the adopted points of a net."""
-    work = Work(net, [[] for _ in net.sources], [set() for _ in net.sources], [], {}, {}, {}, set())
+    work = Work(net, [[] for _ in net.sources], [set() for _ in net.sources], [], {})
     _collect(work)
     for curve in range(len(net.sources)):
         work.chosen[curve] = _rule(work, curve)
     for _ in range(200):
         roles = _roles(work)
         orders = _orders(work, roles)
-        follow_drivers(work, roles, loft_orders(work, range(len(orders)), orders))
         splines = loft_orders(work, range(len(orders)), orders)
         worst, left = find_worst(net, splines, orders, work)
         worst = worst or find_wide(net, splines, orders, work, roles)

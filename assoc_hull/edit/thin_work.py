@@ -102,12 +102,6 @@ class Work:
         Points by themselves.
     held : dict of int to list of int
         By curve, the numbers through which it was last found to hold its line.
-    values : dict of int to (3,), m
-        By number, the places of driven crossings on their drivers.
-    followed : dict of int to bytes
-        By driver, the points through which it was made when its crossings were computed.
-    asked : set of int
-        Meetings that were computed so.
     """
 
     net: Net
@@ -115,9 +109,6 @@ class Work:
     chosen: list[set[int]]
     points: list[PointItem]
     held: dict[int, list[int]]
-    values: dict[int, FloatArray]
-    followed: dict[int, bytes]
-    asked: set[int]
 
     @property
     def fixed_count(self) -> int:
@@ -150,7 +141,7 @@ def xyz_of(work: Work, index: int) -> FloatArray:
     if index < len(net.contacts):
         return net.contacts[index].xyz
     if index < work.fixed_count:
-        return work.values.get(index, net.meetings[index - len(net.contacts)].spots[0])
+        return net.meetings[index - len(net.contacts)].spots[0]
     return work.points[index - work.fixed_count].xyz
 
 

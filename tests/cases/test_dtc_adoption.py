@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
+from assoc_hull.io.mesh import read_mesh
+from assoc_hull.io.slice_net import net_from_slices
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import tangents
 
@@ -62,3 +66,20 @@ def test_adopted_points_keep_clear_of_crossings(dtc: ah.Hull) -> None:
         if both.any() and smooth.any():
             beside = np.abs(knot[smooth][:, None] - knot[both]).min(axis=1)
             assert beside.min() > 0.9 * SPACING
+
+
+def test_curves_off_or_wavier_than_their_lines_are_few_and_named(data_folder: Path) -> None:
+    """Of 81 curves at most 6 exceed their tolerance, by 2 at most, each with a note.
+
+    All together have at most 10 inflections that the lines lack.
+    """
+    slices = read_mesh(data_folder / "dtc" / "DTC-scaled.stl.gz", scale=59.407)
+    report = net_from_slices(slices)[1].adoption
+    given, more = report.inflections
+    print(f"\n{given} inflections given, {more} more; {report.own_points} adopted points")
+    assert more <= 10  # 13 where adopted points are not moved for it
+    over = {each.line: each.tolerance_used for each in report.lines if each.tolerance_used > 1.05}
+    print(f"\nover their tolerance: {over}")
+    assert len(over) <= 6
+    assert max(over.values(), default=0.0) <= 2.0
+    assert all(any(note.startswith(f"{line} ") for note in report.notes) for line in over)
