@@ -20,7 +20,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.polyline import arc_length, resample
+from assoc_hull.geometry.polyline import arc_length, foot_on, resample
 
 __all__ = ["Corner", "CornerRule", "find_corners"]
 
@@ -64,6 +64,8 @@ class Corner:
         Part of the turn over the stretch that half of it shows.
     stretch : float, m
         The stretch it was found on.
+    uncertainty : float, m
+        Standard deviation of its place along the polyline.
     """
 
     at: float
@@ -71,6 +73,7 @@ class Corner:
     turn_deg: float
     share: float
     stretch: float
+    uncertainty: float = 0.0
 
     def __attrs_post_init__(self) -> None:
         freeze(self.place)
@@ -214,9 +217,10 @@ def _refine(
     """Take the point that turns nearly all by itself, else let curves fitted to the sides meet."""
     sharp = _sharpest(points, length, at, half)
     if sharp is not None:
-        return Corner(float(length[sharp[0]]), points[sharp[0]].copy(), sharp[1], share, 2.0 * half)
+        place = points[sharp[0]].copy()
+        return Corner(float(length[sharp[0]]), place, sharp[1], share, 2.0 * half, noise)
     near = min([abs(other - at) for other in others if abs(other - at) > half], default=np.inf)
-    best: tuple[float, float, FloatArray, float] | None = None
+    best: tuple[float, float, FloatArray, float, float] | None = None
     for window in (rule.window, 0.5 * rule.window, 0.25 * rule.window):
         reach = min(max(window, 3.0 * half), 0.8 * near)
         fitted = _meet_sides(points, length, at, reach, 0.2 * half)
@@ -226,14 +230,15 @@ def _refine(
             best = fitted
         if best[0] <= 1.5 * max(noise, 1e-4):
             break
-    foot, off = (at, np.inf) if best is None else _foot(points, length, best[2])
+    foot, off = (at, np.inf) if best is None else foot_on(points, length, best[2])
     if best is None or off > max(6.0 * noise, 0.02):
         place = resample(points, np.array([at]))[0]
         turn = float(
             np.rad2deg(_turn(resample(points, at + half * np.linspace(-1, 1, 25)), 12)[12])
         )
-        return Corner(at, place, turn, share, 2.0 * half)
-    return Corner(foot, best[2], best[3], share, 2.0 * half)
+        return Corner(at, place, turn, share, 2.0 * half, 0.5 * half)
+    doubt = best[4] * max(noise, best[0])
+    return Corner(foot, best[2], best[3], share, 2.0 * half, doubt)
 
 
 def _sharpest(
@@ -253,20 +258,14 @@ def _sharpest(
     return int(inner[best]), float(np.rad2deg(turn[best]))
 
 
-def _foot(points: FloatArray, length: FloatArray, place: FloatArray) -> tuple[float, float]:
-    """Give the length along a polyline that is nearest to a place, and the distance, m."""
-    start, step = points[:-1], np.diff(points, axis=0)
-    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-24)
-    part = np.clip(part, 0.0, 1.0)
-    away = np.sqrt(((start + part[:, None] * step - place) ** 2).sum(axis=1))
-    i = int(away.argmin())
-    return float(length[i] + part[i] * (length[i + 1] - length[i])), float(away[i])
-
-
 def _meet_sides(
     points: FloatArray, length: FloatArray, at: float, reach: float, skip: float
-) -> tuple[float, float, FloatArray, float] | None:
-    """Give (residual, shift along, place, turn in degrees) of two fitted sides."""
+) -> tuple[float, float, FloatArray, float, float] | None:
+    """Give (residual, shift along, place, turn in degrees, doubt) of two fitted sides.
+
+    The doubt is the standard deviation of the place along, per scatter of the points: a parabola
+    is known at its end to 3 times the scatter over the root of the number of points.
+    """
     ends = resample(points, np.array([at - reach, at, at + reach]).clip(0.0, length[-1]))
     ahead = (ends[2] - ends[0]) / max(float(np.linalg.norm(ends[2] - ends[0])), 1e-12)
     frame = np.array([ahead, [-ahead[1], ahead[0]]])
@@ -293,5 +292,7 @@ def _meet_sides(
     slopes = [float(np.polyval(np.polyder(side[0]), t0)) for side in sides]
     turn = abs(np.arctan(slopes[1]) - np.arctan(slopes[0]))
     off = np.concatenate([np.polyval(c, t) - u for c, t, u in sides])
+    spread = 3.0 * np.sqrt(sum(1.0 / len(t) for _, t, _ in sides))
+    doubt = float(spread / max(abs(slopes[1] - slopes[0]), 1e-6))
     place = ends[1] + np.array([t0, float(np.polyval(sides[0][0], t0))]) @ frame
-    return float(np.sqrt((off * off).mean())), t0, place, float(np.rad2deg(turn))
+    return float(np.sqrt((off * off).mean())), t0, place, float(np.rad2deg(turn)), doubt

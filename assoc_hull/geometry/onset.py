@@ -1,7 +1,9 @@
 """Where a curve leaves a straight line: the zero of sqrt(deviation), as a fit.
 
 Two shapes are fitted to the deviation u: an arc that begins at t0, and a curvature that grows
-from nil, u = c (t - t0)^3. The one that fits plainly better is taken.
+from nil, u = c (t - t0)^3. The arc is taken where it fits plainly better. Else there is no place:
+what is given lies between where the two begin, with a doubt that reaches from where the arc
+begins to where u = c (t - t0)^4 does.
 
 Examples
 --------
@@ -37,7 +39,7 @@ class FittedOnset:
     radius : float or None, m
         Of the arc; None where the curvature grows from nil.
     uncertainty : float, m
-        Standard deviation of `zero`, or half the stretch in which a gradual one must lie.
+        Standard deviation of `zero`; of a gradual one the farthest it may lie off.
     """
 
     zero: float
@@ -73,13 +75,15 @@ def fit_onset(
         cubic = _fit(tt, uu, _first(tt, uu, within), _cubic)
         allowed = noise * noise * max(len(tt) - 2, 1)
         low, high = min(arc[2], cubic[2]), abs(arc[2] - cubic[2]) / (noise * noise)
-        spread = abs(arc[0] - cubic[0])
-        if arc[2] <= cubic[2]:
-            best = FittedOnset(arc[0], arc[1], max(arc[3] * noise, 1e-6))
+        if arc[2] <= cubic[2] and high >= confidence:
+            drift = _drift(t, u, last, 0.25 * reach * within, within, noise, arc[0])
+            best = FittedOnset(arc[0], arc[1], max(arc[3] * noise, drift, 1e-6))
         else:
-            best = FittedOnset(0.5 * (arc[0] + cubic[0]), None, max(0.5 * spread, arc[3] * noise))
-        if high < confidence:
-            best = FittedOnset(0.5 * (arc[0] + cubic[0]), None, 0.5 * spread)
+            # As far as the shape that begins earliest, or latest, and the scatter of both.
+            quartic = _fit(tt, uu, _first(tt, uu, within), _quartic)
+            zero, ends = 0.5 * (arc[0] + cubic[0]), (arc, quartic)
+            doubt = max(abs(zero - end[0]) + 2.0 * end[3] * noise for end in ends)
+            best = FittedOnset(zero, None, doubt)
         best = attrs.evolve(best, uncertainty=min(best.uncertainty, arc[4]))
         if low <= 2.0 * allowed:
             return best
@@ -87,6 +91,22 @@ def fit_onset(
         return FittedOnset(float(t[last]), None, 2.0 * float(t[min(last + 1, len(t) - 1)] - t[last])
                            + within)  # fmt: skip
     return FittedOnset(best.zero, None, max(best.uncertainty, 0.05))
+
+
+def _drift(
+    t: FloatArray, u: FloatArray, last: int, most: float, within: float, noise: float, zero: float
+) -> float:
+    """Give by how much the zero of an arc moves, beyond chance, when it is followed half as far.
+
+    It does where the curve is no arc all along, and then its zero is less sure than scatter says.
+    """
+    stop = _stop(t, u, last, most)
+    if stop - last < 4:
+        return 0.0
+    start = max(0, last - 2 * (stop - last) - 6)
+    tt, uu = t[start:stop], u[start:stop]
+    near = _fit(tt, uu, _first(tt, uu, within), _arc)
+    return max(abs(near[0] - zero) - 2.0 * near[3] * noise, 0.0)
 
 
 def _stop(t: FloatArray, u: FloatArray, last: int, most: float) -> int:
@@ -118,6 +138,12 @@ def _cubic(t: FloatArray, p: FloatArray) -> FloatArray:
     return np.asarray(size * np.maximum(t - p[0], 0.0) ** 3)
 
 
+def _quartic(t: FloatArray, p: FloatArray) -> FloatArray:
+    """Give the deviation of a curvature that grows as a square from nil at p[0]."""
+    size = np.exp(min(max(float(p[1]), -30.0), 30.0))
+    return np.asarray(size * np.maximum(t - p[0], 0.0) ** 4)
+
+
 _Shape = Callable[[FloatArray, FloatArray], FloatArray]
 
 
@@ -131,7 +157,9 @@ def _fit(
     else:
         away = max(float(t[-1]) - zero, 1e-3)
         zero -= 0.3 * away
-        size = max(float(u[-1]), 1e-9) / (1.3 * away) ** 3
+        zero -= 0.3 * away * (shape is _quartic)
+        power = 4 if shape is _quartic else 3
+        size = max(float(u[-1]), 1e-9) / (float(t[-1]) - zero) ** power
     p = np.array([zero, np.log(max(size, 1e-9))])
     off, damping = shape(t, p) - u, 1e-3
     cost = float(off @ off)

@@ -17,7 +17,10 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["arc_length", "distinct", "drop_repeats", "order_paths", "resample", "self_crossings"]
+__all__ = [
+    "arc_length", "distinct", "drop_repeats", "foot_on", "order_paths", "resample",
+    "self_crossings",
+]  # fmt: skip
 
 
 def arc_length(points: FloatArray) -> FloatArray:
@@ -38,6 +41,32 @@ def resample(points: FloatArray, at: FloatArray) -> FloatArray:
     """Give the places at lengths `at` (m) along a polyline, (len(at), k), m."""
     length = arc_length(points)
     return np.column_stack([np.interp(at, length, column) for column in points.T])
+
+
+def foot_on(points: FloatArray, length: FloatArray, place: FloatArray) -> tuple[float, float]:
+    """Give the length along a polyline that is nearest to a place, and the distance, m.
+
+    Parameters
+    ----------
+    points, length : (n, k), (n,), m
+        The polyline, and the length to each point as `arc_length` gives it.
+    place : (k,), m
+        The place.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polyline import arc_length, foot_on
+    >>> line = np.array([[0.0, 0], [3, 0], [3, 4]])
+    >>> foot_on(line, arc_length(line), np.array([2.0, 1.0]))
+    (2.0, 1.0)
+    """
+    start, step = points[:-1], np.diff(points, axis=0)
+    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-24)
+    part = np.clip(part, 0.0, 1.0)
+    away = np.sqrt(((start + part[:, None] * step - place) ** 2).sum(axis=1))
+    i = int(away.argmin())
+    return float(length[i] + part[i] * (length[i + 1] - length[i])), float(away[i])
 
 
 def drop_repeats(points: FloatArray, least: float) -> FloatArray:

@@ -30,7 +30,7 @@ from assoc_hull.geometry.polyline import arc_length
 
 __all__ = ["Onset", "Run", "RunRule", "find_runs"]
 
-OnsetKind = Literal["arc", "gradual", "end"]
+OnsetKind = Literal["arc", "gradual", "end", "border"]
 
 
 @attrs.frozen
@@ -68,17 +68,18 @@ class Onset:
 
     Attributes
     ----------
-    kind : {"arc", "gradual", "end"}
-        In an arc; with a curvature that grows from nil; or with the polyline.
+    kind : {"arc", "gradual", "end", "border"}
+        In an arc; with a curvature that grows from nil; with the polyline; or without a radius
+        of its own, at a place taken from the border of a flat.
     at : float, m
-        Length along the polyline, of a gradual one the middle of what is possible.
+        Length along the polyline, of a gradual one the likeliest.
     place : (2,), m
         The tangent point on the line of the run; nan for a gradual onset.
     radius : float, m
         Of the arc, nan if there is none.
     uncertainty : float, m
-        Standard deviation of `at` for an arc; for a gradual onset half the stretch in which
-        it must lie.
+        Standard deviation of `at` for an arc; for a gradual onset the farthest that it may lie
+        off, whether the curvature grows at once or as slowly as a square.
     """
 
     kind: OnsetKind
