@@ -117,6 +117,11 @@ def slice_words(name: str, report: SliceReport) -> str:
         *_joins(report),
         f"noise {1e3 * report.noise:.2g} mm; smoothed by at most {1e3 * worst.residual:.2g} mm "
         f"({worst.line}); {len(report.knuckles)} knuckle lines",
+        *(
+            f"  boundary curve: {e.name}, from {len(e.lines)} marks, {e.taken} lines end or turn "
+            "on it"
+            for e in report.borders
+        ),
         f"adopted {len(report.adoption.lines)} curves within {1e3 * report.tolerance:.2g} mm, "
         f"{report.adopted} points of theirs that no crossing holds; the farthest smooth point is "
         f"{1e3 * adopted.deviation:.3g} mm off ({adopted.line}); {report.inflections[0]} "

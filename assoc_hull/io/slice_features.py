@@ -5,13 +5,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.geometry.arcs import Arc, ArcRule
 from assoc_hull.geometry.corners import Corner, CornerRule, find_corners
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.knuckle_lines import ChainRule, join_corners
 from assoc_hull.geometry.noise import facet_depth, facet_depths, scatter
 from assoc_hull.geometry.polyline import distinct
 from assoc_hull.geometry.smooth import local_scatter
-from assoc_hull.geometry.straight import RunRule
+from assoc_hull.geometry.straight import Run, RunRule
 from assoc_hull.io.slice_types import AXES, Piece, SliceLine, Slices
 
 __all__ = ["FeatureRules", "KnuckleLine", "PieceFeatures", "find_features", "plane_columns"]
@@ -31,8 +32,16 @@ class FeatureRules:
         A corner that joins no knuckle line must turn by this to be kept.
     run : RunRule
         What counts as a straight run.
+    arc : ArcRule
+        What counts as a circular arc.
     onset : float, m
-        A tangent point is kept where its place is known at least this well.
+        A tangent point is kept where its place is known at least this well, or where its doubt
+        moves the line across by less than its scatter.
+    border : float, m
+        The end of a run counts for the border of a flat where it is known at least this well,
+        for that of a run without a radius too.
+    border_deg : float
+        A border is split where it turns by more.
     smooth_least : float, m
         Pieces are smoothed within this at least, measured across the hull.
     smooth_times : float
@@ -56,7 +65,10 @@ class FeatureRules:
     chain: ChainRule = attrs.field(factory=ChainRule)
     alone_deg: float = 10.0
     run: RunRule = attrs.field(factory=RunRule)
+    arc: ArcRule = attrs.field(factory=ArcRule)
     onset: float = 0.1
+    border: float = 20.0
+    border_deg: float = 40.0
     smooth_least: float = 1e-3
     smooth_times: float = 2.5
     smooth_most: float = 1e-2
@@ -94,6 +106,10 @@ class PieceFeatures:
         Those kept.
     suggested : tuple of Corner
         Those that turn too little and join no knuckle line.
+    runs : tuple of Run or None
+        Its straight runs, None as long as they were not looked for.
+    arcs : tuple of Arc
+        Its circular arcs, once they were looked for.
     """
 
     line: SliceLine
@@ -106,6 +122,8 @@ class PieceFeatures:
     moved: float = 0.0
     corners: tuple[Corner, ...] = ()
     suggested: tuple[Corner, ...] = ()
+    runs: tuple[Run, ...] | None = None
+    arcs: tuple[Arc, ...] = ()
 
 
 @attrs.frozen(eq=False)
@@ -122,12 +140,15 @@ class KnuckleLine:
         Where it crosses them.
     turn_deg : (n,)
         By how much they turn there.
+    doubt : (n,), m
+        How far each place may lie off along its line, 2 standard deviations.
     """
 
     group: str
     lines: tuple[str, ...]
     places: FloatArray
     turn_deg: FloatArray
+    doubt: FloatArray
 
 
 def plane_columns(group: str) -> list[int]:
@@ -243,5 +264,7 @@ def _choose(
         places[:, plane_columns(group)] = [merged[i][j].place for i, j in chain]
         places[:, AXES[group]] = offsets[[i for i, _ in chain]]
         turns = np.array([merged[i][j].turn_deg for i, j in chain])
-        found.append(KnuckleLine(group, tuple(lines[i].name for i, _ in chain), places, turns))
+        doubt = np.array([2.0 * merged[i][j].uncertainty for i, j in chain])
+        names = tuple(lines[i].name for i, _ in chain)
+        found.append(KnuckleLine(group, names, places, turns, doubt))
     return kept, found

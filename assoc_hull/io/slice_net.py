@@ -22,9 +22,10 @@ import numpy as np
 from assoc_hull.edit.adopt import adopt, source_order
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.spline import loft
 from assoc_hull.io.offset_net import ASSOCIATIONS
 from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slice_borders import draw_borders
+from assoc_hull.io.slice_curves import Border, loft_source
 from assoc_hull.io.slice_features import (
     FeatureRules,
     KnuckleLine,
@@ -34,9 +35,10 @@ from assoc_hull.io.slice_features import (
 from assoc_hull.io.slice_joint import join_plans
 from assoc_hull.io.slice_plan import plan_piece
 from assoc_hull.io.slice_report import SliceReport
+from assoc_hull.io.slice_runs import with_arcs
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
 from assoc_hull.io.slice_types import Slices
-from assoc_hull.model.source import LineSource, curve_data
+from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -45,7 +47,7 @@ __all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
 
 def sources_from_slices(
     slices: Slices, tolerance: float | None = None, rules: FeatureRules | None = None
-) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleLine], float]:
+) -> tuple[list[LineSource], list[SmoothReport], list[KnuckleLine], float, list[Border]]:
     """Make smooth lines of all pieces, split at their features.
 
     Parameters
@@ -60,11 +62,12 @@ def sources_from_slices(
 
     Returns
     -------
-    sources, reports, knuckle lines, tolerance in m
+    sources, reports, knuckle lines, tolerance in m, borders
+        The last sources are the boundary curves drawn as borders, without a report of their own.
     """
     wanted = rules or FeatureRules()
     parts, knuckles = find_features(slices, wanted)
-    parts = [part for part in parts if _is_useful(part)]
+    parts = [with_arcs(part, wanted) for part in parts if _is_useful(part)]
     noise = float(np.median([part.noise for part in parts])) if parts else 0.0
     least = wanted.adopt_least_facets if slices.facets else wanted.adopt_least
     allowed = max(least, wanted.adopt_times * noise) if tolerance is None else tolerance
@@ -74,16 +77,17 @@ def sources_from_slices(
     ]  # fmt: skip
     borders: dict[str, list[SplineBatch]] = {}
     for source, _ in rims:
-        borders.setdefault(source.name, []).append(_loft(source))
-    plans = [
-        plan_piece(snap_ends(part, borders, 0.5 * allowed), wanted)
-        for part in parts if part.line.group != "boundary"
-    ]  # fmt: skip
+        borders.setdefault(source.name, []).append(loft_source(source))
+    parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
+    parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed)
+    plans = [plan_piece(part, wanted) for part in parts]
     links = _links({plan.part.line.group for plan in plans})
     joined = join_plans(plans, links, max(wanted.near_least, wanted.near_times * noise))
-    made = [make_source(plan, allowed) for plan in joined]
-    made += rims
-    return [source for source, _ in made], [each for _, each in made], knuckles, allowed
+    made = [*(make_source(plan, allowed) for plan in joined), *rims]
+    sources = [*(source for source, _ in made), *curves]
+    reports = [each for _, each in made]
+    reports += [_report_border(each, curve) for each, curve in zip(drawn, curves, strict=True)]
+    return sources, reports, knuckles, allowed, drawn
 
 
 def _links(groups: set[str]) -> list[Association]:
@@ -131,7 +135,7 @@ def net_from_slices(
         )
     wanted = rules or FeatureRules()
     tell("finding features and smoothing", 0, 0)
-    sources, smoothing, knuckles, allowed = sources_from_slices(slices, tolerance, wanted)
+    sources, smoothing, knuckles, allowed, borders = sources_from_slices(slices, tolerance, wanted)
     size = slices.high - slices.low
     ship = particulars or Particulars(
         slices.name, float(size[0]), 2.0 * float(slices.high[1]), float(size[2]),
@@ -145,11 +149,15 @@ def net_from_slices(
     report = SliceReport(
         slices.report, slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
-        tuple(each for _, each in pairs), tuple(knuckles), adoption,
+        tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
     )  # fmt: skip
     return state, report
 
 
-def _loft(source: LineSource) -> SplineBatch:
-    """Loft a line through its own points."""
-    return loft(curve_data([source]))
+def _report_border(border: Border, source: LineSource) -> SmoothReport:
+    """Report a boundary curve drawn through marks as if it were a piece."""
+    doubt = float(border.doubt.max())
+    return SmoothReport(
+        border.name, len(border.lines), len(source.points), float(0.5 * np.median(border.doubt)),
+        border.residual + doubt, border.residual, 0, 0, (),
+    )  # fmt: skip

@@ -10,8 +10,9 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import arc_length
 from assoc_hull.geometry.smooth import Fitted, Smooth, fit_line, straight
-from assoc_hull.geometry.straight import Run, find_runs
+from assoc_hull.geometry.straight import Run
 from assoc_hull.io.slice_features import FeatureRules, PieceFeatures, plane_columns
+from assoc_hull.io.slice_runs import is_known, runs_of
 from assoc_hull.io.slice_types import AXES
 
 __all__ = ["Break", "Plan", "Stretch", "in_space", "piece_columns", "piece_plane", "plan_piece"]
@@ -80,20 +81,21 @@ def plan_piece(part: PieceFeatures, rules: FeatureRules | None = None) -> Plan:
     """
     wanted = rules or FeatureRules()
     breaks = [Break(corner.at, corner.place, None) for corner in part.corners]
-    runs = _runs(part, breaks, wanted)
+    runs = runs_of(part, wanted)
     breaks += [
         Break(onset.at, onset.place, run.direction)
         for run in runs
         for onset in (run.before, run.after)
-        if onset.kind == "arc" and onset.uncertainty < wanted.onset
+        if is_known(onset, part.noise, wanted)
     ]
     breaks = _apart(breaks, float(arc_length(part.points)[-1]))
     drawn = [
-        (run.before.at if run.before.kind == "arc" else run.begin, run.after.at)
+        (run.begin if run.before.kind == "end" else run.before.at, run.after.at)
         for run in runs
         if run.before.kind != "gradual" and run.after.kind != "gradual"
     ]
-    return Plan(part, tuple(breaks), tuple(runs), tuple(_stretches(part, breaks, drawn)))
+    stretches = tuple(_stretches(part, breaks, drawn))
+    return Plan(part, tuple(breaks), runs, stretches)
 
 
 def _stretches(
@@ -113,30 +115,6 @@ def _stretches(
             fitted = fit_line(mine, allowed, low.direction, high.direction)
         found.append(Stretch(mine[[0, -1]], fitted))
     return found
-
-
-def _runs(part: PieceFeatures, corners: list[Break], rules: FeatureRules) -> list[Run]:
-    """Find straight runs between the corners of a plane piece."""
-    if part.points.shape[1] != 2 or part.piece.closed:
-        return []
-    at = arc_length(part.points)
-    edges = [0.0, *(each.at for each in corners), float(at[-1])]
-    found: list[Run] = []
-    for low, high in pairwise(edges):
-        inside = (at >= low - 1e-9) & (at <= high + 1e-9)
-        if inside.sum() < 6:
-            continue
-        first = float(at[inside][0])
-        found += [
-            _shifted(run, first) for run in find_runs(part.points[inside], part.noise, rules.run)
-        ]
-    return found
-
-
-def _shifted(run: Run, by: float) -> Run:
-    """Count lengths from the beginning of the whole piece."""
-    before, after = (attrs.evolve(each, at=each.at + by) for each in (run.before, run.after))
-    return attrs.evolve(run, begin=run.begin + by, end=run.end + by, before=before, after=after)
 
 
 def _apart(breaks: list[Break], length: float) -> list[Break]:

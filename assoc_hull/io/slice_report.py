@@ -6,6 +6,7 @@ import attrs
 
 from assoc_hull.edit.adopt import AdoptionReport
 from assoc_hull.io.offset_report import OffsetReport
+from assoc_hull.io.slice_curves import Border
 from assoc_hull.io.slice_features import FeatureRules, KnuckleLine
 from assoc_hull.io.slice_sources import SmoothReport
 from assoc_hull.io.slice_types import Gaps, Join
@@ -39,6 +40,8 @@ class SliceReport:
         Per piece, in the order of `adoption.lines`.
     knuckles : tuple of KnuckleLine
         Knuckle lines found.
+    borders : tuple of Border
+        Boundary curves drawn from knuckles and from the ends of straight runs.
     adoption : AdoptionReport
         Per curve: deviations from the smooth lines, points, inflections.
     """
@@ -52,6 +55,7 @@ class SliceReport:
     facet_depth: float
     smoothing: tuple[SmoothReport, ...]
     knuckles: tuple[KnuckleLine, ...]
+    borders: tuple[Border, ...]
     adoption: AdoptionReport
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.geometry.arcs import Arc
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.polyline import arc_length
@@ -40,6 +41,8 @@ class SmoothReport:
     onsets : tuple of (str, float, float, float)
         Every end of a straight run: kind, length along the piece (m), radius or nan (m) and
         uncertainty (m).
+    arcs : tuple of Arc
+        Its circular arcs, in the coordinates that vary on the piece.
     """
 
     line: str
@@ -51,6 +54,7 @@ class SmoothReport:
     knuckles: int
     tangents: int
     onsets: tuple[tuple[str, float, float, float], ...]
+    arcs: tuple[Arc, ...] = ()
 
 
 _FADE = 400.0
@@ -137,6 +141,7 @@ def make_source(plan: Plan, tolerance: float) -> tuple[LineSource, SmoothReport]
     report = SmoothReport(
         line.name, len(part.points), len(xy), part.noise, band, residual,
         int((kind == PointKind.KNUCKLE).sum()), int((kind == PointKind.TANGENT).sum()), onsets,
+        part.arcs,
     )  # fmt: skip
     return source, report
 

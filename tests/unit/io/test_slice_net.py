@@ -33,8 +33,8 @@ def test_smooth_lines_are_the_hull_within_their_band(
 ) -> None:
     """Each smooth line lies on the hull within its stated band and has no inflection."""
     slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
-    sources, reports, knuckles, _ = sources_from_slices(slices)
-    assert knuckles == []
+    sources, reports, knuckles, _, borders = sources_from_slices(slices)
+    assert (knuckles, borders) == ([], [])
     for source, report in zip(sources, reports, strict=True):
         if source.group == "boundary":
             continue
@@ -146,6 +146,7 @@ def test_dtc_is_adopted(data_folder: Path) -> None:
     assert report.adopted <= 600
     assert report.inflections[1] <= 45
     assert len(report.knuckles) >= 1
+    assert sorted(border.name for border in report.borders) == ["flat of bottom", "flat of side"]
     assert report.tolerance == pytest.approx(max(0.010, 3.0 * report.noise))
     assert np.percentile(gaps, 95) <= 0.004
     assert hull.check() == ()
