@@ -1,4 +1,7 @@
-"""Mending a watched gap: the curve of higher rank gets a point where the other passes."""
+"""Mending a watched gap: one curve gets a point where the other passes.
+
+The curve of higher rank gives way, unless a crossing or a border holds it just there.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import numpy as np
 
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
-from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import Sort
 from assoc_hull.model.make import Maker, PointSpec
 
@@ -26,7 +29,7 @@ def mend(maker: Maker, rows: IntArray, on: IntArray | None = None) -> tuple[IntA
     rows : (k,) int
         Watched crossings, in the order in which they are mended.
     on : (k,) int or None
-        The curve that is to give way at each; the one of higher rank if None.
+        The curve that is to give way at each; the one of higher rank, else the other, if None.
 
     Returns
     -------
@@ -36,20 +39,32 @@ def mend(maker: Maker, rows: IntArray, on: IntArray | None = None) -> tuple[IntA
     state, curves, moved = maker.state, set[int](), set[int]()
     giving = state.rows.curve.data[rows, 1] if on is None else on
     for row, curve in zip(rows.tolist(), giving.tolist(), strict=True):
-        other = int(state.rows.curve.data[row, 0] == curve)
-        place = state.rows.spot.data[row, other].copy()
-        defining: IntArray = state.curves.rows.data[curve]
-        away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
-        nearest = int(away.argmin())
-        if away[nearest] < _NEAR:
-            if state.rows.sort.data[defining[nearest]] == Sort.ADOPTED:
-                maker.journal.put(state.rows.xyz, [defining[nearest]], [place])
-                curves.add(curve)
-                moved.add(int(defining[nearest]))
-            continue
-        point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
-        thread(maker, curve, int(point))
-        curves.add(curve)
+        pair: list[int] = state.rows.curve.data[row].tolist()
+        # Where a fixed point beside the crossing holds one curve, the other gives way.
+        other = pair[1 - pair.index(curve)]
+        for yielding in (curve,) if on is not None else (curve, other):
+            place = state.rows.spot.data[row, 1 - pair.index(yielding)].copy()
+            point = _hold(maker, yielding, place)
+            if point is not None:
+                curves.add(yielding)
+                moved |= {point} - {-1}
+                break
     touched = np.array(sorted(curves), np.int64)
     ride_links(state, touched, maker.journal)
     return touched, np.array(sorted(moved), np.int64)
+
+
+def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
+    """Lead a curve through a place: give the point moved there, -1 for a new one, None if held."""
+    state = maker.state
+    defining: IntArray = state.curves.rows.data[curve]
+    away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
+    nearest = int(away.argmin())
+    if away[nearest] >= _NEAR:
+        point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
+        thread(maker, curve, int(point))
+        return -1
+    if state.rows.sort.data[defining[nearest]] != Sort.ADOPTED:
+        return None
+    maker.journal.put(state.rows.xyz, [defining[nearest]], [place])
+    return int(defining[nearest])

@@ -79,7 +79,7 @@ def test_a_table_is_imported_with_its_report(tmp_path: Path, facts: Json) -> Non
     first = found["report"]["adoption"]["lines"][0]
     assert {
         "curve", "group", "line", "given", "defining", "crossings", "adopted", "placed",
-        "deviation_median", "deviation_p95", "deviation", "place", "tolerance",
+        "deviation_median", "deviation_p95", "deviation", "place", "tolerance", "tolerance_used",
         "inflections_given", "inflections",
     } == set(first)  # fmt: skip
     ship = ah.open(out)
