@@ -17,7 +17,7 @@ _TITLE = "Duisburg Test Case"
 @cache
 def _ship() -> ah.Hull:
     path = Path(os.environ["ASSOC_HULL_DATA"]) / "dtc" / "DTC-scaled.stl.gz"
-    return ah.read(path, scale=59.407, draught=14.5)
+    return ah.read(path, scale=59.407, length=355.0, draught=14.5)
 
 
 def dtc() -> Figure:
