@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+import assoc_hull as ah
 from assoc_hull.hull import Hull, examples
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
@@ -53,3 +54,16 @@ def series60_70() -> Hull:
 def bulk_carrier() -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
     return examples.bulk_carrier_207k()
+
+
+@pytest.fixture(scope="session")
+def dtc(data_folder: Path) -> Hull:
+    """The Duisburg Test Case, sliced and adopted; a test that edits it undoes its edits."""
+    return ah.read(
+        data_folder / "dtc" / "DTC-scaled.stl.gz",
+        scale=59.407,
+        stations=41,
+        waterlines=20,
+        buttocks=12,
+        draught=14.5,
+    )
