@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-import assoc_hull as ah
 from assoc_hull.hull import Hull, examples
+from tests.cases.dtc import read_dtc
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -58,12 +58,5 @@ def bulk_carrier() -> Hull:
 
 @pytest.fixture(scope="session")
 def dtc(data_folder: Path) -> Hull:
-    """The Duisburg Test Case, sliced and adopted; a test that edits it undoes its edits."""
-    return ah.read(
-        data_folder / "dtc" / "DTC-scaled.stl.gz",
-        scale=59.407,
-        stations=41,
-        waterlines=20,
-        buttocks=12,
-        draught=14.5,
-    )
+    """The DTC container ship at 10 mm, from its mesh; a test that edits it undoes its edits."""
+    return read_dtc(data_folder)

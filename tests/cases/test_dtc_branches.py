@@ -2,9 +2,9 @@
 
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
 be followed without doubt. Shifts of 1, 10 and 50 cm must attach each crossing to the branch
-that this path leads to. ``ASSOC_HULL_LONG=1`` shifts in steps of 1 cm along the whole range,
-and in steps of 1 mm round every event, not near some events alone; that takes a quarter of
-an hour.
+that this path leads to. The steps of 1 cm are taken where the events are closest together;
+``ASSOC_HULL_LONG=1`` takes them along the whole ranges, and the shifts also in steps of 1 mm
+round every event, in a quarter of an hour.
 """
 
 from __future__ import annotations
@@ -71,3 +71,21 @@ def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
     watched = watch(path, where, steps(low, high, step))
     assert watched.wrong == []
     assert watched.off < CLOSE
+
+
+@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
+@pytest.mark.parametrize("where", list(RANGES))
+def test_in_steps_of_1_mm_round_every_event_none_is_either(path: Path, where: str) -> None:
+    """There and back over 1 cm on either side of every birth and death, by leaps between."""
+    group, low, high = RANGES[where]
+    hull = ah.open(path)
+    with hull.edit("cut") as edit:
+        edit.add_line(group, low, "moved")
+    around = [
+        round(event + 1e-3 * i, 4)
+        for event in NetWatch(hull, "moved", low, high).events(low, high)
+        for i in range(-10, 11)
+    ]
+    up = sorted({place for place in around if low < place < high})
+    watched = watch(path, where, [low, *up, high, *up[::-1], low][1:])
+    assert watched.wrong == []
