@@ -22,8 +22,9 @@ from assoc_hull.model.align import align_roots
 
 __all__ = ["track", "track_each"]
 
-_LEAST = 1e-4
-"""The height turns only where it goes back by more than this (m)."""
+_LEAST = 1e-3
+"""The height turns only where it goes back by more than this (m): a pair of meetings whose
+excursion is less is none, as no line is known more closely."""
 
 
 def track(spline: SplineBatch, normal: FloatArray, start: float, stop: float) -> dict[int, int]:
