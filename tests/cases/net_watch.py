@@ -52,6 +52,13 @@ class NetWatch:
         self.hull, self.line = hull, line
         group = hull.lines[line].group.name
         self.branches = branches_of_net(hull, group, AXIS[group], low, high)
+        lines = hull.lines
+        self.bounds = [
+            branch
+            for name, some in self.branches.items()
+            for branch in some
+            if lines[name].boundary == "end"
+        ]
         self.wrong, self.count, self.off = list[str](), Counter[str](), 0.0
         self.life, self.dead = dict[str, str](), set[str]()
         self.seen = self.look(float(hull.lines[line].position or 0.0))
@@ -136,21 +143,16 @@ class NetWatch:
         lost = sorted(each.name for each in alive if _sure(each, place) and each.name not in found)
         if lost:
             self._say(place, f"no crossing on {lost}")
-        bounds = [b for line in self._boundaries() for b in self.branches[line]]
-        if any(min(abs(end - place) for end in _ends(each)) <= CLOSE for each in bounds):
+        if any(min(abs(end - place) for end in _ends(each)) <= CLOSE for each in self.bounds):
             return
         along = {each.name: float(each.where(place)[0]) for each in alive if each.name in found}
-        ends = sorted(along[each.name] for each in bounds if each.name in along)
+        ends = sorted(along[each.name] for each in self.bounds if each.name in along)
         true = [
             {name for name, x in along.items() if first <= x <= last}
             for first, last in zip(ends[::2], ends[1::2], strict=False)
         ]
         if sorted(map(sorted, true)) != sorted(map(sorted, pieces.values())):
             self._say(place, f"{len(true)} pieces hold other crossings than {sorted(pieces)}")
-
-    def _boundaries(self) -> list[str]:
-        """Name the boundary curves that the line may end on."""
-        return [name for name in self.branches if self.hull.lines[name].boundary == "end"]
 
     def _say(self, place: float, text: str) -> None:
         self.wrong.append(f"at {place:.4f} m: {text}")
