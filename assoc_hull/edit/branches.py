@@ -9,18 +9,22 @@ at every birth and death, and steps of whatever length leap over a death and a b
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from assoc_hull.geometry.bernstein import heights
 from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.monotone import nodes_of
+from assoc_hull.geometry.segments import segment_start
 from assoc_hull.model.align import align_roots
 
-__all__ = ["track"]
+__all__ = ["track", "track_each"]
 
-_LEAST = 1e-4
-"""The height turns only where it goes back by more than this (m)."""
+_LEAST = 1e-3
+"""The height turns only where it goes back by more than this (m): a pair of meetings whose
+excursion is less is none, as no line is known more closely."""
 
 
 def track(spline: SplineBatch, normal: FloatArray, start: float, stop: float) -> dict[int, int]:
@@ -52,15 +56,37 @@ def track(spline: SplineBatch, normal: FloatArray, start: float, stop: float) ->
     >>> track(curve, np.array([0.0, 0, 1]), 1.5, 2.6)
     {2: 0}
     """
-    turns = _turns(spline, normal)
-    before, after = (meet_planes(spline, normal, np.array([at])) for at in (start, stop))
-    here, there = np.searchsorted(turns, before.t), np.searchsorted(turns, after.t)
-    path: dict[int, int] = {}
-    for stretch in np.intersect1d(here, there).tolist():
-        path |= _paired(
-            before, np.flatnonzero(here == stretch), after, np.flatnonzero(there == stretch)
+    return track_each(spline, normal, start, stop)[0]
+
+
+def track_each(
+    batch: SplineBatch, normal: FloatArray, start: float, stop: float
+) -> list[dict[int, int]]:
+    """Follow the meetings of many curves with a plane that is shifted: `track` for each.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    normal : (3,)
+        Unit normal of the plane.
+    start, stop : float, m
+        Offsets of the plane.
+    """
+    before, after = (meet_planes(batch, normal, np.array([at])) for at in (start, stop))
+    found: list[dict[int, int]] = []
+    for curve, turns in enumerate(_turns(batch, normal)):
+        mine = [np.flatnonzero(met.curve == curve) for met in (before, after)]
+        here, there = (
+            np.searchsorted(turns, before.t[mine[0]]),
+            np.searchsorted(turns, after.t[mine[1]]),
         )
-    return path
+        path: dict[int, int] = {}
+        for stretch in np.intersect1d(here, there).tolist():
+            first, second = mine[0][here == stretch], mine[1][there == stretch]
+            path |= _paired(before, first, after, second)
+        found.append({one - int(mine[0][0]): two - int(mine[1][0]) for one, two in path.items()})
+    return found
 
 
 def _paired(before: Meetings, first: IntArray, after: Meetings, second: IntArray) -> dict[int, int]:
@@ -71,14 +97,17 @@ def _paired(before: Meetings, first: IntArray, after: Meetings, second: IntArray
     return {int(first[i]): int(second[j]) for i, j in pairs}
 
 
-def _turns(spline: SplineBatch, normal: FloatArray) -> FloatArray:
-    """Give the parameters at which the height of a curve turns, ascending, m."""
-    segments = np.arange(len(spline.knot) - 1)
-    fraction, height = nodes_of(heights(spline, normal), segments)
-    begin, end = spline.knot[:-1], spline.knot[1:]
-    at = (begin + (end - begin) * fraction).T.ravel()
-    kept = _extremes(height.T.ravel().tolist())
-    return at[np.array(kept[1:-1], np.int64)]
+def _turns(batch: SplineBatch, normal: FloatArray) -> list[FloatArray]:
+    """Give the parameters at which the height of each curve turns, ascending, m."""
+    segments = segment_start(batch)
+    fraction, height = nodes_of(heights(batch, normal), segments)
+    begin, end = batch.knot[segments], batch.knot[segments + 1]
+    at = (begin + (end - begin) * fraction).T
+    found: list[FloatArray] = []
+    for first, last in pairwise(np.searchsorted(segments, batch.start).tolist()):
+        kept = _extremes(height.T[first:last].ravel().tolist())
+        found.append(at[first:last].ravel()[np.array(kept[1:-1], np.int64)])
+    return found
 
 
 def _extremes(height: list[float]) -> list[int]:

@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike
 from assoc_hull.edit.arguments import line_name
 from assoc_hull.edit.chain import chain
 from assoc_hull.edit.facets import through_facets
+from assoc_hull.edit.guides import with_guides
 from assoc_hull.edit.hairpin import closing_point, turning_points
 from assoc_hull.edit.headings import headings
+from assoc_hull.edit.hold import hold
 from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.planes import new_plane, ready_group
@@ -25,8 +27,7 @@ from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort
@@ -100,13 +101,14 @@ def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
     """Put marks in order, piece by piece; sections upward, other lines from aft forward.
 
     A ring, that ends on no boundary curve, begins and ends between its two nearest marks.
+    Among the marks of each piece are the guides beside it.
     """
     state = edit.state
     axis = 2 if state.family(line).axis == 0 else 0
     trails = through_facets(state, marks, state.lines.normal.data[line])
     if trails is None:
         ordered = chain(marks.xyz, marks.boundary == BoundaryKind.END, axis)
-        return [marks.take(piece) for piece in ordered]
+        return with_guides(state, line, [marks.take(piece) for piece in ordered])
     rings = [_opened(marks.xyz, ring) for ring in trails.rings if len(ring) >= _RING]
     name = state.lines.name.data[line]
     for ring in trails.rings:
@@ -117,7 +119,8 @@ def pieces_of(edit: Transaction, line: int, marks: Marks) -> list[Marks]:
         )
     parts = _run_on(marks.xyz[:, axis], trails.open)
     found = [marks.take(part) for part in parts]
-    return found + [attrs.evolve(marks.take(ring), ring=True) for ring in rings]
+    found += [attrs.evolve(marks.take(ring), ring=True) for ring in rings]
+    return with_guides(state, line, found)
 
 
 def _opened(xyz: FloatArray, ring: IntArray) -> IntArray:
@@ -171,9 +174,8 @@ def make_piece(
     """
     state = edit.state
     kind, direction = _kinds(state, line, marks)
-    spline = loft(CurveData.single(marks.xyz, kind, direction))
-    ruled = _pick(state, line, marks, spline)
-    picked = _hold(state, marks, kind, direction, ruled)
+    ruled = _pick(state, line, marks, kind, direction)
+    picked = hold(state, marks, kind, direction, ruled)
     if curve is None:
         curve = edit.maker.curve(line, Ends())
     chosen = marks.take(np.flatnonzero(picked))
@@ -181,18 +183,19 @@ def make_piece(
         role if ruled[i] else Role.WATCHED
         for i, role in zip(np.flatnonzero(picked), _roles(state, line, chosen, keep), strict=True)
     ]
+    own = np.flatnonzero(~chosen.guide)
     specs = [
-        _spec(state, curve, chosen, i, role, int(kind[picked][i]), direction[picked][i])
-        for i, role in enumerate(roles)
+        _spec(state, curve, chosen, i, roles[i], int(kind[picked][i]), direction[picked][i])
+        for i in own.tolist()
     ]
-    rows = _rows(edit, chosen, specs, known or {})
+    rows = dict(zip(own.tolist(), _rows(edit, chosen.take(own), specs, known or {}), strict=True))
     stand_in = [
         PointSpec(curve, chosen.xyz[i], Sort.ADOPTED)
         for i, role in enumerate(roles)
         if role is Role.WATCHED
     ]
-    own = iter(edit.maker.points(stand_in).tolist())
-    order = [next(own) if role is Role.WATCHED else int(rows[i]) for i, role in enumerate(roles)]
+    new = iter(edit.maker.points(stand_in).tolist())
+    order = [next(new) if role is Role.WATCHED else rows[i] for i, role in enumerate(roles)]
     edit.maker.define(curve, _rounded(edit, curve, chosen, order))
     for i, role in enumerate(roles):
         if role is Role.SHARED:
@@ -259,13 +262,20 @@ def _kinds(
 
 
 def _pick(
-    state: HullState, line: int, marks: Marks, spline: SplineBatch
+    state: HullState,
+    line: int,
+    marks: Marks,
+    kind: np.typing.NDArray[np.int8],
+    direction: FloatArray,
 ) -> np.typing.NDArray[np.bool_]:
-    """Apply the role rule on the new line.
+    """Apply the role rule on the new line to the marks it is cut from.
 
     A mark on a curve that runs along the new plane slides by decimetres in an edit of
     centimetres, so it is given the room to.
     """
+    given = ~marks.guide
+    marks = marks.take(np.flatnonzero(given))
+    spline = loft(CurveData.single(marks.xyz, kind[given], direction[given]))
     slope = derivative(spline, np.zeros(len(marks.curve), np.int64), spline.knot)
     tangent = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
     normal = state.lines.normal.data[state.curves.line.data[marks.curve]]
@@ -275,35 +285,15 @@ def _pick(
     fixed = _held(state, marks.curve, marks.boundary)
     fixed[[0, -1]] = True
     angle = np.degrees(np.arcsin(sine))
-    return choose(Candidates(spline.knot, angle, tangent, fixed, slide), state.tolerances)
+    ruled = given.copy()
+    ruled[given] = choose(Candidates(spline.knot, angle, tangent, fixed, slide), state.tolerances)
+    return ruled
 
 
 def _held(state: HullState, curve: IntArray, boundary: IntArray) -> np.typing.NDArray[np.bool_]:
     """Tell at which curves a new line is always made: boundary curves, and space curves."""
     planar = state.lines.planar.data[state.curves.line.data[curve]]
     return np.asarray((boundary >= 0) | ~planar)
-
-
-def _hold(
-    state: HullState,
-    marks: Marks,
-    kind: np.typing.NDArray[np.int8],
-    direction: FloatArray,
-    ruled: np.typing.NDArray[np.bool_],
-) -> np.typing.NDArray[np.bool_]:
-    """Add the marks that a line through those of the rule alone would pass too far off.
-
-    Without them a short piece between two ends would be straight, and its crossings lost.
-    """
-    picked = ruled.copy()
-    while not picked.all():
-        rest = np.flatnonzero(~picked)
-        spline = loft(CurveData.single(marks.xyz[picked], kind[picked], direction[picked]))
-        away = closest(spline, 0, marks.xyz[rest])[2]
-        if float(away.max()) <= state.tolerances.adoption:
-            break
-        picked[rest[int(away.argmax())]] = True
-    return picked
 
 
 def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]:

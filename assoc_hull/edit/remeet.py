@@ -29,7 +29,8 @@ def enter_line(edit: Transaction, line: int) -> None:
     network.evaluate(curve_node(mine), journal)
     partners = partner_curves(state, edit.document.index, line)
     _add_meets(edit, partners, line)
-    attach_curves(state, np.concatenate([partners, mine]), journal)
+    attach_curves(state, partners, journal, line)
+    attach_curves(state, mine, journal)
     for curve in mine.tolist():
         meets: Meets = state.curves.meets.data[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():

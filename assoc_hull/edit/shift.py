@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.branches import track
+from assoc_hull.edit.branches import track_each
 from assoc_hull.edit.cut import make_piece, pieces_of
 from assoc_hull.edit.lines import leave_behind
 from assoc_hull.edit.marks import Marks, find_marks, spread
@@ -126,30 +126,35 @@ def _followed(
 ) -> dict[tuple[int, int], int]:
     """Follow each crossing along the other curve; give it by that curve and its new root."""
     normal, start = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
-    paths: dict[int, dict[int, int]] = {}
+    others = _partners_of(state, line, crossings)
+    batch = SplineBatch.join([state.spline(curve) for curve in others])
     known: dict[tuple[int, int], int] = {}
-    for row in crossings.tolist():
-        pair = state.rows.curve.data[row].tolist()
-        other = pair[0] if state.line_of(pair[1]) == line else pair[1]
+    for other, path in zip(others, track_each(batch, normal, start, position), strict=True):
         meets: Meets = state.curves.meets.data[other]
-        roots = np.flatnonzero(meets.line == line)
-        at = np.flatnonzero(meets.row[roots] == row)
-        if not len(at):
-            continue
-        if other not in paths:
-            paths[other] = track(state.spline(other), normal, start, position)
-        root = paths[other].get(int(at[0]))
-        if root is not None:
-            known[other, root] = row
+        rows = meets.row[meets.line == line].tolist()
+        known |= {(other, new): rows[old] for old, new in path.items() if rows[old] >= 0}
     return known
+
+
+def _partners_of(state: HullState, line: int, crossings: IntArray) -> list[int]:
+    """Give the curves on the other side of a line's crossings, ascending."""
+    pairs = state.rows.curve.data[crossings]
+    mine = state.curves.line.data[pairs] == line
+    return sorted(set(pairs[~mine].tolist()))
 
 
 def _bring_along(edit: Transaction, line: int, known: dict[tuple[int, int], int]) -> None:
     """Note where followed crossings have come to, so that both curves find them there."""
+    if not known:
+        return
     state = edit.state
     plane = state.lines.normal.data[line], state.lines.offset.data[[line]]
+    others = sorted({other for other, _ in known})
+    met = meet_planes(SplineBatch.join([state.spline(curve) for curve in others]), *plane)
+    first = np.searchsorted(met.curve, np.arange(len(others))).tolist()
+    start = dict(zip(others, first, strict=True))
     for (other, root), row in sorted(known.items()):
-        place = meet_planes(state.spline(other), *plane).xyz[root]
+        place = met.xyz[start[other] + root]
         edit.journal.put(state.rows.spot, [row], [[place, place]])
 
 

@@ -60,40 +60,48 @@ def _riding_on(state: HullState, curves: IntArray) -> list[IntArray]:
     return [part[(state.rows.anchor.data[part] >= 0).any(axis=1)] for part in parts]
 
 
-def attach_curves(state: HullState, curves: IntArray, journal: Journal) -> IntArray:
+def attach_curves(
+    state: HullState, curves: IntArray, journal: Journal, line: int | None = None
+) -> IntArray:
     """Say which crossing each meeting of the curves is, by sign and least distance.
+
+    With `line`, of their meetings with the plane of that line alone.
 
     Returns
     -------
     (k,) int
         Crossings computed from or watched on these curves that found no meeting.
     """
-    expected = _expected(state, curves)
+    expected = _expected(state, curves, line)
     missing: list[int] = []
     for curve in curves.tolist():
         meets: Meets = state.curves.meets.data[curve]
-        row = np.full(len(meets.line), -1)
-        for line in sorted({line for one, line in expected if one == curve}):
-            missing += _match(state, curve, meets, line, expected[curve, line], row)
+        mine = np.full(len(meets.line), True) if line is None else meets.line == line
+        row = np.where(mine, -1, meets.row)
+        for other, rows in sorted(expected[curve].items()):
+            missing += _match(state, curve, meets, other, rows, row)
         found = attrs.evolve(meets, row=row)
         journal.set(state.curves.meets, [curve], [found])
-        _write(state, curve, found, journal)
+        _write(state, curve, found, np.flatnonzero(mine & (row >= 0)), journal)
     return np.array(sorted(missing), np.int64)
 
 
-def _expected(state: HullState, curves: IntArray) -> defaultdict[tuple[int, int], list[int]]:
+def _expected(
+    state: HullState, curves: IntArray, line: int | None
+) -> dict[int, defaultdict[int, list[int]]]:
     """List the crossings of each curve by the line on the other side."""
-    found: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+    found = {curve: defaultdict[int, list[int]](list) for curve in curves.tolist()}
     table = state.rows
     wanted = table.alive.data & (table.sort.data == Sort.CROSSING)
     wanted &= np.isin(table.curve.data, curves).any(axis=1)
-    mine = set(curves.tolist())
+    if line is not None:
+        wanted &= np.isin(table.curve.data, state.lines.curves.data[line]).any(axis=1)
     for row in np.flatnonzero(wanted).tolist():
         a, b = table.curve.data[row].tolist()
-        if a in mine:
-            found[a, state.line_of(b)].append(row)
-        if b in mine and not table.contact.data[row]:
-            found[b, state.line_of(a)].append(row)
+        if a in found:
+            found[a][state.line_of(b)].append(row)
+        if b in found and not table.contact.data[row]:
+            found[b][state.line_of(a)].append(row)
     return found
 
 
@@ -121,9 +129,8 @@ def _defines(state: HullState, row: int, curve: int) -> bool:
     return bool((state.rows.reader.data[row] == curve).any())
 
 
-def _write(state: HullState, curve: int, meets: Meets, journal: Journal) -> None:
-    """Note on the crossings where they lie on the curve."""
-    actual = meets.row >= 0
+def _write(state: HullState, curve: int, meets: Meets, actual: IntArray, journal: Journal) -> None:
+    """Note on the crossings at some meetings where they lie on the curve."""
     rows = meets.row[actual]
     if not len(rows):
         return
