@@ -73,19 +73,20 @@ def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
     assert watched.off < CLOSE
 
 
-@pytest.mark.skipif(not LONG, reason="takes minutes: set ASSOC_HULL_LONG=1")
-@pytest.mark.parametrize("where", list(RANGES))
-def test_in_steps_of_1_mm_round_every_event_none_is_either(path: Path, where: str) -> None:
-    """There and back over 1 cm on either side of every birth and death, by leaps between."""
-    group, low, high = RANGES[where]
-    hull = ah.open(path)
-    with hull.edit("cut") as edit:
-        edit.add_line(group, low, "moved")
-    around = [
-        round(event + 1e-3 * i, 4)
-        for event in NetWatch(hull, "moved", low, high).events(low, high)
-        for i in range(-10, 11)
-    ]
-    up = sorted({place for place in around if low < place < high})
-    watched = watch(path, where, [low, *up, high, *up[::-1], low][1:])
-    assert watched.wrong == []
+if LONG:
+
+    @pytest.mark.parametrize("where", list(RANGES))
+    def test_in_steps_of_1_mm_round_every_event_none_is_either(path: Path, where: str) -> None:
+        """There and back over 1 cm on either side of every birth and death, by leaps between."""
+        group, low, high = RANGES[where]
+        hull = ah.open(path)
+        with hull.edit("cut") as edit:
+            edit.add_line(group, low, "moved")
+        around = [
+            round(event + 1e-3 * i, 4)
+            for event in NetWatch(hull, "moved", low, high).events(low, high)
+            for i in range(-10, 11)
+        ]
+        up = sorted({place for place in around if low < place < high})
+        watched = watch(path, where, [low, *up, high, *up[::-1], low][1:])
+        assert watched.wrong == []
