@@ -170,11 +170,16 @@ def folded(hull: ah.Hull, names: tuple[str, ...]) -> int:
     return sum(len(folds(hull.state.spline(number[name])).curve) for name in names)
 
 
-def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
-    """Try an edit at every place, each from the same hull; undo what was accepted."""
+def run(
+    hull: ah.Hull, kind: str, act: Act, at: list[int], check: Callable[[int], None] | None = None
+) -> Row:
+    """Try an edit at every place, each from the same hull; undo what was accepted.
+
+    `check` is called with the number of the place after every edit that was accepted.
+    """
     refused: list[str] = []
     lofted, gap, wide, mended, bent, more = 0, 0.0, 0, 0, 0, 0
-    for row in at:
+    for number, row in enumerate(at):
         try:
             with hull.edit(kind) as edit:
                 act(edit, row)
@@ -187,6 +192,8 @@ def run(hull: ah.Hull, kind: str, act: Act, at: list[int]) -> Row:
         gap, wide = max(gap, report.largest_gap), wide + len(over_limit(hull))
         more += sum(count for _, count in report.inflections)
         bent += folded(hull, report.relofted)
+        if check is not None:
+            check(number)
         hull.undo()
     accepted = len(at) - len(refused)
     done = max(1, accepted)

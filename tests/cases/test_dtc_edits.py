@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
 import attrs
@@ -10,7 +11,10 @@ import pytest
 
 import assoc_hull as ah
 from tests.cases import places
+from tests.properties.test_i01_consistency import assert_consistent
 
+LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
+EVERY = 1 if LONG else 8
 PLACES = 48
 SEED = 1
 REACH = (20.0, 8.0)
@@ -46,9 +50,19 @@ def _cases(hull: ah.Hull, at: list[int]) -> dict[str, places.Act]:
 
 @pytest.fixture(scope="module")
 def table(dtc: ah.Hull) -> list[places.Row]:
-    """Run every kind of edit at its places."""
+    """Run every kind of edit at its places; I6 at some of them, in the long form I1 and I6 at all.
+
+    Undo brings the old hull back to the bit, I7.
+    """
     before, at = dtc.fingerprint, places.places(dtc, places.PAIRS, PLACES, SEED)
-    rows = [places.run(dtc, kind, act, at) for kind, act in _cases(dtc, at).items()]
+
+    def check(number: int) -> None:
+        if number % EVERY == 0:
+            assert dtc.verify() == ()
+        if LONG:
+            assert_consistent(dtc)
+
+    rows = [places.run(dtc, kind, act, at, check) for kind, act in _cases(dtc, at).items()]
     assert dtc.fingerprint == before
     print(places.table(rows))
     return rows
