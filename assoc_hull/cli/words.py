@@ -126,7 +126,7 @@ def slice_words(name: str, report: SliceReport) -> str:
         f"{report.adopted} points of theirs that no crossing holds; the farthest smooth point is "
         f"{1e3 * adopted.deviation:.3g} mm off ({adopted.line}); {report.inflections[0]} "
         f"inflections, {report.inflections[1]} more in the net",
-        *(f"  {note}" for note in report.adoption.notes),
+        *(f"  {note}" for note in (*report.suspicions, *report.adoption.notes)),
     ]
     return "\n".join(lines)
 

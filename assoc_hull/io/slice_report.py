@@ -15,6 +15,10 @@ from assoc_hull.tolerance import Tolerances
 __all__ = ["SliceReport"]
 
 
+_COARSE = 3.0
+"""Lines adopted within more than this many times the least tolerance of a mesh are doubtful."""
+
+
 @attrs.frozen(eq=False)
 class SliceReport:
     """What became of slices.
@@ -81,3 +85,16 @@ class SliceReport:
     def inflections(self) -> tuple[int, int]:
         """Inflections of the smooth lines in all, and what the net has more, line by line."""
         return self.adoption.inflections
+
+    @property
+    def suspicions(self) -> tuple[str, ...]:
+        """What is doubtful about smoothing and adoption, none for a hull drawn well."""
+        most = _COARSE * self.rules.adopt_least_facets
+        if self.tolerance <= most:
+            return ()
+        near, noise = 1e3 * self.tolerance, 1e3 * self.noise
+        return (
+            f"tolerance: adopted within {near:.3g} mm only, since the lines scatter by {noise:.3g} "
+            "mm; corners that facets or points are too few to show count as scatter, and are "
+            "rounded: give a finer mesh, more points, or tolerance=",
+        )

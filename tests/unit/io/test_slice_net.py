@@ -151,3 +151,15 @@ def test_dtc_is_adopted(data_folder: Path) -> None:
     assert np.percentile(gaps, 95) <= 0.004
     assert hull.check() == ()
     assert hull.verify() == ()
+
+
+def test_a_mesh_too_coarse_for_its_corners_is_suspected() -> None:
+    """A barge of a dozen triangles is rounded; the report says so, and not of a fine Wigley."""
+    x, y, z = 40.0, 5.0, 6.0
+    corner = np.array([[i, j, k] for i in (0, x) for j in (-y, y) for k in (0, z)], float)
+    quads = [[0, 2, 6, 4], [0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [1, 5, 7, 3]]
+    face = np.array([[a, b, c] for q in quads for a, b, c in (q[:3], (q[0], q[2], q[3]))])
+    barge = slice_mesh(Triangles(corner, face), stations=7, waterlines=3, buttocks=2)
+    assert net_from_slices(barge)[1].suspicions[0].startswith("tolerance: adopted within")
+    fine = slice_mesh(meshes.wigley_half(161, 41), stations=5, waterlines=3, buttocks=1)
+    assert net_from_slices(fine)[1].suspicions == ()
