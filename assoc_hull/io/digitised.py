@@ -27,6 +27,7 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import drop_repeats
+from assoc_hull.io.digitised_sides import one_side
 from assoc_hull.io.digitised_text import RawPiece, parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
@@ -89,7 +90,7 @@ def read_lines(
     text, source = read_text(path_or_text, book)
     raw = parse_lines(text, source)
     factor = _factor(raw, scale, unit, book, source)
-    raw = _to_port([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
     limits = gaps or Gaps()
@@ -134,17 +135,6 @@ def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source
         raise BadInputError(f"the lines are only {size * _UNITS[unit]:.4g} m long in {unit}",
                             f"at {source}", "give unit='m', or the scale")  # fmt: skip
     return scale * _UNITS[unit]
-
-
-def _to_port(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
-    """Bring pieces drawn to starboard over to port."""
-    turned = [each for each in raw if each.points[:, 1].mean() < -1e-6]
-    if not turned:
-        return raw
-    book.repair("mirrored", "the lines", f"{len(turned)} pieces at negative y brought to port",
-                len(turned))  # fmt: skip
-    flip = np.array([1.0, -1.0, 1.0])
-    return [RawPiece(e.line, e.points * flip + 0.0, e.where) if e in turned else e for e in raw]
 
 
 def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:

@@ -196,3 +196,60 @@ def test_what_cannot_be_read_is_named(text: str, words: str) -> None:
     """Each text that holds no lines is refused, with the row and what to do."""
     with pytest.raises(BadInputError, match=words):
         read_lines(text)
+
+
+HALF = [(0.0, 0.0), (2.0, 0.5), (3.5, 2.0), (4.0, 4.0), (4.2, 6.0)]
+PORT = [f"ST 5,5,{y},{z}" for y, z in HALF]
+STARBOARD = [f"ST 5,5,{-y},{z}" for y, z in HALF]
+FLAT = [f"ST 5,5,{side * y},{z}" for side in (1, -1) for y, z in HALF[1:]]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        pytest.param([*PORT[::-1], *STARBOARD[1:]], id="one polyline"),
+        pytest.param([*PORT, "", *STARBOARD], id="two pieces"),
+        pytest.param([*STARBOARD, "", *PORT], id="starboard first"),
+        pytest.param([*PORT, *STARBOARD], id="one after the other"),
+        pytest.param([*PORT[::-1], *STARBOARD[::-1]], id="from the deck, twice"),
+    ],
+)
+def test_of_lines_on_both_sides_one_is_kept(rows: list[str]) -> None:
+    """However both sides are drawn, the section is its port half, and it is told."""
+    slices = read_lines("line,x,y,z\n" + "\n".join(rows) + "\n")
+    (piece,) = slices["ST 5"].pieces
+    assert [(y, z) for _, y, z in piece.points.tolist()] == HALF
+    assert slices.report.kinds("repairs") == ("both sides",)
+    assert slices.report.suspicions == ()
+
+
+def test_sides_without_a_point_at_the_centre_are_parted() -> None:
+    """Port and then starboard from the bilge: no chord from deck to bilge is drawn."""
+    (piece,) = read_lines("line,x,y,z\n" + "\n".join(FLAT) + "\n")["ST 5"].pieces
+    assert [(y, z) for _, y, z in piece.points.tolist()] == HALF[1:]
+
+
+def test_a_line_across_the_centre_plane_is_cut_where_it_crosses() -> None:
+    """Without a point in the centre plane, the place where the polyline passes it ends the half."""
+    rows = [*PORT[:0:-1], *STARBOARD[1:]]
+    (piece,) = read_lines("line,x,y,z\n" + "\n".join(rows) + "\n")["ST 5"].pieces
+    assert piece.points[0].tolist() == [5.0, 0.0, 0.5]
+    assert piece.ends[0] == "profile"
+
+
+def test_sides_that_differ_are_told() -> None:
+    """A starboard side 40 mm off the port one is left out, with the difference."""
+    other = [f"ST 5,5,{-y - 0.04 * (y > 0)},{z}" for y, z in HALF]
+    report = read_lines("line,x,y,z\n" + "\n".join([*PORT[::-1], *other[1:]]) + "\n").report
+    (note,) = report.suspicions
+    assert (note.kind, note.what) == (
+        "both sides",
+        "its sides differ by up to 40 mm; one is left out",
+    )
+
+
+def test_pieces_of_both_sides_that_are_no_images_stay() -> None:
+    """A lower piece to port and an upper one to starboard are both wanted."""
+    slices = read_lines("line,x,y,z\n" + "\n".join([*PORT[:3], "", *STARBOARD[2:]]) + "\n")
+    assert [len(piece.points) for piece in slices["ST 5"].pieces] == [5]
+    assert "mirrored" in slices.report.kinds("repairs")
