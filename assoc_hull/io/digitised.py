@@ -27,8 +27,9 @@ import numpy as np
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import drop_repeats
+from assoc_hull.io.digitised_piece import RawPiece
 from assoc_hull.io.digitised_sides import one_side
-from assoc_hull.io.digitised_text import RawPiece, parse_lines
+from assoc_hull.io.digitised_text import parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
 from assoc_hull.io.slice_chain import enough, join_pieces, nearest_ends
@@ -88,7 +89,7 @@ def read_lines(
     """
     book = Notebook()
     text, source = read_text(path_or_text, book)
-    raw = parse_lines(text, source)
+    raw = parse_lines(text, source, book)
     factor = _factor(raw, scale, unit, book, source)
     raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])

@@ -4,7 +4,7 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.io.digitised_sides import one_side
->>> from assoc_hull.io.digitised_text import RawPiece
+>>> from assoc_hull.io.digitised_piece import RawPiece
 >>> from assoc_hull.io.offset_report import Notebook
 >>> book = Notebook()
 >>> whole = np.array([[5.0, 3, 4], [5, 2, 1], [5, 0, 0], [5, -2, 1], [5, -3, 4]])
@@ -21,7 +21,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import arc_length
-from assoc_hull.io.digitised_text import RawPiece
+from assoc_hull.io.digitised_piece import RawPiece
 from assoc_hull.io.offset_report import Notebook
 
 __all__ = ["one_side"]

@@ -253,3 +253,76 @@ def test_pieces_of_both_sides_that_are_no_images_stay() -> None:
     slices = read_lines("line,x,y,z\n" + "\n".join([*PORT[:3], "", *STARBOARD[2:]]) + "\n")
     assert [len(piece.points) for piece in slices["ST 5"].pieces] == [5]
     assert "mirrored" in slices.report.kinds("repairs")
+
+
+def drawing(*entities: str) -> str:
+    """A DXF with some entities, each written as codes and values parted by blanks."""
+    words = " ".join(["0 SECTION 2 ENTITIES", *entities, "0 ENDSEC 0 EOF"]).split()
+    return "\n".join(word.replace("_", " ") for word in words) + "\n"
+
+
+SECTION = "0 POLYLINE 8 ST_2 70 {} " + " ".join(
+    f"0 VERTEX 8 ST_2 10 7 20 {y} 30 {z}" for y, z in ((0, 0), (2, 1), (3, 4), (0, 5))
+)
+
+
+@pytest.mark.parametrize(
+    "entity",
+    [
+        pytest.param(SECTION.format(1), id="POLYLINE"),
+        pytest.param(
+            "0 LWPOLYLINE 8 WL_1 38 1 70 1 10 0 20 0 10 7 20 2 10 9 20 1", id="LWPOLYLINE"
+        ),
+    ],
+)
+def test_a_closed_polyline_of_a_drawing_has_its_last_side(entity: str) -> None:
+    """The closed flag leads the polyline back to its first point."""
+    (line,) = read_lines(drawing(entity)).lines
+    points = line.pieces[0].points
+    assert np.linalg.norm(points[0] - points[-1]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("entity", "kind", "words"),
+    [
+        ("0 SPLINE 8 ST_3 10 8 20 0 30 0", "curve", "SPLINE is no polyline and left out"),
+        ("0 ARC 8 ST_3 10 8 20 0 40 2", "curve", "ARC is no polyline and left out"),
+        ("0 LWPOLYLINE 8 WL_1 38 1 10 0 20 0 42 1.0 10 9 20 2", "bulge", "arcs between its points"),
+        ("0 LWPOLYLINE 8 WL_1 38 1 220 1 230 0 10 0 20 0 10 9 20 2", "extrusion", "of its own"),
+        ("0 POLYLINE 8 M 70 16 0 VERTEX 10 1 20 1 0 VERTEX 10 2 20 2", "mesh", "left out"),
+    ],
+)  # fmt: skip
+def test_what_a_drawing_holds_beside_polylines_is_told(entity: str, kind: str, words: str) -> None:
+    """Curves, bulges and turned coordinates: how many, where the first is, and what to do."""
+    (note,) = read_lines(drawing(SECTION.format(0), entity)).report.suspicions
+    assert (note.kind, note.amount) == (kind, 1)
+    assert words in note.what
+    assert "the first at line " in note.what
+    assert "explode it to polylines" in note.what
+
+
+def test_control_points_of_a_fitted_polyline_are_no_points_of_it() -> None:
+    """Of a spline-fitted POLYLINE the drawn vertices are read, not its frame."""
+    frame = "0 VERTEX 8 ST_2 70 16 10 7 20 9 30 9"
+    points = read_lines(drawing(f"{SECTION.format(4)} {frame}"))["ST 2"].pieces[0].points
+    assert len(points) == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        pytest.param(
+            drawing("0 LWPOLYLINE 8 ST_1 20 1 10 1"), "20 before its first 10", id="order"
+        ),
+        pytest.param(drawing("--5 x"), "'--5' is no group code", id="two signs"),
+        pytest.param(drawing("\u00b2 x"), "is no group code, line 5", id="superscript"),
+        pytest.param(drawing("0 LINE 8 ST_1 10 low"), "'low' is no number, line 9", id="number"),
+        pytest.param(
+            f"line,x,y,z\nST 1,5,0,0\nST 1,5,{'1' * 200000},1\n", "row 3 of text", id="long cell"
+        ),
+    ],
+)
+def test_broken_texts_are_named(text: str, words: str) -> None:
+    """What is no DXF or no CSV: the line, and what is wrong there."""
+    with pytest.raises(BadInputError, match=words):
+        read_lines(text)
