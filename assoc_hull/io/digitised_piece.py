@@ -11,6 +11,9 @@ from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["RawPiece", "read_number"]
 
+_LARGEST = 1e9
+"""No coordinate exceeds this in any unit."""
+
 
 @attrs.frozen(eq=False)
 class RawPiece:
@@ -46,7 +49,7 @@ def read_number(cell: str, where: str, *, comma: bool = False) -> float:
     Raises
     ------
     BadInputError
-        The text is no finite number.
+        The text is no finite number, or one that no ship has.
 
     Examples
     --------
@@ -61,4 +64,6 @@ def read_number(cell: str, where: str, *, comma: bool = False) -> float:
         value = np.nan
     if not np.isfinite(value):
         raise BadInputError(f"{shown(cell)} is no number", where, "correct the cell")
+    if abs(value) > _LARGEST:
+        raise BadInputError(f"{shown(cell)} is too large for a ship", where, "correct the cell")
     return value

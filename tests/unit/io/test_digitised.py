@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.mesh import slice_mesh
 from assoc_hull.io.slice_types import Gaps, Slices
@@ -326,3 +326,44 @@ def test_broken_texts_are_named(text: str, words: str) -> None:
     """What is no DXF or no CSV: the line, and what is wrong there."""
     with pytest.raises(BadInputError, match=words):
         read_lines(text)
+
+
+@pytest.mark.parametrize(("unit", "metre"), [("ft", 0.3048), ("in", 0.0254), ("cm", 0.01)])
+def test_units_other_than_metres_can_be_given(unit: str, metre: float) -> None:
+    """Places come in metres."""
+    text = "line,x,y,z\nWL 1,0,0,100\nWL 1,500,40,100\nWL 1,990,0,100\n"
+    (piece,) = read_lines(text, unit=unit)["WL 1"].pieces
+    assert piece.points[1].tolist() == pytest.approx([500 * metre, 40 * metre, 100 * metre])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"unit": "normalised"}, "'normalised' is unknown for digitised lines.*'ft' or 'in'"),
+        ({"unit": ["m"]}, "is unknown"),
+        ({"scale": "big"}, "scale is 'big'"),
+        ({"scale": 0}, "scale is 0"),
+    ],
+)
+def test_units_and_scales_that_are_none_are_named(options: dict[str, object], words: str) -> None:
+    """The argument, and what it may be."""
+    with pytest.raises(BadInputError, match=words):
+        read_lines("line,x,y,z\n" + "\n".join(PORT) + "\n", **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("x", "words"),
+    [("1e308", "'1e308' is too large.*row 7"), ("9e6", r"x = 9e\+06 in WL 1 \(from row 7 of text")],
+)
+def test_a_coordinate_beyond_any_ship_is_named(x: str, words: str) -> None:
+    """The number and where it stands, not the length of the ship alone."""
+    text = "line,x,y,z\n" + "\n".join([*PORT, f"WL 1,{x},0,1", "WL 1,5,2.5,1"]) + "\n"
+    with pytest.raises(BadInputError, match=words):
+        read_lines(text)
+
+
+@pytest.mark.parametrize("value", [3, None, b"line,x,y,z\n", ["a.csv"]])
+def test_what_is_neither_path_nor_text_is_named(value: object) -> None:
+    """The wrong type is told as such."""
+    with pytest.raises(WrongTypeError, match="give the name of a file"):
+        read_lines(value)  # type: ignore[arg-type]
