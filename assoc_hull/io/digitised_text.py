@@ -64,7 +64,10 @@ def parse_lines(text: str, source: str, book: Notebook) -> list[RawPiece]:
     dxf = "SECTION" in text[:2000] and not text.lstrip().lower().startswith("line")
     found = parse_dxf(text, source, book) if dxf else _parse_csv(text, source)
     if not found:
-        raise BadInputError("there are no points", f"at {source}", "give two or more per line")
+        told = "".join(f"; {note.what}" for note in book.suspicions)
+        raise BadInputError(
+            f"there are no points{told}", f"at {source}", "give two or more per line"
+        )  # fmt: skip
     return found
 
 

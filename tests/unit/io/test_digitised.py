@@ -314,6 +314,7 @@ def test_control_points_of_a_fitted_polyline_are_no_points_of_it() -> None:
         pytest.param(
             drawing("0 LWPOLYLINE 8 ST_1 20 1 10 1"), "20 before its first 10", id="order"
         ),
+        pytest.param(drawing("0 SPLINE 8 ST_1"), "no points; SPLINE is no polyline", id="curves"),
         pytest.param(drawing("--5 x"), "'--5' is no group code", id="two signs"),
         pytest.param(drawing("\u00b2 x"), "is no group code, line 5", id="superscript"),
         pytest.param(drawing("0 LINE 8 ST_1 10 low"), "'low' is no number, line 9", id="number"),
