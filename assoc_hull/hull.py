@@ -333,8 +333,9 @@ def read(
     """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
 
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
-    (STL, OBJ, PLY, also ``.gz``) and digitised lines (CSV, DXF) take `scale`, full scale over
-    model scale, and the other options, as `assoc_hull.io.slice_read.read_slices` does.
+    (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
+    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF) all but
+    planes and axes.
 
     Raises
     ------
@@ -367,7 +368,10 @@ def read(
 
 
 def _refuse_options(options: Mapping[str, object], file: Path) -> None:
+    from assoc_hull.io.slice_read import require_file
+
     if options:
+        require_file(file)
         raise BadInputError(
             f"{', '.join(sorted(options))} cannot be given", f"for {file.name}",
             "leave it out, or read a mesh or digitised lines",

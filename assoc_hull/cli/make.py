@@ -152,12 +152,17 @@ _OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance"
 
 
 def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
-    from assoc_hull.io.slice_read import holds_lines
+    from assoc_hull.io.slice_read import holds_lines, require_file
 
     if holds_lines(arguments.file):
+        if arguments.station_zero != "auto":
+            raise BadInputError(
+                "--station-zero is for tables of offsets", f"with {arguments.file}", "leave it out"
+            )
         return _adopt_slices(arguments, tell)
     wrong = [name for name in _OF_SLICES if getattr(arguments, name) is not None]
     if wrong:
+        require_file(arguments.file)
         raise BadInputError(
             f"--{wrong[0]} is for meshes and digitised lines", f"with {arguments.file}",
             "leave it out",

@@ -24,10 +24,13 @@ from pathlib import Path
 
 import numpy as np
 
+from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import drop_repeats
-from assoc_hull.io.digitised_text import RawPiece, parse_lines
+from assoc_hull.io.digitised_piece import RawPiece
+from assoc_hull.io.digitised_sides import one_side
+from assoc_hull.io.digitised_text import parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
 from assoc_hull.io.slice_chain import enough, join_pieces, nearest_ends
@@ -36,7 +39,7 @@ from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
 __all__ = ["read_lines"]
 
-_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2}
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
 _LONGEST, _SHORTEST = 600.0, 1.0
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
@@ -68,7 +71,7 @@ def read_lines(
         "profile", "deck edge" and "transom" are boundary curves.
     scale : float
         Full scale over the scale of the file.
-    unit : {"auto", "m", "mm", "cm"}
+    unit : {"auto", "m", "mm", "cm", "ft", "in"}
         Unit of the file.
     gaps : Gaps or None
         Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
@@ -85,11 +88,13 @@ def read_lines(
     BadInputError
         A text that holds no lines, a line in no plane, or one name in two planes.
     """
+    if not isinstance(path_or_text, str):
+        file_path(path_or_text, "in read_lines")
     book = Notebook()
     text, source = read_text(path_or_text, book)
-    raw = parse_lines(text, source)
+    raw = parse_lines(text, source, book)
     factor = _factor(raw, scale, unit, book, source)
-    raw = _to_port([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
     limits = gaps or Gaps()
@@ -117,34 +122,34 @@ def read_lines(
 
 
 def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source: str) -> float:
-    if not (np.isfinite(scale) and scale > 0.0):
-        raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
+    scale = positive(scale, "scale", "as an argument")
+    if unit not in ["auto", *_UNITS]:
+        known = " or ".join(map(repr, ("auto", *_UNITS)))
+        raise BadInputError(f"the unit {shown(unit)} is unknown for digitised lines",
+                            "the argument unit", f"give {known}")  # fmt: skip
     size = scale * float(np.ptp(np.concatenate([each.points for each in raw]), axis=0).max())
     if unit == "auto":
         unit = "mm" if size > _LONGEST else "m"
         what = f"{unit}, because the longest side is {size:.6g} units at full scale"
         book.assume("unit", "the lines", what, size)
-    if unit not in _UNITS:
-        raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit",
-                            "give 'auto', 'm', 'mm' or 'cm'")  # fmt: skip
     if size * _UNITS[unit] > _LONGEST:
-        raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}",
-                            f"at {source}", "give unit='mm', or another scale")  # fmt: skip
+        raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}, with "
+                            f"{_farthest(raw)}", f"at {source}",
+                            "correct it, or give another unit or scale")  # fmt: skip
     if 0.0 < size * _UNITS[unit] < _SHORTEST:
         raise BadInputError(f"the lines are only {size * _UNITS[unit]:.4g} m long in {unit}",
                             f"at {source}", "give unit='m', or the scale")  # fmt: skip
     return scale * _UNITS[unit]
 
 
-def _to_port(raw: list[RawPiece], book: Notebook) -> list[RawPiece]:
-    """Bring pieces drawn to starboard over to port."""
-    turned = [each for each in raw if each.points[:, 1].mean() < -1e-6]
-    if not turned:
-        return raw
-    book.repair("mirrored", "the lines", f"{len(turned)} pieces at negative y brought to port",
-                len(turned))  # fmt: skip
-    flip = np.array([1.0, -1.0, 1.0])
-    return [RawPiece(e.line, e.points * flip + 0.0, e.where) if e in turned else e for e in raw]
+def _farthest(raw: list[RawPiece]) -> str:
+    """Name the coordinate that lies farthest from the middle one of its kind."""
+    every = np.concatenate([each.points for each in raw])
+    far = np.abs(every - np.median(every, axis=0))
+    row, axis = np.unravel_index(int(far.argmax()), far.shape)
+    ends = np.cumsum([len(each.points) for each in raw])
+    piece = raw[int(np.searchsorted(ends, row, side="right"))]
+    return f"{'xyz'[axis]} = {every[row, axis]:.6g} in {piece.line} (from {piece.where})"
 
 
 def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:

@@ -5,36 +5,18 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterator
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.digitised_dxf import parse_dxf
+from assoc_hull.io.digitised_piece import RawPiece, read_number
+from assoc_hull.io.offset_report import Notebook
 
-__all__ = ["RawPiece", "is_digitised", "parse_lines"]
+__all__ = ["is_digitised", "parse_lines"]
 
 _COLUMNS = ("line", "x", "y", "z")
-_AXES = {10: 0, 20: 1, 30: 2}
-
-
-@attrs.frozen(eq=False)
-class RawPiece:
-    """One polyline as the file gives it.
-
-    Attributes
-    ----------
-    line : str
-        Name of the line it belongs to.
-    points : (n, 3)
-        In the unit of the file.
-    where : str
-        Row or entity, for messages.
-    """
-
-    line: str
-    points: FloatArray
-    where: str
 
 
 def is_digitised(text: str) -> bool:
@@ -55,7 +37,7 @@ def is_digitised(text: str) -> bool:
     return set(_COLUMNS) <= names
 
 
-def parse_lines(text: str, source: str) -> list[RawPiece]:
+def parse_lines(text: str, source: str, book: Notebook) -> list[RawPiece]:
     """Read the pieces of all lines.
 
     Parameters
@@ -66,6 +48,8 @@ def parse_lines(text: str, source: str) -> list[RawPiece]:
         naming its line.
     source : str
         Name of the file, for messages.
+    book : Notebook
+        Takes what a drawing holds and polylines do not.
 
     Raises
     ------
@@ -78,9 +62,12 @@ def parse_lines(text: str, source: str) -> list[RawPiece]:
             "give them in the first row, or a DXF file with polylines",
         )  # fmt: skip
     dxf = "SECTION" in text[:2000] and not text.lstrip().lower().startswith("line")
-    found = _parse_dxf(text, source) if dxf else _parse_csv(text, source)
+    found = parse_dxf(text, source, book) if dxf else _parse_csv(text, source)
     if not found:
-        raise BadInputError("there are no points", f"at {source}", "give two or more per line")
+        told = "".join(f"; {note.what}" for note in book.suspicions)
+        raise BadInputError(
+            f"there are no points{told}", f"at {source}", "give two or more per line"
+        )  # fmt: skip
     return found
 
 
@@ -94,8 +81,7 @@ def _parse_csv(text: str, source: str) -> list[RawPiece]:
     found: dict[tuple[str, str, int], list[tuple[float, ...]]] = {}
     first: dict[tuple[str, str, int], int] = {}
     part = 0
-    for number, cells in enumerate(csv.reader(io.StringIO("\n".join(rows[head + 1 :])),
-                                              delimiter=mark), start=head + 2):  # fmt: skip
+    for number, cells in _cells(rows, head + 1, mark, source):
         if not any(cell.strip() for cell in cells):
             part += 1
             continue
@@ -108,61 +94,20 @@ def _parse_csv(text: str, source: str) -> list[RawPiece]:
         label = cells[piece_at].strip() if 0 <= piece_at < len(cells) else ""
         key = (name, label, part if piece_at < 0 else 0)
         first.setdefault(key, number)
-        found.setdefault(key, []).append(tuple(_number(cells[i], where, mark) for i in at[1:]))
+        found.setdefault(key, []).append(
+            tuple(read_number(cells[i], where, comma=mark != ",") for i in at[1:])
+        )
     return [
         RawPiece(key[0], np.array(points), f"row {first[key]} of {source}")
         for key, points in found.items()
     ]
 
 
-def _number(cell: str, where: str, mark: str) -> float:
-    text = cell.strip()
+def _cells(rows: list[str], first: int, mark: str, source: str) -> Iterator[tuple[int, list[str]]]:
+    """Give the cells of each row, with its number in the file."""
+    reader = csv.reader(io.StringIO("\n".join(rows[first:])), delimiter=mark)
     try:
-        value = float(text.replace(",", ".") if mark != "," else text)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise BadInputError(f"{cell!r} is no number", where, "correct the cell")
-    return value
-
-
-def _parse_dxf(text: str, source: str) -> list[RawPiece]:
-    """Read POLYLINE, LWPOLYLINE and LINE entities of an ASCII DXF."""
-    rows = text.splitlines()
-    codes, values = rows[0::2], rows[1::2]
-    found: list[RawPiece] = []
-    entity, layer, height = "", "", 0.0
-    points: list[list[float]] = []
-    begun = 1
-
-    def close() -> None:
-        if len(points) > 1:
-            found.append(RawPiece(layer, np.array(points), f"line {begun} of {source}"))
-
-    for i, (code, value) in enumerate(zip(codes, values, strict=False)):
-        where = f"line {2 * i + 1} of {source}"
-        if not code.strip().lstrip("-").isdigit():
-            raise BadInputError(f"{code!r} is no group code", where, "save it as ASCII DXF")
-        group, word = int(code), value.strip()
-        if group == 0:
-            if word == "VERTEX" and entity == "POLYLINE":
-                points.append([0.0, 0.0, height])
-                continue
-            close()
-            entity, points, height, begun = word, [], 0.0, 2 * i + 1
-            if word == "LINE":
-                points = [[0.0] * 3, [0.0] * 3]
-        elif group == 8 and (entity != "POLYLINE" or not points):
-            layer = word
-        elif group == 38 and entity == "LWPOLYLINE":
-            height = _number(word, where, ",")
-        elif group in _AXES and entity == "LWPOLYLINE":
-            if group == 10:
-                points.append([0.0, 0.0, height])
-            points[-1][_AXES[group]] = _number(word, where, ",")
-        elif group in _AXES and points and entity in ("POLYLINE", "LINE"):
-            points[-1 if entity == "POLYLINE" else 0][_AXES[group]] = _number(word, where, ",")
-        elif group - 1 in _AXES and entity == "LINE":
-            points[1][_AXES[group - 1]] = _number(word, where, ",")
-    close()
-    return found
+        yield from enumerate(reader, start=first + 1)
+    except csv.Error as error:
+        where = f"row {first + reader.line_num} of {source}"
+        raise BadInputError(f"the row cannot be read ({error})", where, "correct it") from None

@@ -17,19 +17,21 @@ Examples
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 
+from assoc_hull.arguments import positive
 from assoc_hull.edit.adopt import adopt, source_order
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.io.offset_net import ASSOCIATIONS
+from assoc_hull.io.offset_report import Note, OffsetReport
 from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_borders import draw_borders
 from assoc_hull.io.slice_curves import Border, loft_source
 from assoc_hull.io.slice_features import (
     FeatureRules,
     KnuckleLine,
-    PieceFeatures,
     find_features,
 )
 from assoc_hull.io.slice_joint import join_plans
@@ -37,12 +39,18 @@ from assoc_hull.io.slice_plan import plan_piece
 from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.io.slice_runs import with_arcs
 from assoc_hull.io.slice_sources import SmoothReport, make_source, snap_ends
-from assoc_hull.io.slice_types import Slices
+from assoc_hull.io.slice_types import Piece, Slices
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["SliceReport", "net_from_slices", "sources_from_slices"]
+
+_CRUMB = 0.1
+"""Pieces shorter than this (m) are not adopted."""
+
+_NAMES = 5
+"""So many lines are named in a note."""
 
 
 def sources_from_slices(
@@ -64,11 +72,24 @@ def sources_from_slices(
     -------
     sources, reports, knuckle lines, tolerance in m, borders
         The last sources are the boundary curves drawn as borders, without a report of their own.
+
+    Raises
+    ------
+    BadInputError
+        A tolerance that is no number above 0, or no piece long enough to be adopted.
     """
     wanted = rules or FeatureRules()
+    if tolerance is not None:
+        tolerance = _checked(tolerance, slices)
     parts, knuckles = find_features(slices, wanted)
-    parts = [with_arcs(part, wanted) for part in parts if _is_useful(part)]
-    noise = float(np.median([part.noise for part in parts])) if parts else 0.0
+    parts = [part for part in parts if _is_useful(part.piece, facets=slices.facets)]
+    if not parts:
+        raise BadInputError(
+            f"all pieces of all lines are shorter than {_CRUMB:g} m", f"in {slices.name}",
+            "give lines of two or more points, or another unit or scale",
+        )  # fmt: skip
+    parts = [with_arcs(part, wanted) for part in parts]
+    noise = float(np.median([part.noise for part in parts]))
     least = wanted.adopt_least_facets if slices.facets else wanted.adopt_least
     allowed = max(least, wanted.adopt_times * noise) if tolerance is None else tolerance
     rims = [
@@ -95,9 +116,41 @@ def _links(groups: set[str]) -> list[Association]:
     return [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
 
 
-def _is_useful(part: PieceFeatures) -> bool:
-    """Leave out crumbs: pieces of two points or shorter than a hand."""
-    return len(part.points) > 2 and float(np.ptp(part.points, axis=0).max()) > 0.1
+def _checked(tolerance: object, slices: Slices) -> float:
+    """Take a tolerance (m) above 0 that is less than the hull itself."""
+    where = "in the adoption of slices"
+    found = positive(tolerance, "tolerance", where)
+    size = float((slices.high - slices.low).max())
+    if found >= size:
+        raise BadInputError(
+            f"tolerance is {found:g} m, the hull itself {size:.4g} m",
+            where,
+            "give some millimetres, as 0.005",
+        )
+    return found
+
+
+def _is_useful(piece: Piece, *, facets: bool) -> bool:
+    """Leave out crumbs: pieces shorter than a hand, and of a mesh those of one facet."""
+    long = float(np.ptp(piece.points, axis=0).max()) > _CRUMB
+    return long and len(piece.points) > (2 if facets else 1)
+
+
+def _tell_crumbs(slices: Slices) -> OffsetReport:
+    """Give the report of the slices with the pieces that are not adopted."""
+    left = [
+        line.name
+        for line in (*slices.lines, *slices.boundaries)
+        for piece in line.pieces
+        if not _is_useful(piece, facets=slices.facets)
+    ]
+    if not left:
+        return slices.report
+    names = list(dict.fromkeys(left))
+    told = ", ".join(names[:_NAMES]) + (" and others" if len(names) > _NAMES else "")
+    what = f"{len(left)} pieces shorter than {_CRUMB:g} m or of one facet left out, of {told}"
+    note = Note("crumbs", "the lines", what, len(left))
+    return attrs.evolve(slices.report, suspicions=(*slices.report.suspicions, note))
 
 
 def net_from_slices(
@@ -127,7 +180,7 @@ def net_from_slices(
     Raises
     ------
     BadInputError
-        Slices with fewer than two lines.
+        Slices with fewer than two lines, or as for `sources_from_slices`.
     """
     if len(slices.lines) < 2:
         raise BadInputError(
@@ -147,7 +200,7 @@ def net_from_slices(
     tell("adopting", 0, 0)
     state, adoption = adopt(sources, ship, links, Tolerances(adoption=allowed))
     report = SliceReport(
-        slices.report, slices.joins, slices.gaps, wanted, state.tolerances,
+        _tell_crumbs(slices), slices.joins, slices.gaps, wanted, state.tolerances,
         float(np.median([each.noise for each in smoothing])), slices.depth,
         tuple(each for _, each in pairs), tuple(knuckles), tuple(borders), adoption,
     )  # fmt: skip

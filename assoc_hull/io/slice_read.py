@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.digitised_text import is_digitised
 from assoc_hull.io.mesh import read_mesh
@@ -15,7 +17,7 @@ from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import Gaps
 from assoc_hull.model.state import HullState, Particulars
 
-__all__ = ["holds_lines", "read_slices"]
+__all__ = ["holds_lines", "read_slices", "require_file"]
 
 
 def holds_lines(path: Path) -> bool:
@@ -28,18 +30,40 @@ def holds_lines(path: Path) -> bool:
     return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
 
 
+def require_file(path: Path) -> None:
+    """Say that there is no file before anything is said of how it is read.
+
+    Raises
+    ------
+    BadInputError
+        There is none.
+    """
+    if not path.exists():
+        raise BadInputError("there is no such file", f"at {path}", "check the path")
+
+
+def _refuse_cuts(path: Path, names: list[str]) -> None:
+    """Digitised lines stand where they were drawn: they are not cut, nor turned."""
+    if names:
+        require_file(path)
+        raise BadInputError(
+            f"{', '.join(names)} cannot be given for digitised lines", f"in {path.name}",
+            "leave it out, or read a mesh",
+        )  # fmt: skip
+
+
 def read_slices(
     path: Path,
     *,
     length: float | None = None,
     breadth: float | None = None,
     draught: float | None = None,
-    stations: Places = 41,
-    waterlines: Places = 20,
-    buttocks: Places = 12,
+    stations: Places | None = None,
+    waterlines: Places | None = None,
+    buttocks: Places | None = None,
     scale: float = 1.0,
     unit: str = "auto",
-    axes: str = "auto",
+    axes: str | None = None,
     tolerance: float | None = None,
     join: float | None = None,
     tell: Tell = silent,
@@ -53,7 +77,8 @@ def read_slices(
     length, breadth, draught : float or None, m
         Particulars; by default from the extent of the hull.
     stations, waterlines, buttocks, scale, unit, axes
-        As for `assoc_hull.io.mesh.slice_mesh`; digitised lines take scale and unit only.
+        As for `assoc_hull.io.mesh.slice_mesh`, whose defaults hold for None; digitised lines
+        take scale and unit only.
     tolerance : float or None, m
         How far an adopted curve may pass its smooth line; by default 3 times the median noise
         of the pieces, but at least 5 mm, of a mesh 10 mm.
@@ -65,7 +90,7 @@ def read_slices(
     Raises
     ------
     BadInputError, NoMeetingError, MissingExtraError
-        As for `read_mesh`, `read_lines` and `net_from_slices`.
+        As for `read_mesh`, `read_lines` and `net_from_slices`; or planes or axes for lines.
     """
     for name, value in (
         ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
@@ -73,12 +98,14 @@ def read_slices(
     ):  # fmt: skip
         check_argument(name, value)
     gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
+    named: dict[str, Any] = {
+        "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
+    }  # fmt: skip
+    cuts = {name: value for name, value in named.items() if value is not None}
     if is_mesh_name(path):
-        slices = read_mesh(
-            path, stations=stations, waterlines=waterlines, buttocks=buttocks, scale=scale,
-            unit=unit, axes=axes, gaps=gaps, tell=tell,
-        )  # fmt: skip
+        slices = read_mesh(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
     else:
+        _refuse_cuts(path, list(cuts))
         slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
     size = slices.high - slices.low
     depth = float(size[2])

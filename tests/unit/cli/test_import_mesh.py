@@ -60,6 +60,42 @@ def test_options_of_another_form_are_refused(
         ah.read(table, stations=9)
 
 
+def test_options_of_meshes_are_refused_for_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Digitised lines are not cut or turned: planes and axes are refused by name."""
+    lines = tmp_path / "lines.csv"
+    lines.write_text("line,x,y,z\nST 1,0,0,0\nST 1,0,2,2\nST 2,9,0,0\nST 2,9,2,2\n")
+    with pytest.raises(BadInputError, match="stations, axes cannot be given for digitised lines"):
+        ah.read(lines, stations=3, axes="rubbish")
+    assert main(["import", str(lines), "-o", str(tmp_path / "o.hull.json"), "--buttocks", "2"]) == 2
+    assert "buttocks cannot be given" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["w.stl", "w.csv"])
+def test_options_of_offsets_are_refused_for_meshes_and_lines(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """--station-zero is for tables alone."""
+    file = tmp_path / name
+    file.write_text("line,x,y,z\nST 1,0,0,0\n")
+    asked = ["import", str(file), "-o", str(tmp_path / "o.hull.json"), "--station-zero", "fp"]
+    assert main(asked) == 2
+    assert "--station-zero is for tables of offsets" in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_told_first(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whatever options stand beside it, the missing file is the error."""
+    file = tmp_path / "none.xyz"
+    asked = ["import", str(file), "-o", str(tmp_path / "o.hull.json"), "--stations", "5"]
+    assert main(asked) == 2
+    assert "there is no such file" in capsys.readouterr().err
+    with pytest.raises(BadInputError, match="no such file"):
+        ah.read(file, stations=5)
+
+
 class Terminal(io.StringIO):
     """Standard error as a terminal has it."""
 

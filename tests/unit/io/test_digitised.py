@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.mesh import slice_mesh
 from assoc_hull.io.slice_types import Gaps, Slices
@@ -196,3 +196,175 @@ def test_what_cannot_be_read_is_named(text: str, words: str) -> None:
     """Each text that holds no lines is refused, with the row and what to do."""
     with pytest.raises(BadInputError, match=words):
         read_lines(text)
+
+
+HALF = [(0.0, 0.0), (2.0, 0.5), (3.5, 2.0), (4.0, 4.0), (4.2, 6.0)]
+PORT = [f"ST 5,5,{y},{z}" for y, z in HALF]
+STARBOARD = [f"ST 5,5,{-y},{z}" for y, z in HALF]
+FLAT = [f"ST 5,5,{side * y},{z}" for side in (1, -1) for y, z in HALF[1:]]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        pytest.param([*PORT[::-1], *STARBOARD[1:]], id="one polyline"),
+        pytest.param([*PORT, "", *STARBOARD], id="two pieces"),
+        pytest.param([*STARBOARD, "", *PORT], id="starboard first"),
+        pytest.param([*PORT, *STARBOARD], id="one after the other"),
+        pytest.param([*PORT[::-1], *STARBOARD[::-1]], id="from the deck, twice"),
+    ],
+)
+def test_of_lines_on_both_sides_one_is_kept(rows: list[str]) -> None:
+    """However both sides are drawn, the section is its port half, and it is told."""
+    slices = read_lines("line,x,y,z\n" + "\n".join(rows) + "\n")
+    (piece,) = slices["ST 5"].pieces
+    assert [(y, z) for _, y, z in piece.points.tolist()] == HALF
+    assert slices.report.kinds("repairs") == ("both sides",)
+    assert slices.report.suspicions == ()
+
+
+def test_sides_without_a_point_at_the_centre_are_parted() -> None:
+    """Port and then starboard from the bilge: no chord from deck to bilge is drawn."""
+    (piece,) = read_lines("line,x,y,z\n" + "\n".join(FLAT) + "\n")["ST 5"].pieces
+    assert [(y, z) for _, y, z in piece.points.tolist()] == HALF[1:]
+
+
+def test_a_line_across_the_centre_plane_is_cut_where_it_crosses() -> None:
+    """Without a point in the centre plane, the place where the polyline passes it ends the half."""
+    rows = [*PORT[:0:-1], *STARBOARD[1:]]
+    (piece,) = read_lines("line,x,y,z\n" + "\n".join(rows) + "\n")["ST 5"].pieces
+    assert piece.points[0].tolist() == [5.0, 0.0, 0.5]
+    assert piece.ends[0] == "profile"
+
+
+def test_sides_that_differ_are_told() -> None:
+    """A starboard side 40 mm off the port one is left out, with the difference."""
+    other = [f"ST 5,5,{-y - 0.04 * (y > 0)},{z}" for y, z in HALF]
+    report = read_lines("line,x,y,z\n" + "\n".join([*PORT[::-1], *other[1:]]) + "\n").report
+    (note,) = report.suspicions
+    assert (note.kind, note.what) == (
+        "both sides",
+        "its sides differ by up to 40 mm; one is left out",
+    )
+
+
+def test_pieces_of_both_sides_that_are_no_images_stay() -> None:
+    """A lower piece to port and an upper one to starboard are both wanted."""
+    slices = read_lines("line,x,y,z\n" + "\n".join([*PORT[:3], "", *STARBOARD[2:]]) + "\n")
+    assert [len(piece.points) for piece in slices["ST 5"].pieces] == [5]
+    assert "mirrored" in slices.report.kinds("repairs")
+
+
+def drawing(*entities: str) -> str:
+    """A DXF with some entities, each written as codes and values parted by blanks."""
+    words = " ".join(["0 SECTION 2 ENTITIES", *entities, "0 ENDSEC 0 EOF"]).split()
+    return "\n".join(word.replace("_", " ") for word in words) + "\n"
+
+
+SECTION = "0 POLYLINE 8 ST_2 70 {} " + " ".join(
+    f"0 VERTEX 8 ST_2 10 7 20 {y} 30 {z}" for y, z in ((0, 0), (2, 1), (3, 4), (0, 5))
+)
+
+
+@pytest.mark.parametrize(
+    "entity",
+    [
+        pytest.param(SECTION.format(1), id="POLYLINE"),
+        pytest.param(
+            "0 LWPOLYLINE 8 WL_1 38 1 70 1 10 0 20 0 10 7 20 2 10 9 20 1", id="LWPOLYLINE"
+        ),
+    ],
+)
+def test_a_closed_polyline_of_a_drawing_has_its_last_side(entity: str) -> None:
+    """The closed flag leads the polyline back to its first point."""
+    (line,) = read_lines(drawing(entity)).lines
+    points = line.pieces[0].points
+    assert np.linalg.norm(points[0] - points[-1]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("entity", "kind", "words"),
+    [
+        ("0 SPLINE 8 ST_3 10 8 20 0 30 0", "curve", "SPLINE is no polyline and left out"),
+        ("0 ARC 8 ST_3 10 8 20 0 40 2", "curve", "ARC is no polyline and left out"),
+        ("0 LWPOLYLINE 8 WL_1 38 1 10 0 20 0 42 1.0 10 9 20 2", "bulge", "arcs between its points"),
+        ("0 LWPOLYLINE 8 WL_1 38 1 220 1 230 0 10 0 20 0 10 9 20 2", "extrusion", "of its own"),
+        ("0 POLYLINE 8 M 70 16 0 VERTEX 10 1 20 1 0 VERTEX 10 2 20 2", "mesh", "left out"),
+    ],
+)  # fmt: skip
+def test_what_a_drawing_holds_beside_polylines_is_told(entity: str, kind: str, words: str) -> None:
+    """Curves, bulges and turned coordinates: how many, where the first is, and what to do."""
+    (note,) = read_lines(drawing(SECTION.format(0), entity)).report.suspicions
+    assert (note.kind, note.amount) == (kind, 1)
+    assert words in note.what
+    assert "the first at line " in note.what
+    assert "explode it to polylines" in note.what
+
+
+def test_control_points_of_a_fitted_polyline_are_no_points_of_it() -> None:
+    """Of a spline-fitted POLYLINE the drawn vertices are read, not its frame."""
+    frame = "0 VERTEX 8 ST_2 70 16 10 7 20 9 30 9"
+    points = read_lines(drawing(f"{SECTION.format(4)} {frame}"))["ST 2"].pieces[0].points
+    assert len(points) == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        pytest.param(
+            drawing("0 LWPOLYLINE 8 ST_1 20 1 10 1"), "20 before its first 10", id="order"
+        ),
+        pytest.param(drawing("0 SPLINE 8 ST_1"), "no points; SPLINE is no polyline", id="curves"),
+        pytest.param(drawing("--5 x"), "'--5' is no group code", id="two signs"),
+        pytest.param(drawing("\u00b2 x"), "is no group code, line 5", id="superscript"),
+        pytest.param(drawing("0 LINE 8 ST_1 10 low"), "'low' is no number, line 9", id="number"),
+        pytest.param(
+            f"line,x,y,z\nST 1,5,0,0\nST 1,5,{'1' * 200000},1\n", "row 3 of text", id="long cell"
+        ),
+    ],
+)
+def test_broken_texts_are_named(text: str, words: str) -> None:
+    """What is no DXF or no CSV: the line, and what is wrong there."""
+    with pytest.raises(BadInputError, match=words):
+        read_lines(text)
+
+
+@pytest.mark.parametrize(("unit", "metre"), [("ft", 0.3048), ("in", 0.0254), ("cm", 0.01)])
+def test_units_other_than_metres_can_be_given(unit: str, metre: float) -> None:
+    """Places come in metres."""
+    text = "line,x,y,z\nWL 1,0,0,100\nWL 1,500,40,100\nWL 1,990,0,100\n"
+    (piece,) = read_lines(text, unit=unit)["WL 1"].pieces
+    assert piece.points[1].tolist() == pytest.approx([500 * metre, 40 * metre, 100 * metre])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"unit": "normalised"}, "'normalised' is unknown for digitised lines.*'ft' or 'in'"),
+        ({"unit": ["m"]}, "is unknown"),
+        ({"scale": "big"}, "scale is 'big'"),
+        ({"scale": 0}, "scale is 0"),
+    ],
+)
+def test_units_and_scales_that_are_none_are_named(options: dict[str, object], words: str) -> None:
+    """The argument, and what it may be."""
+    with pytest.raises(BadInputError, match=words):
+        read_lines("line,x,y,z\n" + "\n".join(PORT) + "\n", **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("x", "words"),
+    [("1e308", "'1e308' is too large.*row 7"), ("9e6", r"x = 9e\+06 in WL 1 \(from row 7 of text")],
+)
+def test_a_coordinate_beyond_any_ship_is_named(x: str, words: str) -> None:
+    """The number and where it stands, not the length of the ship alone."""
+    text = "line,x,y,z\n" + "\n".join([*PORT, f"WL 1,{x},0,1", "WL 1,5,2.5,1"]) + "\n"
+    with pytest.raises(BadInputError, match=words):
+        read_lines(text)
+
+
+@pytest.mark.parametrize("value", [3, None, b"line,x,y,z\n", ["a.csv"]])
+def test_what_is_neither_path_nor_text_is_named(value: object) -> None:
+    """The wrong type is told as such."""
+    with pytest.raises(WrongTypeError, match="give the name of a file"):
+        read_lines(value)  # type: ignore[arg-type]

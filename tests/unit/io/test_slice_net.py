@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import loft, sample
 from assoc_hull.hull import Hull
+from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.mesh import read_mesh, slice_mesh
 from assoc_hull.io.mesh_file import Triangles
 from assoc_hull.io.slice_net import net_from_slices, sources_from_slices
@@ -107,7 +108,6 @@ def test_digitised_and_sliced_lines_make_the_same_kind_of_net() -> None:
     """Lines with 1 mm noise, given as text, are adopted within 3 sigma and without inflections."""
     import attrs
 
-    from assoc_hull.io.digitised import read_lines
     from assoc_hull.io.slice_types import Piece, SliceLine, Slices
     from tests.unit.io.test_digitised import as_csv
 
@@ -163,3 +163,44 @@ def test_a_mesh_too_coarse_for_its_corners_is_suspected() -> None:
     assert net_from_slices(barge)[1].suspicions[0].startswith("tolerance: adopted within")
     fine = slice_mesh(meshes.wigley_half(161, 41), stations=5, waterlines=3, buttocks=1)
     assert net_from_slices(fine)[1].suspicions == ()
+
+
+def _wedge(*more: str) -> str:
+    """Sections of a wedge-shaped hull of two points each, and a waterline of two, as text."""
+    rows = [f"ST {x},{x},{y},{z}" for x in (0, 10, 20) for y, z in ((0, 0), (3 + 0.1 * x, 4))]
+    return "\n".join(["line,x,y,z", *rows, *more, ""])
+
+
+def test_lines_of_two_points_are_adopted() -> None:
+    """Straight sections, a waterline and a transom given by their ends are curves of the net."""
+    text = _wedge("WL 2,0,1.5,2", "WL 2,20,2.5,2", "transom,0,0,0", "transom,0,3,4")
+    state, report = net_from_slices(read_lines(text))
+    assert sorted(line.line for line in report.adoption.lines) == [
+        "ST 0", "ST 10", "ST 20", "WL 2", "transom",
+    ]  # fmt: skip
+    assert max(line.deviation for line in report.adoption.lines) < 1e-9
+    assert report.slices.suspicions == ()
+    assert Hull(state).check() == ()
+
+
+def test_pieces_too_short_to_be_adopted_are_told() -> None:
+    """A line of 20 mm is left out, and its name stands in the report."""
+    _, report = net_from_slices(read_lines(_wedge("ST 15,15,1,1", "ST 15,15,1.01,1.02")))
+    assert "ST 15" not in [line.line for line in report.adoption.lines]
+    (note,) = report.slices.suspicions
+    assert (note.kind, note.amount) == ("crumbs", 1)
+    assert "of ST 15" in note.what
+
+
+def test_nothing_long_enough_to_be_adopted_is_refused() -> None:
+    """Crumbs alone make no net: how short they are, and what to give."""
+    text = "line,x,y,z\nST 1,0,1,1\nST 1,0,1.01,1.02\nST 2,10,1,1\nST 2,10,1.01,1.02\n"
+    with pytest.raises(BadInputError, match=r"shorter than 0\.1 m.*unit or scale"):
+        net_from_slices(read_lines(text))
+
+
+@pytest.mark.parametrize("tolerance", [0, -1.0, "x", [1], np.nan, np.inf, True, 1e6, 25.0])
+def test_the_tolerance_is_a_number_above_nil(tolerance: object) -> None:
+    """Anything else is refused before lines are smoothed, by its name."""
+    with pytest.raises(BadInputError, match="tolerance is"):
+        net_from_slices(read_lines(_wedge()), tolerance=tolerance)  # type: ignore[arg-type]

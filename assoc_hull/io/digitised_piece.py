@@ -1,0 +1,69 @@
+"""One polyline of digitised lines, and the numbers it is made of."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import shown
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+
+__all__ = ["RawPiece", "read_number"]
+
+_LARGEST = 1e9
+"""No coordinate exceeds this in any unit."""
+
+
+@attrs.frozen(eq=False)
+class RawPiece:
+    """One polyline as the file gives it.
+
+    Attributes
+    ----------
+    line : str
+        Name of the line it belongs to.
+    points : (n, 3)
+        In the unit of the file.
+    where : str
+        Row or entity, for messages.
+    """
+
+    line: str
+    points: FloatArray
+    where: str
+
+
+def read_number(cell: str, where: str, *, comma: bool = False) -> float:
+    """Read a number, or say where there is none.
+
+    Parameters
+    ----------
+    cell : str
+        The text.
+    where : str
+        For the message.
+    comma : bool
+        Whether a comma may be the decimal sign.
+
+    Raises
+    ------
+    BadInputError
+        The text is no finite number, or one that no ship has.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.digitised_piece import read_number
+    >>> read_number("1,5", "row 2", comma=True)
+    1.5
+    """
+    text = cell.strip()
+    try:
+        value = float(text.replace(",", ".") if comma else text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise BadInputError(f"{shown(cell)} is no number", where, "correct the cell")
+    if abs(value) > _LARGEST:
+        raise BadInputError(f"{shown(cell)} is too large for a ship", where, "correct the cell")
+    return value
