@@ -26,7 +26,7 @@ from pathlib import Path
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.mesh_doctor import facet_depth, mend_mesh
+from assoc_hull.io.mesh_doctor import check_mesh, facet_depth, mend_mesh
 from assoc_hull.io.mesh_file import Triangles, read_triangles
 from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
@@ -126,6 +126,7 @@ def slice_mesh(
     NoMeetingError
         A plane that misses the hull.
     """
+    check_mesh(mesh)
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
     placed = place_mesh(mend_mesh(scaled, book), axes, book)
