@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.arguments import positive, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.mesh_axes import asymmetry, find_columns, half_side
@@ -44,9 +45,8 @@ def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Tria
         A scale that is not positive, an unknown unit, or a ship longer than 600 m or shorter
         than 1 m.
     """
-    if not (np.isfinite(scale) and scale > 0.0):
-        raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
-    if unit != "auto" and unit not in _UNITS:
+    scale = positive(scale, "scale", "as an argument")
+    if word(unit, "unit", "as an argument") != "auto" and unit not in _UNITS:
         raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit", _known_units())
     size = float(np.ptp(mesh.xyz, axis=0).max()) * scale
     chosen = unit if unit != "auto" else _find_unit(size, book)
@@ -93,7 +93,7 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
     BadInputError
         Unknown axes, or a mesh whose axes cannot be told.
     """
-    if axes != "auto":
+    if word(axes, "axes", "as an argument") != "auto":
         placed = _centred(_turned(mesh, _parse(axes)), book)
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
