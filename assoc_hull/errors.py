@@ -177,6 +177,8 @@ class NoMeetingError(AssocHullError, ValueError):
     remedy: str
 
     def __str__(self) -> str:
+        if self.nearest == 0.0:
+            return f"{self.what} only touches what it was to cut; {self.remedy}"
         return f"{self.what} meets nothing (nearest {self.nearest:.4g} m away); {self.remedy}"
 
 

@@ -25,8 +25,9 @@ from pathlib import Path
 
 import numpy as np
 
+from assoc_hull.arguments import instance
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.mesh_doctor import facet_depth, mend_mesh
+from assoc_hull.io.mesh_doctor import check_mesh, facet_depth, mend_mesh
 from assoc_hull.io.mesh_file import Triangles, read_triangles
 from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
@@ -126,12 +127,13 @@ def slice_mesh(
     NoMeetingError
         A plane that misses the hull.
     """
+    check_mesh(instance(mesh, Triangles, "mesh", "in slice_mesh"))
+    limits = Gaps() if gaps is None else instance(gaps, Gaps, "gaps", "in slice_mesh")
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
     placed = place_mesh(mend_mesh(scaled, book), axes, book)
     shell = make_shell(placed, book)
     low, high = shell.mesh.xyz.min(axis=0), shell.mesh.xyz.max(axis=0)
-    limits = gaps or Gaps()
     joins: list[Join] = []
     lines: list[SliceLine] = []
     places = [

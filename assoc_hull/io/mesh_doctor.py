@@ -9,7 +9,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.io.mesh_file import Triangles, merge_vertices
 from assoc_hull.io.offset_report import Notebook
 
-__all__ = ["boundary_edges", "facet_depth", "mend_mesh"]
+__all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
 
 _WHERE = "the mesh"
 _ROUNDING = 1e-6
@@ -17,6 +17,49 @@ _ROUNDING = 1e-6
 
 _PART = 0.01
 """Separate parts are told of from this part of the surface on."""
+
+
+def check_mesh(mesh: Triangles) -> None:
+    """Refuse triangles from which no line can be cut.
+
+    Raises
+    ------
+    BadInputError
+        No triangle, one of a vertex that is not there, a vertex that is not finite, or all in
+        one plane.
+    """
+    face, xyz = mesh.face, mesh.xyz
+    if face.ndim != 2 or face.shape[1:] != (3,) or xyz.ndim != 2 or xyz.shape[1:] != (3,):
+        shapes = f"xyz has shape {xyz.shape}, face {face.shape}"
+        raise BadInputError(shapes, f"in {_WHERE}", "give (v, 3) places and (f, 3) numbers")
+    if not len(face):
+        raise BadInputError("there are no triangles", f"in {_WHERE}", "give the shell of the hull")
+    outside = (face < 0) | (face >= len(xyz))
+    if outside.any():
+        bad = int(np.flatnonzero(outside.any(axis=1))[0])
+        raise BadInputError(
+            f"triangle {bad} has the vertices {face[bad].tolist()}", f"in {_WHERE}",
+            f"give numbers from 0 to {len(xyz) - 1}",
+        )  # fmt: skip
+    wrong = np.flatnonzero(~np.isfinite(xyz).all(axis=1))
+    if len(wrong):
+        x, y, z = xyz[wrong[0]].tolist()
+        raise BadInputError(
+            f"vertex {wrong[0]} is not finite: ({x:g}, {y:g}, {z:g})", f"in {_WHERE}",
+            "export it again, or leave out its triangles",
+        )  # fmt: skip
+    _refuse_flat(xyz)
+
+
+def _refuse_flat(xyz: FloatArray) -> None:
+    """Refuse a mesh without breadth or depth: nothing can be cut from it."""
+    spread = np.linalg.svd(xyz - xyz.mean(axis=0), compute_uv=False)
+    if len(spread) == 3 and spread[2] > 1e-6 * spread[0]:
+        return
+    kind = "on one line" if len(spread) < 2 or spread[1] <= 1e-6 * spread[0] else "in one plane"
+    raise BadInputError(
+        f"the mesh lies {kind}", f"in {_WHERE}", "export the shell of the hull, not a drawing"
+    )
 
 
 def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:

@@ -104,7 +104,8 @@ def read_triangles(path: Path) -> Triangles:
         import trimesh
     except ImportError as error:
         raise MissingExtraError("trimesh", "mesh") from error
-    data, ending = _unpack(path), _ending(path).removeprefix(".")
+    ending = _ending(path).removeprefix(".")
+    data = _recoded(_unpack(path), ending)
     try:
         loaded = trimesh.load(io.BytesIO(data), file_type=ending, process=False, force="mesh")
         xyz = np.array(getattr(loaded, "vertices", np.zeros((0, 3))), np.float64)
@@ -115,10 +116,41 @@ def read_triangles(path: Path) -> Triangles:
             "check that the file is whole and its ending tells its form",
         ) from error  # fmt: skip
     if not len(face):
-        raise BadInputError("there are no triangles", f"at {path}", "export a mesh, not curves")
+        raise _no_triangles(path, data, ending)
     if not np.isfinite(xyz).all() or face.min() < 0 or face.max() >= len(xyz):
         raise BadInputError("a vertex is missing or not finite", f"at {path}", "export it again")
     return merge_vertices(xyz, face)
+
+
+def _recoded(data: bytes, ending: str) -> bytes:
+    """Give text in UTF-8, whatever its comments and names are written in.
+
+    Places and numbers are ASCII in every form, so reading the rest as Latin-1 loses none.
+    """
+    if ending == "stl" and not _is_text_stl(data):
+        return data
+    if ending == "ply" and b"format ascii" not in data[:200]:
+        return data
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("latin-1").encode("utf-8")
+    return data
+
+
+def _is_text_stl(data: bytes) -> bool:
+    """Tell text from the binary form, whose header may begin with the same word."""
+    count = int.from_bytes(data[80:84], "little")
+    return data[:5] == b"solid" and len(data) != 84 + 50 * count
+
+
+def _no_triangles(path: Path, data: bytes, ending: str) -> BadInputError:
+    where = f"at {path}"
+    if ending == "stl" and not (_is_text_stl(data) and b"endsolid" in data[-400:]):
+        return BadInputError(
+            "the file is cut short, or is no STL", where, "export or copy it again, whole"
+        )
+    return BadInputError("there are no triangles", where, "export a mesh, not curves")
 
 
 def _unpack(path: Path) -> bytes:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.arguments import positive, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.mesh_doctor import boundary_edges
+from assoc_hull.io.mesh_axes import asymmetry, find_columns, half_side
 from assoc_hull.io.mesh_file import Triangles
 from assoc_hull.io.offset_report import Notebook
 
@@ -44,9 +45,8 @@ def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Tria
         A scale that is not positive, an unknown unit, or a ship longer than 600 m or shorter
         than 1 m.
     """
-    if not (np.isfinite(scale) and scale > 0.0):
-        raise BadInputError(f"scale is {scale!r}", "the argument", "give a number above 0")
-    if unit != "auto" and unit not in _UNITS:
+    scale = positive(scale, "scale", "as an argument")
+    if word(unit, "unit", "as an argument") != "auto" and unit not in _UNITS:
         raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit", _known_units())
     size = float(np.ptp(mesh.xyz, axis=0).max()) * scale
     chosen = unit if unit != "auto" else _find_unit(size, book)
@@ -93,10 +93,10 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
     BadInputError
         Unknown axes, or a mesh whose axes cannot be told.
     """
-    if axes != "auto":
+    if word(axes, "axes", "as an argument") != "auto":
         placed = _centred(_turned(mesh, _parse(axes)), book)
     else:
-        moved = _turned(mesh, np.eye(3)[list(_find_columns(mesh, book))])
+        moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
         moved = _upright(_centred(moved, book), book)
         placed = _grounded(_bow_forward(moved, book), book)
     _tell_proportions(placed, book)
@@ -121,105 +121,11 @@ def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
     return Triangles(xyz, mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy())
 
 
-def _find_columns(mesh: Triangles, book: Notebook) -> tuple[int, int, int]:
-    """Find the columns of length, breadth and height."""
-    size = np.ptp(mesh.xyz, axis=0)
-    x = int(np.argmax(size))
-    others = [axis for axis in range(3) if axis != x]
-    offs = {axis: _asymmetry(mesh, axis) for axis in others}
-    y = min(others, key=lambda axis: offs[axis])
-    tried = 1 if x != 1 else others[0]
-    sides = {axis: _half_side(mesh, axis) for axis in others}
-    if None not in sides.values():
-        y = _centre_axis(mesh, x, others, tried)
-    elif tried != y and offs[tried] < 2.0 * offs[y] + 1e-3:
-        y = tried
-    if offs[y] > 0.02:
-        raise BadInputError(
-            f"no side of the mesh mirrors the other (best: {1e2 * offs[y]:.3g} % of the length "
-            "off)", f"in {_WHERE}", "give axes=, such as '+x+y+z'",
-        )  # fmt: skip
-    z = next(axis for axis in others if axis != y)
-    names = "".join("xyz"[axis] for axis in (x, y, z))
-    said = f"length along {names[0]}, breadth along {names[1]}, height along {names[2]} of the file"
-    if (x, y, z) == (0, 1, 2):
-        book.assume("axes", _WHERE, f"{said}, because x is longest and y mirrors", offs[y])
-    else:
-        book.repair("axes", _WHERE, f"{said}; turned into ship axes", offs[y])
-    return x, y, z
-
-
-def _centre_axis(mesh: Triangles, x: int, others: list[int], tried: int) -> int:
-    """Tell the centre plane of a half hull from its open deck: the keel is straighter."""
-    share = {axis: _straight_share(mesh, x, axis, *(a for a in others if a != axis))
-             for axis in others}  # fmt: skip
-    best = max(others, key=lambda axis: share[axis])
-    return best if share[best] > share[tried] + 0.05 else tried
-
-
-def _straight_share(mesh: Triangles, x: int, axis: int, other: int) -> float:
-    """Give the part of the length on which the edge in one open plane is farthest from another."""
-    rim, size = boundary_edges(mesh), np.ptp(mesh.xyz, axis=0)
-    plane, away = _half_side(mesh, axis), _half_side(mesh, other)
-    middle = mesh.xyz[rim].mean(axis=1)
-    step = np.abs(np.diff(mesh.xyz[rim], axis=1)[:, 0, x])
-    on = np.abs(middle[:, axis] - plane) < 1e-5 * size.max()
-    far = np.abs(middle[:, other] - away) > 0.98 * size[other]
-    return float(step[on & far].sum() / size[x])
-
-
-def _asymmetry(mesh: Triangles, axis: int) -> float:
-    """Give how far the mesh is from mirroring in an axis, as a part of its length.
-
-    A half hull counts as mirrored where its open edge fills the plane of one of its sides.
-    """
-    from scipy.spatial import cKDTree
-
-    size = float(np.ptp(mesh.xyz, axis=0).max())
-    low, high = float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())
-    if _half_side(mesh, axis) is not None:
-        return 0.0
-    middle = 0.5 * (low + high)
-    some = mesh.xyz[:: max(1, len(mesh.xyz) // 4000)].copy()
-    some[:, axis] = 2.0 * middle - some[:, axis]
-    near = cKDTree(mesh.xyz).query(some)[1]
-    away = np.abs(((some - mesh.xyz[near]) * _normals(mesh)[near]).sum(axis=1))
-    return float(np.percentile(away, 90)) / size
-
-
-def _normals(mesh: Triangles) -> FloatArray:
-    """Give the mean normal at each vertex: two triangulations of one surface differ along it."""
-    vectors = np.repeat(mesh.area_vectors()[:, None, :], 3, axis=1).reshape(-1, 3)
-    number, count = mesh.face.ravel(), len(mesh.xyz)
-    sums = np.stack([np.bincount(number, column, count) for column in vectors.T], axis=1)
-    length = np.linalg.norm(sums, axis=1)
-    return np.asarray(sums / np.maximum(length, 1e-300)[:, None])
-
-
-def _half_side(mesh: Triangles, axis: int) -> float | None:
-    """Give the place of the centre plane if this is a half hull cut across an axis."""
-    rim = boundary_edges(mesh)
-    if not len(rim):
-        return None
-    size = float(np.ptp(mesh.xyz, axis=0).max())
-    values = mesh.xyz[rim][:, :, axis]
-    length = np.linalg.norm(np.diff(mesh.xyz[rim], axis=1)[:, 0], axis=1)
-    for side in (float(mesh.xyz[:, axis].min()), float(mesh.xyz[:, axis].max())):
-        on = (np.abs(values - side) < 1e-5 * size).all(axis=1)
-        span = np.ptp(mesh.xyz[rim[on]].reshape(-1, 3), axis=0) if on.any() else np.zeros(3)
-        across = [other for other in range(3) if other != axis]
-        whole = np.ptp(mesh.xyz, axis=0)
-        filled = all(span[other] > 0.8 * whole[other] for other in across)
-        if filled and length[on].sum() > 0.15 * length.sum():
-            return side
-    return None
-
-
 def _centred(mesh: Triangles, book: Notebook) -> Triangles:
     """Put the centre plane at y = 0, a half hull on the side of positive y."""
     size = float(np.ptp(mesh.xyz, axis=0).max())
     low, high = float(mesh.xyz[:, 1].min()), float(mesh.xyz[:, 1].max())
-    side = _half_side(mesh, 1)
+    side = half_side(mesh, 1)
     if side is None and min(-low, high) < 0.02 * (high - low) and abs(low + high) > 1e-6 * size:
         side = low if abs(low) < abs(high) else high
         side = 0.0 if abs(side) < 1e-3 * size else None
@@ -248,7 +154,7 @@ def _to_port(mesh: Triangles) -> Triangles:
 
 
 def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
-    off = _asymmetry(mesh, 1)
+    off = asymmetry(mesh, 1)
     if off > 1e-3:
         what = f"the halves differ by {off * size:.3g} m at one vertex of ten; port is taken"
         book.suspect("asymmetry", _WHERE, what, off * size)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import attrs
 
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.arguments import not_negative, shown
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.io.offset_report import OffsetReport
 
@@ -87,6 +88,14 @@ class Join:
     gap: float
 
 
+def _join(value: object) -> float:
+    return not_negative(value, "join", "in Gaps")
+
+
+def _refuse(value: object) -> float:
+    return not_negative(value, "refuse", "in Gaps")
+
+
 @attrs.frozen
 class Gaps:
     """What to do about gaps between pieces.
@@ -97,11 +106,23 @@ class Gaps:
         Loose ends this close are joined.
     refuse : float, m
         Loose ends farther apart than `join`, and up to this, are an error: a line that should
-        chain does not.
+        chain does not. At least `join`.
+
+    Raises
+    ------
+    BadInputError
+        A width that is no number of 0 or more, or `refuse` less than `join`.
     """
 
-    join: float = 0.06
-    refuse: float = 0.2
+    join: float = attrs.field(default=0.06, converter=_join)
+    refuse: float = attrs.field(default=0.2, converter=_refuse)
+
+    def __attrs_post_init__(self) -> None:
+        if self.refuse < self.join:
+            raise BadInputError(
+                f"refuse is {shown(self.refuse)}, less than join, {shown(self.join)}", "in Gaps",
+                "give a wider gap from which on pieces are left apart",
+            )  # fmt: skip
 
 
 @attrs.frozen(eq=False)
