@@ -170,14 +170,15 @@ class ForeignPointError(AssocHullError, ValueError):
 
 @attrs.define(slots=False, eq=False)
 class NoMeetingError(AssocHullError, ValueError):
-    """A plane or line meets nothing where it was asked to."""
+    """A plane or line meets nothing where it was asked to, or `touches` an end only."""
 
     what: str
     nearest: float
     remedy: str
+    touches: bool = False
 
     def __str__(self) -> str:
-        if self.nearest == 0.0:
+        if self.touches:
             return f"{self.what} only touches what it was to cut; {self.remedy}"
         return f"{self.what} meets nothing (nearest {self.nearest:.4g} m away); {self.remedy}"
 

@@ -127,6 +127,6 @@ def _refuse_outside(what: str, places: FloatArray, low: float, high: float) -> N
     worst = int(np.argmax(outside))
     away = float(outside[worst])
     raise NoMeetingError(
-        f"the plane of {what} at {places[worst]:g} m", away if away > _TOUCH else 0.0,
-        f"give places between {low:.6g} and {high:.6g} m, not at these",
+        f"the plane of {what} at {places[worst]:g} m", away,
+        f"give places between {low:.6g} and {high:.6g} m", away < _TOUCH,
     )  # fmt: skip
