@@ -27,7 +27,7 @@ demo: $(STAMP)  ## the main job on a shipped hull, with pictures in build/demo
 	$(BIN)/assoc-hull demo --out build/demo
 
 test: $(STAMP)  ## all tests and docstring examples, on two processes
-	$(BIN)/python -m pytest -n 2 --dist loadgroup $(ARGS)
+	$(BIN)/python -m pytest -n 2 $(ARGS)
 
 lint: $(STAMP)  ## rules of style, formatting and types
 	$(BIN)/python -m ruff check .

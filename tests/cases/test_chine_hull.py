@@ -14,8 +14,6 @@ from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 from tests.unit.io.test_digitised import as_csv
 
-pytestmark = pytest.mark.xdist_group("chine_hull")
-
 NOISE = 1e-3
 
 

@@ -13,8 +13,6 @@ from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 from tests.digitise import as_digitised
 
-pytestmark = pytest.mark.xdist_group("digitised_carrier")
-
 NOISE = 1e-3
 LEFT_OUT = ("flat of side", "flat of bottom", "bossing end")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
@@ -13,8 +12,6 @@ from assoc_hull.io.mesh import read_mesh
 from assoc_hull.io.slice_net import net_from_slices
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import tangents
-
-pytestmark = pytest.mark.xdist_group("dtc")
 
 SPACING = 0.2
 """Adopted points keep this far from crossings, along the curve, m."""

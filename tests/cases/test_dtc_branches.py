@@ -17,8 +17,6 @@ import pytest
 import assoc_hull as ah
 from tests.cases.net_watch import CLOSE, NetWatch
 
-pytestmark = pytest.mark.xdist_group("dtc")
-
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
 RANGES = {

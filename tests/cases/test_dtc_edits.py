@@ -13,8 +13,6 @@ import assoc_hull as ah
 from tests.cases import places
 from tests.properties.test_i01_consistency import assert_consistent
 
-pytestmark = pytest.mark.xdist_group("dtc")
-
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 EVERY = 1 if LONG else 8
 PLACES = 48

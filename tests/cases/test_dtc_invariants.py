@@ -6,7 +6,6 @@ import json
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import assoc_hull as ah
 from assoc_hull.model.definition import definition
@@ -26,8 +25,6 @@ from tests.properties.test_i09_topology import (
 )
 from tests.properties.test_i10_both_directions import assert_both_directions
 from tests.properties.test_rebuild import FINGERPRINTS, run_script
-
-pytestmark = pytest.mark.xdist_group("dtc")
 
 STEPS = 24
 """Accepted edits in each walk; every walk has a seed of its own."""

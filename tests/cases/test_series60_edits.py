@@ -10,8 +10,6 @@ from assoc_hull.edit.normals import hull_normals
 from assoc_hull.model.handles import Point
 from tests.cases import places
 
-pytestmark = pytest.mark.xdist_group("series60_edits")
-
 PLACES = 24
 SEED = 1
 SEEDS = (1, 2, 3)

@@ -14,8 +14,6 @@ from importlib import import_module
 import assoc_hull.edit.adopt as home
 from assoc_hull.model.definition import fingerprint
 
-pytestmark = pytest.mark.xdist_group("order_of_creation")
-
 seed = int(sys.argv[1])
 plain = home.adopt
 
