@@ -27,11 +27,12 @@ if TYPE_CHECKING:
     )
     from assoc_hull.geometry.curves import PointKind
     from assoc_hull.geometry.plane import Plane
-    from assoc_hull.hull import Hull, examples, open, read
+    from assoc_hull.hull import Hull
     from assoc_hull.model.family import BoundaryKind
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.sources import examples, open, read
     from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -80,11 +81,12 @@ _HOMES = {
     ),
     "geometry.curves": ("PointKind",),
     "geometry.plane": ("Plane",),
-    "hull": ("Hull", "examples", "open", "read"),
+    "hull": ("Hull",),
     "model.family": ("BoundaryKind",),
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "sources": ("examples", "open", "read"),
     "tolerance": ("Tolerances",),
 }
 """Modules and what is public of them."""

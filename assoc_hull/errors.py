@@ -21,14 +21,18 @@ __all__ = [
     "AssocHullError",
     "BadInputError",
     "CoincidentPointsError",
+    "DamagedFileError",
+    "FileBusyError",
     "ForeignPointError",
     "FreedomError",
+    "HullFileError",
     "MissingExtraError",
     "NameTakenError",
     "NoMeetingError",
     "PointRoleError",
     "RefusedEditError",
     "RingError",
+    "StaleHullError",
     "TooFewPointsError",
     "UnknownNameError",
     "WrongTypeError",
@@ -64,6 +68,61 @@ class BadInputError(AssocHullError, ValueError):
 @attrs.define(slots=False, eq=False)
 class WrongTypeError(BadInputError, TypeError):
     """A value of another type than can be used."""
+
+
+@attrs.define(slots=False, eq=False)
+class DamagedFileError(BadInputError):
+    """A hull file that does not hold what was written to it."""
+
+
+@attrs.define(slots=False, eq=False)
+class HullFileError(AssocHullError, OSError):
+    """A file could not be reached, read or written; what was in it is there still."""
+
+    path: str
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.what}, at {self.path}; {self.remedy}"
+
+
+@attrs.define(slots=False, eq=False)
+class FileBusyError(AssocHullError, TimeoutError):
+    """Another process is writing to a hull file; `waited` says for how long (s) it was waited."""
+
+    path: str
+    waited: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.path} is being edited by another process (waited {self.waited:g} s); "
+            "try again, or open it with a longer wait"
+        )
+
+
+@attrs.define(slots=False, eq=False)
+class StaleHullError(AssocHullError, RuntimeError):
+    """A hull file has moved on since it was opened; nothing was changed.
+
+    Attributes
+    ----------
+    path : str
+        The file.
+    newer : tuple of str
+        Names of the edits that were committed since.
+    """
+
+    path: str
+    newer: tuple[str, ...]
+
+    def __str__(self) -> str:
+        count = len(self.newer)
+        what = f"{count} edit(s), the last {self.newer[-1]!r}" if count else "an undo or a redo"
+        return (
+            f"{self.path} has moved on since it was opened, by {what}; "
+            "call refresh() and look at the hull again before you edit it"
+        )
 
 
 @attrs.define(slots=False, eq=False)

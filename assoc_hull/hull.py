@@ -1,4 +1,4 @@
-"""The public hull: a thin face, each method one call downward; and how to get one.
+"""The public hull: a thin face, each method one call downward.
 
 Examples
 --------
@@ -15,14 +15,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
-from assoc_hull.arguments import file_path, flag, instance, integer, not_negative, number, text
+from assoc_hull.arguments import flag, instance, integer, not_negative, number, text
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
-from assoc_hull.errors import BadInputError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import FAMILIES
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
@@ -37,14 +36,15 @@ if TYPE_CHECKING:
 
     from assoc_hull.edit.adopt import AdoptionReport
     from assoc_hull.edit.check_hull import Finding
+    from assoc_hull.edit.compare import Comparison
     from assoc_hull.edit.explain import Thing, Why
+    from assoc_hull.edit.keeper import Label
     from assoc_hull.edit.preview import Preview
-    from assoc_hull.io.slice_places import Places
+    from assoc_hull.edit.replay import Replayed
+    from assoc_hull.io.saving import Saved
     from assoc_hull.model.verify import Difference
 
-__all__ = ["Examples", "Hull", "examples", "open", "read"]
-
-_ENDING = ".hull.json"
+__all__ = ["Hull"]
 
 
 class Hull:
@@ -53,8 +53,10 @@ class Hull:
     `adoption` tells how the net was made, if it was made of lines here.
     """
 
-    def __init__(self, state: HullState) -> None:
-        self.document = Document(instance(state, HullState, "state", "in Hull"))
+    def __init__(self, state: HullState | Document) -> None:
+        if not isinstance(state, Document):
+            state = Document(instance(state, HullState, "state", "in Hull"))
+        self.document = state
         self.adoption: AdoptionReport | None = None
         self._open: Edit | None = None
 
@@ -77,7 +79,7 @@ class Hull:
 
     def __repr__(self) -> str:
         ship = self.particulars
-        return f"<Hull {ship.name}, {len(self.lines)} lines, {len(self.history)} edits>"
+        return f"<Hull {ship.name}, {len(self.lines)} lines, {len(self.document.history)} edits>"
 
     @property
     def state(self) -> HullState:
@@ -123,6 +125,20 @@ class Hull:
     def undone(self) -> tuple[EditReport, ...]:
         """The reports of edits that were taken back, the last one taken back last."""
         return tuple(step.report for step in self.document.undone)
+
+    @property
+    def author(self) -> str:
+        """Who edits; every step keeps it."""
+        return self.document.author
+
+    @author.setter
+    def author(self, name: str) -> None:
+        self.document.author = text(name, "the name", "in author")
+
+    @property
+    def labels(self) -> Mapping[str, Label]:
+        """Checkpoints, and branches that undone edits were left on, by name."""
+        return Named("checkpoint or branch", dict(self.document.labels))
 
     def edit(
         self, name: str, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
@@ -182,6 +198,39 @@ class Hull:
     def redo(self, n: int = 1) -> None:
         """Make edits that were taken back again."""
         self.document.redo(n)
+
+    def checkpoint(self, name: str) -> None:
+        """Name the present state, to return to it or compare with it.
+
+        Raises
+        ------
+        NameTakenError
+            The name is in use.
+        """
+        self.document.label(name)
+
+    def go(self, name: str) -> None:
+        """Return to a checkpoint or branch; what is left is reachable by a name, too.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such name.
+        """
+        self.document.go(name)
+
+    def diff(self, before: str, after: str | None = None) -> Comparison:
+        """Compare two checkpoints or branches, or one with the present state."""
+        from assoc_hull.edit.states import diff
+
+        return diff(self.document, before, after)
+
+    def replay(self, other: Hull, *, skip: bool = False) -> tuple[Replayed, ...]:
+        """Make the edits of another hull again on this one; see `assoc_hull.edit.replay`."""
+        from assoc_hull.edit.replay import replay
+
+        steps = instance(other, Hull, "other", "in replay").document.history
+        return replay(self.document, steps, skip=flag(skip, "skip", "in replay"))
 
     def find(self, address: str) -> Group | Line | Curve | Point:
         """Give what an address names; see `assoc_hull.model.address`."""
@@ -246,133 +295,42 @@ class Hull:
         where = "in half_breadth"
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the canonical text form; the name of the file ends in ``.hull.json``.
+    @property
+    def path(self) -> Path | None:
+        """The hull file that holds every edit; None for a hull in memory."""
+        from assoc_hull.io.saving import path_of
+
+        return path_of(self.document)
+
+    def save(self, path: str | os.PathLike[str] | None = None, *, replace: bool = False) -> Saved:
+        """Write the hull; see `assoc_hull.io.saving`.
+
+        Parameters
+        ----------
+        path : path or None
+            ``ship.hull.json``: the canonical text is written. ``ship.hull``: a hull file, with
+            the history, in which every edit is kept from then on. None: the hull file that
+            this hull is in; there is nothing to write, and the answer says so.
+        replace : bool
+            Write over a hull file that is there, with its history.
 
         Raises
         ------
-        BadInputError
-            Another ending, or a file that cannot be written.
+        BadInputError, HullFileError
+            There is such a file; it cannot be written; no name for a hull in memory.
         """
-        from assoc_hull.io.hull_json import write_hull_json
+        from assoc_hull.io.saving import save
 
-        if not file_path(path, "in save").endswith(_ENDING):
-            raise BadInputError("the form is unknown", f"at {path}", f"end the name in {_ENDING}")
-        write_hull_json(self.state, path)
+        return save(self.document, path, replace=flag(replace, "replace", "in save"))
 
+    def refresh(self) -> None:
+        """Take over what another process has committed to the hull file since."""
+        from assoc_hull.io.saving import refresh
 
-class Examples:
-    """Hulls that come with the package, one method each."""
+        refresh(self.document)
 
-    def wigley(
-        self,
-        length: float = 100.0,
-        breadth: float = 10.0,
-        draught: float = 6.25,
-        *,
-        stations: int = 21,
-        waterlines: int = 11,
-    ) -> Hull:
-        """Make the Wigley hull; see `assoc_hull.examples.wigley`."""
-        from assoc_hull.examples.wigley import wigley
+    def close(self) -> None:
+        """Let go of the hull file; it can be read on, and not be edited."""
+        from assoc_hull.io.saving import close
 
-        return Hull(wigley(length, breadth, draught, stations=stations, waterlines=waterlines))
-
-    def series60(self, cb: float = 0.70) -> Hull:
-        """Make a Series 60 parent, CB 0.60 or 0.70; see `assoc_hull.examples.series60`."""
-        from assoc_hull.examples.series60 import series60_net
-
-        state, report = series60_net(cb)
-        hull = Hull(state)
-        hull.adoption = report
-        return hull
-
-    def bulk_carrier_207k(self) -> Hull:
-        """Make a 207,000 TDW bulk carrier; see `assoc_hull.examples.bulk_carrier`."""
-        from assoc_hull.examples.bulk_carrier import bulk_carrier_207k_net
-
-        state, report = bulk_carrier_207k_net()
-        hull = Hull(state)
-        hull.adoption = report
-        return hull
-
-
-examples = Examples()
-
-
-def open(path: str | os.PathLike[str]) -> Hull:
-    """Open a hull that was saved; nothing is computed.
-
-    Raises
-    ------
-    BadInputError
-        The file cannot be read or holds no hull.
-    """
-    from assoc_hull.io.hull_json import read_hull_json
-
-    if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
-        file_path(path, "in open")
-    return Hull(read_hull_json(path))
-
-
-def read(
-    path: str | os.PathLike[str],
-    *,
-    length: float | None = None,
-    breadth: float | None = None,
-    draught: float | None = None,
-    scale: float | None = None,
-    stations: Places | None = None,
-    waterlines: Places | None = None,
-    buttocks: Places | None = None,
-    unit: str | None = None,
-    axes: str | None = None,
-    tolerance: float | None = None,
-    join: float | None = None,
-) -> Hull:
-    """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
-
-    A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
-    (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
-    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF) all but
-    planes and axes.
-
-    Raises
-    ------
-    BadInputError
-        The file cannot be read, or is none of these; or an option that its form does not take.
-    """
-    from assoc_hull.examples.completion import net_from_table
-    from assoc_hull.io.offsets import read_offsets
-    from assoc_hull.io.slice_read import holds_lines, read_slices
-
-    file = Path(file_path(path, "in read"))
-    named: dict[str, Any] = {
-        "scale": scale, "stations": stations, "waterlines": waterlines, "buttocks": buttocks,
-        "unit": unit, "axes": axes, "tolerance": tolerance, "join": join,
-    }  # fmt: skip
-    options = {name: value for name, value in named.items() if value is not None}
-    if holds_lines(file):
-        state, made = read_slices(file, length=length, breadth=breadth, draught=draught, **options)
-        hull = Hull(state)
-        hull.adoption = made.adoption
-        return hull
-    _refuse_options(options, file)
-    if file.is_file() and file.read_bytes()[:200].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
-        return open(file)
-    table, _ = read_offsets(file, length=length, breadth=breadth, draught=draught)
-    state, report = net_from_table(table)
-    hull = Hull(state)
-    hull.adoption = report
-    return hull
-
-
-def _refuse_options(options: Mapping[str, object], file: Path) -> None:
-    from assoc_hull.io.slice_read import require_file
-
-    if options:
-        require_file(file)
-        raise BadInputError(
-            f"{', '.join(sorted(options))} cannot be given", f"for {file.name}",
-            "leave it out, or read a mesh or digitised lines",
-        )  # fmt: skip
+        close(self.document)

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from assoc_hull.graph.journal import ArrayColumn, Journal
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import Association, HullState, Meets, curve_node, row_node

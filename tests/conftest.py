@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from assoc_hull.hull import Hull, examples
+from assoc_hull.hull import Hull
+from assoc_hull.sources import examples
 from tests.cases.dtc import read_dtc
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.

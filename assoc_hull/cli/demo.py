@@ -16,7 +16,8 @@ from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.words import adoption_words, edit_words, hull_words, largest_gap
 from assoc_hull.edit.explain import Why
 from assoc_hull.errors import BadInputError, MissingExtraError
-from assoc_hull.hull import Hull, examples
+from assoc_hull.hull import Hull
+from assoc_hull.sources import examples
 
 if TYPE_CHECKING:
     from assoc_hull.plot.drawing import Drawing

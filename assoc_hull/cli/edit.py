@@ -20,7 +20,7 @@ from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
 from assoc_hull.hull import Hull
-from assoc_hull.hull import open as open_hull
+from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from assoc_hull.cli.arguments import Commands, add_command, add_hull
 from assoc_hull.cli.output import progress
 from assoc_hull.cli.problems import check_target
-from assoc_hull.hull import open as open_hull
+from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
 

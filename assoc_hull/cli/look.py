@@ -7,7 +7,7 @@ import argparse
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.words import hull_facts, hull_words
-from assoc_hull.hull import open as open_hull
+from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
 

@@ -18,8 +18,9 @@ from assoc_hull.cli.output import emit, plain, progress, progress_bar
 from assoc_hull.cli.problems import check_target
 from assoc_hull.cli.words import adoption_words, hull_words, slice_words
 from assoc_hull.errors import BadInputError
-from assoc_hull.hull import Hull, examples
+from assoc_hull.hull import Hull
 from assoc_hull.io.progress import Tell
+from assoc_hull.sources import examples
 
 __all__ = ["add"]
 

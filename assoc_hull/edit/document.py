@@ -1,22 +1,31 @@
-"""A hull with its history: one writer, one transaction at a time, undo and redo.
+"""A hull with its history: one writer, one transaction at a time, undo, redo, branches.
 
-Undo and redo run the journal of a step backward and forward; they never compute anything.
+Undo and redo run what a step wrote backward and forward; they never compute anything. The
+steps form a tree. The present state lies on one path through it: the steps up to it are
+`history`, those beyond it that were taken back are `undone`. An edit made in the place of
+undone steps begins another path, and the old one gets a name; nothing is ever thrown away.
 """
 
 from __future__ import annotations
 
+import contextlib
 import operator
+from collections.abc import Iterator
+from datetime import UTC, datetime
 
 import attrs
-import numpy as np
 
-from assoc_hull.arguments import shown
-from assoc_hull.edit.report import Step
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import shown, shown_name, text
+from assoc_hull.edit.keeper import Keeper, Label
+from assoc_hull.edit.step import Step
+from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.model.index import Index, build_index
 from assoc_hull.model.state import HullState
 
 __all__ = ["Document"]
+
+_HELD = 16
+"""So many steps are held in full where a keeper has them all."""
 
 
 @attrs.define(eq=False)
@@ -31,6 +40,14 @@ class Document:
         Look-ups derived from them.
     history, undone : list of Step
         Committed steps, oldest first; steps taken back, the last one taken back last.
+    steps : dict of int to Step
+        All steps ever committed, by number.
+    labels : dict of str to Label
+        Names of states.
+    keeper : Keeper or None
+        Keeps what is committed; None for a hull that lives in memory only.
+    author : str
+        Who edits.
     writer : object
         The transaction that is open; None if none is.
     """
@@ -39,6 +56,10 @@ class Document:
     index: Index = attrs.field(init=False)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
+    steps: dict[int, Step] = attrs.field(factory=dict)
+    labels: dict[str, Label] = attrs.field(factory=dict)
+    keeper: Keeper | None = None
+    author: str = ""
     writer: object = attrs.field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
@@ -48,11 +69,46 @@ class Document:
         """Derive the look-ups anew, after the structure changed."""
         self.index = build_index(self.state)
 
+    @property
+    def head(self) -> int:
+        """Number of the step that led to the present state; 0 as the hull came."""
+        return self.history[-1].number if self.history else 0
+
+    @property
+    def tip(self) -> int:
+        """Number of the step that redoing all undone ones would lead to."""
+        return self.undone[0].number if self.undone else self.head
+
+    def begin(self) -> None:
+        """Take the right to write, for an edit."""
+        if self.keeper is not None:
+            self.keeper.begin()
+
+    def end(self) -> None:
+        """Give it back."""
+        if self.keeper is not None:
+            self.keeper.end()
+
     def commit(self, step: Step) -> None:
-        """Take a finished step into the history; what can fail comes first."""
-        self._revise(step)
+        """Take a finished step into the history; whatever fails, it is not in it."""
+        step.number, step.parent = len(self.steps) + 1, self.head
+        branch = self._branch(self.tip if self.undone else None)
+        stamp = datetime.now(UTC).isoformat(timespec="seconds")
+        report = attrs.evolve(step.report, number=step.number, author=self.author, time=stamp)
+        step.replace(attrs.evolve(step.body, report=report))
+        self._revise(step, 1)
+        try:
+            if self.keeper is not None:
+                self.keeper.commit(step, branch)
+        except BaseException:
+            self._revise(step, -1)
+            raise
+        self._name(branch)
         self.undone.clear()
         self.history.append(step)
+        self.steps[step.number] = step
+        if len(self.history) > _HELD:
+            self.history[-1 - _HELD].release()
 
     def undo(self, count: int = 1) -> list[Step]:
         """Take back the last steps.
@@ -63,7 +119,7 @@ class Document:
             If there are not so many, or an edit is open.
         """
         self._enough(self.history, count, "undo")
-        return [self._turn(self.history, self.undone, forward=False) for _ in range(count)]
+        return self._run([(step, False) for step in self.history[-count:][::-1]], None)
 
     def redo(self, count: int = 1) -> list[Step]:
         """Make steps that were taken back again.
@@ -74,11 +130,158 @@ class Document:
             If there are not so many, or an edit is open.
         """
         self._enough(self.undone, count, "redo")
-        return [self._turn(self.undone, self.history, forward=True) for _ in range(count)]
+        return self._run([(step, True) for step in self.undone[-count:][::-1]], None)
 
-    def _enough(self, steps: list[Step], count: int, act: str) -> None:
+    def go(self, name: str) -> list[Step]:
+        """Go to a named state; steps that lie off the way there are kept under a name.
+
+        Returns
+        -------
+        list of Step
+            The steps that were run, backward or forward, in order.
+
+        Raises
+        ------
+        UnknownNameError, BadInputError
+            No such name; an edit is open.
+        """
+        self._closed("go")
+        return self.go_to(self.labelled(name))
+
+    def labelled(self, name: str) -> int:
+        """Give the number of the step that a name stands for.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such checkpoint or branch.
+        """
+        if not isinstance(name, str) or name not in self.labels:
+            raise UnknownNameError("checkpoint or branch", shown_name(name), tuple(self.labels))
+        return self.labels[name].step
+
+    def go_to(self, number: int) -> list[Step]:
+        """Go to the state after the step with a number, 0 for the hull as it came."""
+        moves = self._moves(number)
+        ahead = {step.number for step in self.undone}
+        leaves = any(forward and step.number not in ahead for step, forward in moves)
+        return self._run(moves, self._branch(self.tip if leaves else None), leaves) if moves else []
+
+    def _moves(self, number: int) -> list[tuple[Step, bool]]:
+        """Give the steps that lead to another state, backward and then forward."""
+        target = self.path(number)
+        here, there = ({step.number for step in way} for way in (self.history, target))
+        back = [(step, False) for step in self.history[::-1] if step.number not in there]
+        return back + [(step, True) for step in target if step.number not in here]
+
+    def stand(self, head: int, tip: int) -> None:
+        """Say that the tables are as after step `head`, on the way to step `tip`."""
+        self.history[:] = self.path(head)
+        self.undone[:] = self.path(tip)[len(self.history) :][::-1]
+
+    def follow(self, head: int, tip: int) -> None:
+        """Bring the tables to where somebody else has brought the hull, and keep nothing."""
+        self._closed("refresh")
+        for step, forward in self._moves(head):
+            self._turn(step, forward)
+        self.stand(head, tip)
+
+    def keep_revisions(self, rows: dict[int, int], curves: dict[int, int]) -> None:
+        """Raise revisions to those that are known elsewhere; none is lowered."""
+        for mine, known in (
+            (self.state.revision_row, rows), (self.state.revision_curve, curves),
+        ):  # fmt: skip
+            mine |= {number: max(mine.get(number, 0), each) for number, each in known.items()}
+
+    def path(self, number: int) -> list[Step]:
+        """Give the steps that lead to a step, oldest first, itself included."""
+        found: list[Step] = []
+        while number:
+            found.append(self.steps[number])
+            number = found[-1].parent
+        return found[::-1]
+
+    def label(self, name: str) -> Label:
+        """Name the present state.
+
+        Raises
+        ------
+        NameTakenError, BadInputError
+            The name is in use; an edit is open; it is no name.
+        """
+        self._closed("checkpoint")
+        if text(name, "the name", "in checkpoint") in self.labels:
+            raise NameTakenError("checkpoint or branch", name)
+        label = Label(name, self.head)
+        with self._writing():
+            if self.keeper is not None:
+                self.keeper.label(label)
+        self.labels[name] = label
+        return label
+
+    @contextlib.contextmanager
+    def _writing(self) -> Iterator[None]:
+        self.begin()
+        try:
+            yield
+        finally:
+            self.end()
+
+    def _run(
+        self, moves: list[tuple[Step, bool]], branch: Label | None, leaves: bool = False
+    ) -> list[Step]:
+        """Run steps backward or forward, and keep that; if that fails, run them back again."""
+        before = list(self.history), list(self.undone)
+        with self._writing():
+            for step, forward in moves:
+                self._turn(step, forward)
+            if leaves:
+                self.undone.clear()
+            steps = [step for step, _ in moves]
+            try:
+                if self.keeper is not None:
+                    self.keeper.move(self.head, self.tip, steps, branch)
+            except BaseException:
+                for step, forward in reversed(moves):
+                    self._turn(step, not forward)
+                    self._revise(step, -2)
+                self.history[:], self.undone[:] = before
+                raise
+        self._name(branch)
+        return steps
+
+    def _turn(self, step: Step, forward: bool) -> None:
+        if forward:
+            step.journal.forth()
+            if self.undone and self.undone[-1] is step:
+                self.undone.pop()
+            self.history.append(step)
+        else:
+            step.journal.back()
+            self.undone.append(self.history.pop())
+        if step.structural:
+            self.refresh()
+        self._revise(step, 1)
+
+    def _branch(self, tip: int | None) -> Label | None:
+        """Give a name for steps that are left, unless they can be reached by one already."""
+        if tip is None or any(label.step == tip for label in self.labels.values()):
+            return None
+        number = 1
+        while f"branch {number}" in self.labels:
+            number += 1
+        return Label(f"branch {number}", tip, branch=True)
+
+    def _name(self, label: Label | None) -> None:
+        if label is not None:
+            self.labels[label.name] = label
+
+    def _closed(self, act: str) -> None:
         if self.writer is not None:
             raise BadInputError("an edit is open", f"in {act}", "end it first")
+
+    def _enough(self, steps: list[Step], count: int, act: str) -> None:
+        self._closed(act)
         try:
             wanted = operator.index(count)
         except TypeError:
@@ -90,30 +293,13 @@ class Document:
                 f"give a number from 1 to {len(steps)}" if steps else f"there is nothing to {act}",
             )
 
-    def _turn(self, take: list[Step], give: list[Step], *, forward: bool) -> Step:
-        step = take.pop()
-        if forward:
-            step.journal.forth()
-        else:
-            step.journal.back()
-        give.append(step)
-        if step.structural:
-            self.refresh()
-        self._revise(step)
-        return step
-
-    def _revise(self, step: Step) -> None:
-        """Raise the revision of everything whose geometry changed."""
+    def _revise(self, step: Step, by: int) -> None:
+        """Raise the revision of everything whose geometry changed; lower it if it never did."""
         for numbers, revisions in (
             (step.rows, self.state.revision_row),
             (step.curves, self.state.revision_curve),
         ):
             for number in numbers.tolist():
-                revisions[number] = revisions.get(number, 0) + 1
-
-    def last_change(self, node: int) -> Step | None:
-        """Give the last committed step that changed a node, None if none did."""
-        for step in reversed(self.history):
-            if np.isin(node, step.changed):
-                return step
-        return None
+                revisions[number] = revisions.get(number, 0) + by
+                if not revisions[number]:
+                    del revisions[number]

@@ -9,7 +9,7 @@ import numpy as np
 
 from assoc_hull.arguments import shown
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.report import Step
+from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook

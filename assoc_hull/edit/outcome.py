@@ -6,7 +6,8 @@ import numpy as np
 
 from assoc_hull.edit.check import plane_normals
 from assoc_hull.edit.net_change import net_change
-from assoc_hull.edit.report import EditReport, Fairness, Movement, Step
+from assoc_hull.edit.report import EditReport, Fairness, Movement
+from assoc_hull.edit.step import Step, StepBody
 from assoc_hull.edit.work import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.node import Readers
@@ -32,10 +33,9 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
         np.concatenate([part.cause.reader for part in parts]),
         np.concatenate([part.cause.source for part in parts]),
     )
-    return Step(
-        work.name, work.journal, cause, nodes, distance, row_node(rows),
-        work.pending.structural, _report(work, nodes, distance),
-    )  # fmt: skip
+    report = _report(work, nodes, distance)
+    body = StepBody(work.journal, cause, nodes, distance, row_node(rows), report)
+    return Step(work.name, work.pending.structural, body=body)
 
 
 def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:

@@ -6,10 +6,10 @@ import attrs
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
-from assoc_hull.graph.journal import Journal
-from assoc_hull.graph.node import Readers, distinct
 
-__all__ = ["EditReport", "Fairness", "Movement", "Step"]
+__all__ = ["EditReport", "Fairness", "Movement"]
+
+Inflections = tuple[tuple[str, int], ...]
 
 
 @attrs.frozen(eq=False)
@@ -99,8 +99,14 @@ class EditReport:
         Keys of the lines that a mapping carried, and of those that were cut again from them.
     seconds : dict of str to float
         Time per phase.
-    fairness : Fairness or None
-        What `inflections` counts.
+    number : int
+        Number of the step in the history, which it keeps; 0 before it is committed.
+    author : str
+        Who made the edit.
+    time : str
+        When it was committed, ISO 8601, UTC.
+    fairness : Fairness or tuple or None
+        What `inflections` counts, or gives where it has been counted already.
     """
 
     name: str
@@ -118,13 +124,18 @@ class EditReport:
     carried: tuple[str, ...] = ()
     cut_again: tuple[str, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
-    fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
+    fairness: Fairness | Inflections | None = attrs.field(default=None, eq=False, repr=False)
     changed: bool = True
+    number: int = attrs.field(default=0, eq=False)
+    author: str = attrs.field(default="", eq=False)
+    time: str = attrs.field(default="", eq=False)
 
     @property
     def inflections(self) -> tuple[tuple[str, int], ...]:
         """Curves with more curvature sign changes than before, and how many more."""
-        return () if self.fairness is None else self.fairness.added()
+        if isinstance(self.fairness, Fairness):
+            return self.fairness.added()
+        return self.fairness or ()
 
     def __str__(self) -> str:
         if not self.changed:
@@ -144,47 +155,3 @@ class EditReport:
             if found:
                 parts.append(f"{len(found)} {title}")
         return "; ".join(parts)
-
-
-@attrs.frozen(eq=False)
-class Step:
-    """One committed edit: its journal is what undo and redo run.
-
-    Attributes
-    ----------
-    name : str
-        Name of the edit.
-    journal : Journal
-        All writes.
-    cause : Readers
-        Which node was evaluated because of which.
-    changed : (k,) int
-        Nodes that changed.
-    moved : (k,) float, m
-        By how much; nan for what the edit itself set.
-    seeds : (s,) int
-        Nodes that the edit set.
-    structural : bool
-        Whether lines, points or roles came or went.
-    report : EditReport
-        The report.
-    """
-
-    name: str
-    journal: Journal
-    cause: Readers
-    changed: IntArray
-    moved: FloatArray
-    seeds: IntArray
-    structural: bool
-    report: EditReport
-
-    @property
-    def rows(self) -> IntArray:
-        """Points that changed."""
-        return distinct(self.changed[(self.changed & 1) == 0] >> 1)
-
-    @property
-    def curves(self) -> IntArray:
-        """Curves that changed."""
-        return distinct(self.changed[(self.changed & 1) == 1] >> 1)

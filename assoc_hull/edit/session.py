@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from types import TracebackType
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from numpy.typing import ArrayLike
 
@@ -30,6 +30,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.given import Given
 from assoc_hull.edit.mapping import Jacobian, Mapping, space_map
 from assoc_hull.edit.pending import Settings
+from assoc_hull.edit.record import recorded
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, WrongTypeError
@@ -91,6 +92,10 @@ class Edit:
         """Whether the ``with`` block is open."""
         return self._held.active
 
+    def _note(self, change: dict[str, Any]) -> None:
+        """Keep a modification that was asked for, as data."""
+        self._held.script.append(change)
+
     @property
     def _transaction(self) -> Transaction:
         """The transaction, for a modification: only while the edit is open."""
@@ -108,6 +113,7 @@ class Edit:
     def _given(self) -> Given:
         return Given(self._held.state)
 
+    @recorded
     def move(
         self,
         point: Point | str,
@@ -134,15 +140,18 @@ class Edit:
         }
         _points.move(self._transaction, row, given)
 
+    @recorded
     def insert(self, curve: Curve | str, place: ArrayLike) -> Point:
         """Insert a placed point at (x, y, z), m; it is never moved by an update."""
         row = _points.insert(self._transaction, self._given.curve(curve), place)
         return Point.of(self._tables, row)
 
+    @recorded
     def delete(self, point: Point | str) -> None:
         """Delete a placed or adopted point."""
         _points.delete(self._transaction, self._given.point(point)[0])
 
+    @recorded
     def set_kind(
         self, point: Point | str, kind: str, *, direction: ArrayLike | None = None
     ) -> None:
@@ -150,14 +159,17 @@ class Edit:
         row, side = self._given.point(point)
         _points.set_kind(self._transaction, row, side, kind, direction)
 
+    @recorded
     def pin(self, point: Point | str) -> None:
         """Make an adopted point a placed one."""
         _points.pin(self._transaction, self._given.point(point)[0])
 
+    @recorded
     def unpin(self, point: Point | str) -> None:
         """Make a placed point an adopted one."""
         _points.unpin(self._transaction, self._given.point(point)[0])
 
+    @recorded
     def pull(
         self,
         point: Point | str,
@@ -173,6 +185,7 @@ class Edit:
             self._transaction, row, number(d, "d", "in pull"), radius, across_flats=across_flats
         )
 
+    @recorded
     def reshape(
         self,
         curve: Curve | str,
@@ -197,6 +210,7 @@ class Edit:
         )
         return tuple(Point.of(self._tables, row) for row in made)
 
+    @recorded
     def set_end(
         self,
         curve: Curve | str,
@@ -210,6 +224,7 @@ class Edit:
             self._transaction, self._given.curve(curve), end, tangent=tangent, curvature=curvature
         )
 
+    @recorded
     def set_role(self, crossing: Point | Crossing | str, role: str | None) -> None:
         """Override what a crossing defines; None gives it back to the rule."""
         if isinstance(crossing, Crossing):
@@ -218,6 +233,7 @@ class Edit:
             row, _ = self._given.point(crossing)
         _set_role.set_role(self._transaction, row, role)
 
+    @recorded
     def renew_roles(self, lines: Sequence[Line | str]) -> int:
         """Apply the role rule again to all crossings of lines; gives how many changed."""
         if isinstance(lines, (str, Line)) or not isinstance(lines, Sequence):
@@ -225,31 +241,35 @@ class Edit:
             raise WrongTypeError(what, "in renew_roles", "give a list of lines")
         return _renew.renew_roles(self._transaction, [self._given.line(line) for line in lines])
 
+    @recorded
     def associate(self, a: Group | str, b: Group | str, *, two_way: bool = True) -> None:
         """Declare that a generates points on b, and b on a if two-way."""
         first, second = self._given.group(a), self._given.group(b)
         _associate.associate(self._transaction, first, second, two_way=two_way)
 
+    @recorded
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
 
+    @recorded
     def rename(self, obj: object, name: str) -> None:
         """Give a line, a point or the hull itself another name; keys stay.
 
         Parameters
         ----------
-        obj : Line, Point, Crossing, Curve, address, or the hull
+        obj : Line, Point, Crossing, Curve, address, or the hull or None
             A curve is renamed with its line, whose only one it must be. Groups keep their
-            names.
+            names. None stands for the hull.
         name : str
             The name.
         """
-        if getattr(obj, "document", None) is self._held.document:
+        if obj is None or getattr(obj, "document", None) is self._held.document:
             _rename.rename_hull(self._transaction, name)
             return
         _rename.rename(self._transaction, self._given.place(obj), name)
 
+    @recorded
     def add_line(
         self, group: Group | str, position: float | tuple[float, float], name: str | None = None
     ) -> Line:
@@ -262,6 +282,7 @@ class Edit:
         line = _cut.add_line(self._transaction, title, position, name)
         return Line.of(self._tables, line)
 
+    @recorded
     def shift_line(self, line: Line | str, position: float) -> None:
         """Shift a line to another position (m); the hull keeps its shape.
 
@@ -269,10 +290,12 @@ class Edit:
         """
         _shift.shift_line(self._transaction, self._given.line(line), number(position, "position"))
 
+    @recorded
     def remove_line(self, line: Line | str) -> None:
         """Remove a line; what it held stays behind as adopted points."""
         _lines.remove_line(self._transaction, self._given.line(line))
 
+    @recorded
     def transform(
         self,
         mapping: Mapping | None = None,

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.quiet import Quiet
+from assoc_hull.edit.record import Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
@@ -56,6 +57,7 @@ class Transaction:
         self.look = look
         self.journal = Journal()
         self.pending = Pending()
+        self.script: list[dict[str, Any]] = []
         self.report: EditReport | None = None
         self._depth = 0
         self._broken = False
@@ -124,6 +126,8 @@ class Transaction:
                 raise BadInputError("it has ended", where, "begin another one")
             if self.document.writer is not None:
                 raise BadInputError("another edit is open", where, "end that one first")
+            if self.look is None:
+                self.document.begin()
             self.document.writer = self
             self._quiet.__enter__()
         self._depth += 1
@@ -146,6 +150,8 @@ class Transaction:
             if error is None:
                 self._finish()
         finally:
+            if self.look is None:
+                self.document.end()
             self._quiet.__exit__()
 
     def _finish(self) -> None:
@@ -184,6 +190,7 @@ class Transaction:
         """Run the update, and take its step into the history unless it is only looked at."""
         step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
+            step.script = Script.of(self.script, self.settings)
             self.document.commit(step)
         return step.report
 

@@ -27,8 +27,8 @@ from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.rejoin import rejoin
-from assoc_hull.edit.report import Step
 from assoc_hull.edit.ride import rebase, ride_links
+from assoc_hull.edit.step import Step
 from assoc_hull.edit.topology import latent_meetings, settle
 from assoc_hull.edit.work import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError

@@ -1,11 +1,12 @@
-"""Columns that are only written through a journal, so that every write can be taken back.
+"""The journal: columns are only written through it, so that every write can be taken back.
 
 The journal of one transaction *is* its undo step: the same entries are run backward by
 undo and forward by redo. Nothing is ever computed again.
 
 Examples
 --------
->>> from assoc_hull.graph.journal import Journal, Table
+>>> from assoc_hull.graph.journal import Journal
+>>> from assoc_hull.graph.table import Table
 >>> table = Table(height=(float, ()))
 >>> journal = Journal()
 >>> journal.grow(table, 2)
@@ -24,9 +25,29 @@ from typing import Any, Protocol
 
 import attrs
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["ArrayColumn", "Journal", "ListColumn", "Picked", "Table"]
+from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
+
+__all__ = ["Journal", "Net", "Picked"]
+
+
+@attrs.frozen(eq=False)
+class Net:
+    """What a journal did to one column, all its writes taken together.
+
+    Attributes
+    ----------
+    rows : (k,) int
+        The rows that were written, ascending, each once.
+    old, new : array (k, ...) or list
+        What stood there before the first write, and after the last; rows that the table did
+        not have held its fill value.
+    """
+
+    rows: NDArray[np.int64]
+    old: Any
+    new: Any
 
 
 class _Entry(Protocol):
@@ -35,78 +56,6 @@ class _Entry(Protocol):
     def redo(self) -> None: ...
 
     def idle(self) -> bool: ...
-
-
-class ArrayColumn:
-    """A growing numpy array, one entry a row; `data` is a read-only view of the rows in use.
-
-    `writes` rises whenever anything is written: what was derived from the column is true as
-    long as it stands.
-    """
-
-    def __init__(self, dtype: DTypeLike, shape: tuple[int, ...], fill: float | bool = 0) -> None:
-        self.store: NDArray[Any] = np.full((16, *shape), fill, dtype)
-        self.fill = fill
-        self.data = self.store[:0]
-        self.writes = 0
-
-    def resize(self, count: int) -> None:
-        """Bring the column to `count` rows; new ones hold the fill value."""
-        old = len(self.data)
-        if count > len(self.store):
-            grown = np.full((max(count, 2 * len(self.store)), *self.store.shape[1:]), self.fill)
-            store = grown.astype(self.store.dtype)
-            store[:old] = self.store[:old]
-            self.store = store
-        if count > old:
-            self.store[old:count] = self.fill
-        self.data = self.store[:count]
-        self.data.setflags(write=False)
-        self.writes += 1
-
-    def parts(self) -> NDArray[Any]:
-        """Give the first two axes as one, to be written to: row r, part p is at r * parts + p."""
-        return self.store.reshape(-1, *self.store.shape[2:])
-
-
-class ListColumn:
-    """A growing list of immutable objects, one entry a row."""
-
-    def __init__(self, fill: object = None) -> None:
-        self.data: list[Any] = []
-        self.fill = fill
-
-    def resize(self, count: int) -> None:
-        """Bring the column to `count` rows; new ones hold the fill value."""
-        del self.data[count:]
-        self.data.extend([self.fill] * (count - len(self.data)))
-
-
-class Table:
-    """Columns of one length, by name.
-
-    Parameters
-    ----------
-    **columns : (dtype, shape), (dtype, shape, fill), or (object, fill)
-        What each column holds per row.
-    """
-
-    def __init__(self, **columns: tuple[Any, ...]) -> None:
-        self.count = 0
-        self.columns: dict[str, ArrayColumn | ListColumn] = {}
-        for name, spec in columns.items():
-            column = ListColumn(spec[1]) if spec[0] is object else ArrayColumn(*spec)
-            self.columns[name] = column
-            setattr(self, name, column)
-
-    def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"this table has no column {name!r}")
-
-    def resize(self, count: int) -> None:
-        """Bring every column to `count` rows."""
-        self.count = count
-        for column in self.columns.values():
-            column.resize(count)
 
 
 @attrs.frozen(eq=False)
@@ -231,6 +180,32 @@ def _same_bits(one: NDArray[Any], other: NDArray[Any]) -> bool:
     return one.shape == other.shape and bool((one.view(np.int64) == other.view(np.int64)).all())
 
 
+def _net_array(column: ArrayColumn, entries: Sequence[_ArrayEntry | _PartEntry]) -> Net:
+    """Run the writes to an array backward over a copy of what they touched."""
+    width = int(np.prod(column.store.shape[1:2])) if column.store.ndim > 1 else 1
+    parts = [e.index if isinstance(e, _ArrayEntry) else e.part // width for e in entries]
+    rows = np.unique(np.concatenate([np.zeros(0, np.int64), *parts]))
+    new = column.store.take(rows, axis=0)
+    old = new.copy()
+    flat = old.reshape(-1, *old.shape[2:])
+    for entry in reversed(entries):
+        if isinstance(entry, _ArrayEntry):
+            old[np.searchsorted(rows, entry.index)] = entry.old
+        else:
+            place = np.searchsorted(rows, entry.part // width) * width + entry.part % width
+            flat[place] = entry.old.values()
+    return Net(rows, old, new)
+
+
+def _net_list(column: ListColumn, entries: Sequence[_ListEntry]) -> Net:
+    old: dict[int, object] = {}
+    for entry in reversed(entries):
+        old.update(zip(entry.index, entry.old, strict=True))
+    rows = np.array(sorted(old), np.int64)
+    numbers = rows.tolist()
+    return Net(rows, [old[row] for row in numbers], [column.data[row] for row in numbers])
+
+
 @attrs.define(eq=False)
 class Journal:
     """All writes of one transaction, in order."""
@@ -295,12 +270,48 @@ class Journal:
         rows, first = np.unique(index, return_index=True)
         return rows, old[first]
 
+    def net(self, column: ArrayColumn | ListColumn) -> Net:
+        """Give what all writes to a column did together; true until the next write to it.
+
+        Examples
+        --------
+        >>> from assoc_hull.graph.journal import Journal
+        >>> from assoc_hull.graph.table import Table
+        >>> table, journal = Table(height=(float, ())), Journal()
+        >>> table.resize(2)
+        >>> journal.put(table.height, [1], [5.0])
+        >>> journal.put(table.height, [1], [7.0])
+        >>> net = journal.net(table.height)
+        >>> net.rows.tolist(), net.old.tolist(), net.new.tolist()
+        ([1], [0.0], [7.0])
+        """
+        mine = [each for each in self.entries if getattr(each, "column", None) is column]
+        if isinstance(column, ListColumn):
+            return _net_list(column, [each for each in mine if isinstance(each, _ListEntry)])
+        written = [each for each in mine if isinstance(each, _ArrayEntry | _PartEntry)]
+        return _net_array(column, written)
+
+    def sizes(self, table: Table) -> tuple[int, int]:
+        """Give how many rows a table had before, and has now."""
+        grown = [e for e in self.entries if isinstance(e, _GrowEntry) and e.table is table]
+        return (grown[0].old if grown else table.count), table.count
+
+    def columns(self) -> list[ArrayColumn | ListColumn]:
+        """Give every column that was written, each once, in the order of the first writes."""
+        found: list[ArrayColumn | ListColumn] = []
+        for entry in self.entries:
+            column = getattr(entry, "column", None)
+            if column is not None and not any(column is each for each in found):
+                found.append(column)
+        return found
+
     def idle(self) -> bool:
         """Tell whether every write put what stood there already.
 
         Examples
         --------
-        >>> from assoc_hull.graph.journal import Journal, Table
+        >>> from assoc_hull.graph.journal import Journal
+        >>> from assoc_hull.graph.table import Table
         >>> table, journal = Table(height=(float, (), 2.0)), Journal()
         >>> table.resize(1)
         >>> journal.put(table.height, [0], [2.0])

@@ -17,7 +17,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.journal import Journal, Table
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import Table
 
 __all__ = ["Keys", "fill", "wrong"]
 

@@ -19,7 +19,7 @@ import numpy as np
 from assoc_hull.arguments import checked, flag, integer, places, positive, shown, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.graph.journal import Table
+from assoc_hull.graph.table import Table
 from assoc_hull.model.family import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 

@@ -17,13 +17,14 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit import update
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.report import Step
 from assoc_hull.edit.script import PolicyName
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.graph.journal import ArrayColumn, Journal
+from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Evaluation
+from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model import network
 from assoc_hull.model.family import State
 from assoc_hull.model.network import HullNetwork
@@ -135,10 +136,10 @@ def _in_check(name: str) -> Callable[[int, BaseException], mock._patch[object]]:
 def _publish(node: int, error: BaseException) -> mock._patch[object]:
     original = Document._revise
 
-    def fail(self: Document, step: Step) -> None:
+    def fail(self: Document, step: Step, by: int) -> None:
         if node in step.changed.tolist():
             raise error
-        original(self, step)
+        original(self, step, by)
 
     return mock.patch.object(Document, "_revise", fail)
 

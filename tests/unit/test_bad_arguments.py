@@ -14,7 +14,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
-from assoc_hull.hull import Examples
+from assoc_hull.sources import Examples
 
 POINT, LINE, CURVE = "WL 2.5 x ST 3", "WL 2.5", "ST 3"
 PLACE = (40.0, 3.0, 2.5)
@@ -62,7 +62,13 @@ HULL: dict[str, Given] = {
     "graph": {"around": POINT, "up": 1, "down": 1, "two_way": False, "edit": None},
     "dependencies": {"points": False},
     "half_breadth": {"x": 40.0, "z": 2.5},
-    "save": {"path": "no-such-folder/a.hull.json"},
+    "save": {"path": "no-such-folder/a.hull.json", "replace": False},
+    "refresh": {},
+    "close": {},
+    "checkpoint": {"name": "here"},
+    "go": {"name": "nowhere"},
+    "diff": {"before": "nowhere", "after": None},
+    "replay": {"other": None, "skip": False},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},

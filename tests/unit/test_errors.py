@@ -61,6 +61,22 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ImportError,
         ["matplotlib", "pip install 'assoc-hull[plot]'"],
     ),
+    (
+        errors.DamagedFileError("it is cut off: 4096 of 8192 bytes", "at ship.hull", "take a copy"),
+        ValueError,
+        ["4096 of 8192", "ship.hull", "take a copy"],
+    ),
+    (
+        errors.HullFileError("ship.hull", "the disk is full", "make room"),
+        OSError,
+        ["ship.hull", "the disk is full", "make room"],
+    ),
+    (errors.FileBusyError("ship.hull", 2.5), TimeoutError, ["ship.hull", "2.5 s", "longer wait"]),
+    (
+        errors.StaleHullError("ship.hull", ("fair WL 1", "fair WL 2")),
+        RuntimeError,
+        ["ship.hull", "2 edit", "'fair WL 2'", "refresh()"],
+    ),
 ]
 each_error = pytest.mark.parametrize(
     "error", [pytest.param(sample[0], id=type(sample[0]).__name__) for sample in SAMPLES]

@@ -124,7 +124,7 @@ def test_a_cut_off_curve_is_explained(document: Document) -> None:
     node = node_of(document.state, "WL 5")
     step = document.history[0]
     kept = step.changed != node
-    document.history[0] = attrs.evolve(step, changed=step.changed[kept], moved=step.moved[kept])
+    step.replace(attrs.evolve(step.body, changed=step.changed[kept], moved=step.moved[kept]))
     found = why(document, node)
     assert "same bits" in found.what
     assert found.edit == "fair"

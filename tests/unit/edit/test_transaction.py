@@ -65,8 +65,8 @@ def test_nested_edits_join_into_one_step(hull: ah.Hull) -> None:
     assert names == ["outer"]
 
 
-def test_a_new_edit_forgets_what_was_undone(hull: ah.Hull) -> None:
-    """There is nothing to redo after it; a refused one leaves it there."""
+def test_a_new_edit_leaves_what_was_undone_on_a_branch(hull: ah.Hull) -> None:
+    """There is nothing to redo after it, but a name leads there; a refused one changes nothing."""
     with hull.edit("first") as edit:
         up(edit, hull)
     hull.undo()
@@ -77,6 +77,8 @@ def test_a_new_edit_forgets_what_was_undone(hull: ah.Hull) -> None:
     assert len(hull.undone) == 0
     with pytest.raises(BadInputError, match="nothing to redo"):
         hull.redo()
+    hull.go("branch 1")
+    assert [report.name for report in hull.history] == ["first"]
 
 
 def test_an_empty_edit_is_a_step_that_changes_nothing(hull: ah.Hull) -> None:

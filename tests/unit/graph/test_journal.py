@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.graph.journal import Journal, Picked, Table
+from assoc_hull.graph.journal import Journal, Picked
+from assoc_hull.graph.table import Table
 
 Picture = tuple[int, bytes, bytes, tuple[object, ...]]
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull import Hull, examples, read
+from assoc_hull.hull import Hull
+from assoc_hull.sources import examples, read
 
 pytest.importorskip("matplotlib")
 

@@ -9,13 +9,14 @@ from matplotlib.figure import Figure
 
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.hull import Hull, examples
+from assoc_hull.hull import Hull
 from assoc_hull.plot import before_after, curvature_combs, neighbourhood, snapshot
 from assoc_hull.plot.drawing import Drawing, drawing
 from assoc_hull.plot.links import links
 from assoc_hull.plot.movement import movements
 from assoc_hull.plot.paper import MARGIN, PAPERS, PaperName
 from assoc_hull.plot.rails import overlaps
+from assoc_hull.sources import examples
 
 Boxes = Callable[[Figure], dict[str, FloatArray]]
 Lines = Callable[[Figure, str], list[FloatArray]]

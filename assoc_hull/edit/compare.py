@@ -1,0 +1,190 @@
+"""Two states of a hull side by side: which lines differ, how far, and the principal numbers.
+
+Examples
+--------
+>>> from assoc_hull.edit.compare import compare
+>>> from assoc_hull.examples.wigley import wigley
+>>> print(compare(wigley(), wigley(), ("as it was", "as it is")))
+as it was -> as it is: 0 lines differ
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.volume import displaced
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.model.address import AddressBook
+from assoc_hull.model.family import Sort
+from assoc_hull.model.state import HullState
+
+__all__ = ["Comparison", "LineDifference", "compare"]
+
+_PARTS = np.linspace(0.0, 1.0, 5)[:-1]
+"""Where on each segment distances are taken."""
+
+
+@attrs.frozen
+class LineDifference:
+    """How a line differs between two states.
+
+    Attributes
+    ----------
+    line : str
+        Its name.
+    what : {"moved", "added", "removed", "renamed"}
+        How it differs; a line that moved may have another name as well.
+    distance : float, m
+        The largest distance of either form of it from the other; 0 if it did not move.
+    place : (float, float, float) or None, m
+        Where that is.
+    """
+
+    line: str
+    what: str
+    distance: float = 0.0
+    place: tuple[float, float, float] | None = None
+
+    def __str__(self) -> str:
+        if self.place is None:
+            return f"{self.line}: {self.what}"
+        x, y, z = self.place
+        return f"{self.line}: {1e3 * self.distance:.3f} mm at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+
+
+@attrs.frozen
+class Comparison:
+    """Two states of a hull side by side.
+
+    Attributes
+    ----------
+    states : (str, str)
+        What they are called.
+    lines : tuple of LineDifference
+        Lines that differ, those that moved farthest first.
+    numbers : dict of str to (float or None, float or None)
+        Principal numbers in both states, those that differ: dimensions (m), ``volume`` (m3)
+        and ``lcb`` (m from AP, + forward) at the design draught, counts of lines and points.
+        None where there are not sections enough.
+    names : (str, str)
+        Name of the ship in both.
+    """
+
+    states: tuple[str, str]
+    lines: tuple[LineDifference, ...]
+    numbers: dict[str, tuple[float | None, float | None]]
+    names: tuple[str, str]
+
+    def __str__(self) -> str:
+        head = f"{self.states[0]} -> {self.states[1]}: {len(self.lines)} lines differ"
+        told = [head, *(f"  {line}" for line in self.lines)]
+        for name, (old, new) in self.numbers.items():
+            change = "" if old is None or new is None else f" ({new - old:+.6g})"
+            told.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
+        if self.names[0] != self.names[1]:
+            told.append(f"  name: {self.names[0]} -> {self.names[1]}")
+        return "\n".join(told)
+
+
+def _plain(number: float | None) -> str:
+    return "unknown" if number is None else f"{number:.10g}"
+
+
+def compare(before: HullState, after: HullState, states: tuple[str, str]) -> Comparison:
+    """Compare two states of a hull, or two hulls; lines are told apart by their keys.
+
+    Parameters
+    ----------
+    before, after : HullState
+        The tables.
+    states : (str, str)
+        What they are called.
+
+    Returns
+    -------
+    Comparison
+    """
+    old, new = (_lines(state) for state in (before, after))
+    found = [LineDifference(old[key][0], "removed") for key in old if key not in new]
+    found += [LineDifference(new[key][0], "added") for key in new if key not in old]
+    found += [each for key in new if key in old for each in _differences(old[key], new[key])]
+    order = sorted(found, key=lambda each: (-each.distance, each.what, each.line))
+    one, two = _numbers(before), _numbers(after)
+    numbers = {name: (one[name], two[name]) for name in one if one[name] != two[name]}
+    names = before.particulars.name, after.particulars.name
+    return Comparison(states, tuple(order), numbers, names)
+
+
+Pieces = tuple[str, list[SplineBatch]]
+
+
+def _lines(state: HullState) -> dict[str, Pieces]:
+    """Give name and splines of each line, by key."""
+    book, table, found = AddressBook(state), state.curves, dict[str, Pieces]()
+    for line in state.live("lines").tolist():
+        curves = [curve for curve in state.lines.curves.data[line] if table.alive.data[curve]]
+        splines = [state.spline(curve) for curve in curves if table.spline.data[curve] is not None]
+        found[str(state.lines.key.data[line])] = book.line_name(line), splines
+    return found
+
+
+def _differences(old: Pieces, new: Pieces) -> Iterator[LineDifference]:
+    """Say how a line differs, if it does."""
+    if not _same(old[1], new[1]):
+        place, distance = _farthest(old[1], new[1])
+        x, y, z = place.tolist()
+        yield LineDifference(new[0], "moved", distance, (x, y, z))
+    if old[0] != new[0]:
+        yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
+
+
+def _same(old: Sequence[SplineBatch], new: Sequence[SplineBatch]) -> bool:
+    """Tell whether two lines have the same bits."""
+    names = ("knot", "xyz", "leave", "arrive")
+    return len(old) == len(new) and all(
+        getattr(a, name).tobytes() == getattr(b, name).tobytes()
+        for a, b in zip(old, new, strict=True)
+        for name in names
+    )
+
+
+def _farthest(old: Sequence[SplineBatch], new: Sequence[SplineBatch]) -> tuple[FloatArray, float]:
+    """Give the place of either line that lies farthest from the other, and how far."""
+    best = np.zeros(3), -1.0
+    for mine, theirs in ((new, old), (old, new)):
+        for spline in mine:
+            points = _points(spline)
+            away = np.min([closest(each, 0, points)[2] for each in theirs], axis=0)
+            worst = int(away.argmax())
+            if away[worst] > best[1]:
+                best = points[worst], float(away[worst])
+    return best
+
+
+def _points(spline: SplineBatch) -> FloatArray:
+    knot = spline.knot
+    t = np.append((knot[:-1, None] + np.diff(knot)[:, None] * _PARTS).ravel(), knot[-1])
+    return np.asarray(evaluate(spline, np.zeros(len(t), np.int64), t))
+
+
+def _numbers(state: HullState) -> dict[str, float | None]:
+    """Give the principal numbers of a state."""
+    ship, sort = state.particulars, state.rows.sort.data[state.live("rows")]
+    found: dict[str, float | None] = {
+        name: getattr(ship, name) for name in ("length", "breadth", "depth", "draught")
+    }
+    try:
+        measured = displaced(state)
+        found |= {"volume": measured.volume, "lcb": measured.lcb}
+    except BadInputError:
+        found |= {"volume": None, "lcb": None}
+    found["lines"] = float(len(state.live("lines")))
+    for each in Sort:
+        found[f"{each.name.lower()} points"] = float((sort == each).sum())
+    return found

@@ -1,0 +1,360 @@
+"""The hull file: one database that holds a hull with all that was ever committed to it.
+
+`HullFile` is what a `Document` keeps its steps in. A step is written, with every row of the
+tables that it changed, in one transaction of the database, and brought to the disk before the
+edit counts as committed; a process that is killed leaves the file as the last commit did.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.edit.session import Edit
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.io.hull_file import open_hull_file
+>>> from assoc_hull.io.hull_file_write import save_hull_file
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     with Edit(document, "fuller") as edit:
+...         edit.move("WL 2.5 x ST 7", y=2.95)
+...     document.keeper.close()
+...     again = open_hull_file(Path(folder) / "ship.hull")
+...     print([step.name for step in again.history])
+...     again.keeper.close()
+['fuller']
+"""
+
+from __future__ import annotations
+
+import contextlib
+import getpass
+import os
+import sqlite3
+import weakref
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.keeper import Label
+from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.graph.journal import Journal
+from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_steps import body_of, steps_of, write_step
+from assoc_hull.io.hull_file_tables import (
+    put_rows,
+    read_revisions,
+    read_state,
+    write_births,
+    write_settings,
+)
+from assoc_hull.model.change import Change, change_of
+from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.state import HullState
+
+__all__ = ["HullFile", "open_hull_file", "user"]
+
+_COPY = "take it from a copy; what is in memory is as it was"
+_ODD = (ValueError, TypeError, LookupError, ArithmeticError, AttributeError)
+"""What reading rows may come upon that were never written."""
+
+
+def user() -> str:
+    """Give the name of who is at work, as the system knows it; empty if it does not."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        return ""
+
+
+class HullFile:
+    """Keeps the steps of a document in a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    database : sqlite3.Connection
+        The open database.
+    state : HullState
+        The tables of the document, as the file holds them.
+    wait : float, s
+        How long to wait for another writer.
+    """
+
+    def __init__(
+        self, path: Path, database: sqlite3.Connection, state: HullState, wait: float
+    ) -> None:
+        self.path, self.database, self.state, self.wait = path, database, state, wait
+        self.serial = 0
+        self._known = 0
+        self._place = _identity(path)
+        self._open = True
+        weakref.finalize(self, database.close)  # the last one to close tidies the log away
+
+    def _one(self, sql: str, *values: object) -> Any:
+        found = self.database.execute(sql, values).fetchone()
+        if found is None:
+            raise DamagedFileError("a row is missing", f"in {self.path}", _COPY)
+        return found
+
+    def close(self) -> None:
+        """Let go of the file; edits are refused from then on."""
+        self._open = False
+        self.database.close()
+
+    def begin(self) -> None:
+        """Take the right to write.
+
+        Raises
+        ------
+        FileBusyError, StaleHullError, HullFileError
+            Another process writes; it has written; the file may only be read, is closed, or
+            has been replaced by another.
+        """
+        if not self._open:
+            raise HullFileError(str(self.path), "it is closed", "open it again")
+        if _identity(self.path) != self._place:
+            remedy = "save the hull under another name, so that nothing is lost"
+            raise HullFileError(str(self.path), "it was removed or replaced", remedy)
+        with speaking_of(self.path, self.wait):
+            self.database.execute("BEGIN IMMEDIATE")
+        try:
+            with speaking_of(self.path):
+                self._refuse_stale()
+        except BaseException:
+            self.end()
+            raise
+
+    def _refuse_stale(self) -> None:
+        if self._one("SELECT serial FROM hull")[0] != self.serial:
+            newer = self.database.execute(
+                "SELECT name FROM steps WHERE number > ? ORDER BY number", (self._known,)
+            )
+            raise StaleHullError(str(self.path), tuple(str(row[0]) for row in newer))
+
+    def end(self) -> None:
+        """Give the right to write back."""
+        if self._open and self.database.in_transaction:
+            self.database.execute("ROLLBACK")
+
+    def commit(self, step: Step, branch: Label | None) -> None:
+        """Write a step and what it changed, and bring it to the disk."""
+        journal = step.journal
+        change = change_of(self.state, journal) if isinstance(journal, Journal) else None
+        if change is None:
+            raise TypeError("a step that was just made holds its journal")
+        with speaking_of(self.path):
+            self._put(change, step.rows, step.curves)
+            write_step(
+                self.database, step, change, step.report, self._sign(step.number, step.number)
+            )
+            self._label(branch)
+            self.database.execute("COMMIT")
+        self.serial += 1
+        self._known = step.number
+        self.keep(step, change)
+
+    def keep(self, step: Step, change: Change) -> None:
+        """Let a step hold no more of its journal than its change, and that only for a while."""
+        body, step.load = step.body, self._loader(step.number)
+        rerun = Rerun(self.state, change)
+        step.replace(StepBody(rerun, body.cause, body.changed, body.moved, body.seeds, body.report))
+
+    def _loader(self, number: int) -> Callable[[], StepBody]:
+        return lambda: self.load(number)
+
+    def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
+        """Write the rows that steps changed when they were run, and where the hull is now."""
+        with speaking_of(self.path):
+            for step in steps:
+                journal = step.journal
+                assert isinstance(journal, Rerun), "a step that is kept holds its change"
+                self._put(journal.change, step.rows, step.curves)
+            found = self._sign(head, tip)
+            if found != self._recorded(head):
+                what = f"the hull after step {head} is not as it was when that was committed"
+                raise DamagedFileError(what, f"in {self.path}", _COPY)
+            self._label(branch)
+            self.database.execute("COMMIT")
+        self.serial += 1
+
+    def label(self, label: Label) -> None:
+        """Write a name."""
+        with speaking_of(self.path):
+            self._label(label)
+            self.database.execute("UPDATE hull SET serial = serial + 1")
+            self.database.execute("COMMIT")
+        self.serial += 1
+
+    def _label(self, label: Label | None) -> None:
+        if label is not None:
+            row = (label.name, label.step, int(label.branch))
+            self.database.execute("INSERT INTO labels VALUES (?, ?, ?)", row)
+
+    def _put(self, change: Change, rows: IntArray, curves: IntArray) -> None:
+        """Write the rows of the tables that a change touched, as they are now."""
+        also = {"rows": rows, "curves": np.union1d(change.curves, curves)}
+        for table in ("groups", "lines", "curves", "rows"):
+            touched = np.union1d(change.touched(table), also.get(table, rows[:0]))
+            put_rows(self.database, self.state, table, touched)
+        if any(name.startswith("settings.") for name in change.objects):
+            write_settings(self.database, self.state)
+        births = self.state.births
+        write_births(self.database, {pair: births.get(pair, 0) for pair in change.births})
+
+    def _sign(self, head: int, tip: int) -> str:
+        """Write the present fingerprint, and where in the history the hull is."""
+        found = fingerprint(self.state)
+        self.database.execute(
+            "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, serial = serial + 1",
+            (found, head, tip),
+        )
+        return found
+
+    def _recorded(self, head: int) -> object:
+        if not head:
+            return self._one("SELECT start FROM hull")[0]
+        return self._one("SELECT fingerprint FROM steps WHERE number = ?", head)[0]
+
+    def load(self, number: int) -> StepBody:
+        """Read the body of a step.
+
+        Raises
+        ------
+        DamagedFileError
+            It is not as it was written.
+        """
+        with speaking_of(self.path):
+            row = self._one("SELECT * FROM steps WHERE number = ?", number)
+        try:
+            return body_of(row, self.state)
+        except _ODD as error:
+            what = f"step {number} cannot be read ({error})"
+            raise DamagedFileError(what, f"in {self.path}", _COPY) from error
+
+    def follow(self, document: Document) -> tuple[int, int]:
+        """Tell a document of steps and names it does not know; give where the file stands.
+
+        Returns
+        -------
+        int, int
+            Numbers of the step that led to the state in the file, and of the last undone one.
+        """
+        database = self.database
+        with speaking_of(self.path, self.wait):
+            head, tip, serial = self._one("SELECT head, tip, serial FROM hull")
+            new = steps_of(database, len(document.steps), self.load)
+            labels = database.execute("SELECT name, step, branch FROM labels").fetchall()
+        document.steps |= {step.number: step for step in new}
+        document.labels = {name: Label(name, step, bool(branch)) for name, step, branch in labels}
+        self._known, self.serial = len(document.steps), serial
+        return head, tip
+
+    def take_over(self, document: Document, changes: Mapping[int, Change]) -> None:
+        """Keep the steps of a document that was just written; `changes` are those it held."""
+        self.follow(document)
+        for number, step in document.steps.items():
+            if number in changes:
+                self.keep(step, changes[number])
+            else:
+                step.load = self._loader(number)
+
+    def copy_to(self, database: sqlite3.Connection) -> None:
+        """Copy the whole file into another database."""
+        with speaking_of(self.path, self.wait):
+            self._refuse_stale()
+            self.database.backup(database)
+
+    def refresh(self, document: Document) -> None:
+        """Bring a document to the state in the file, by the steps that lead there."""
+        with speaking_of(self.path, self.wait):
+            self.database.execute("BEGIN")
+        try:
+            document.follow(*self.follow(document))
+            document.keep_revisions(*read_revisions(self.database))
+        finally:
+            self.end()
+
+    def require_print(self) -> None:
+        """Refuse tables whose fingerprint is not the one in the file."""
+        found, said = fingerprint(self.state), str(self._one("SELECT fingerprint FROM hull")[0])
+        if found != said:
+            what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"
+            raise DamagedFileError(what, f"at {self.path}", "take it from a copy")
+
+    def damages(self) -> list[str]:
+        """Look through the whole file for what is not as it was written; one line each."""
+        found: list[str] = []
+        with speaking_of(self.path):
+            told = self.database.execute("PRAGMA integrity_check(20)").fetchall()
+            found += [str(line) for (line,) in told if line != "ok"]
+            numbers = self.database.execute("SELECT number FROM steps ORDER BY number").fetchall()
+        for (number,) in numbers:
+            try:
+                self.load(number)
+            except DamagedFileError as error:
+                found.append(error.what)
+        return found
+
+
+def _identity(path: Path) -> tuple[int, int]:
+    """Tell a file from another one of the same name."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return (0, 0)
+    return found.st_dev, found.st_ino
+
+
+def open_hull_file(path: Path, wait: float = 0.0) -> Document:
+    """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    wait : float, s
+        How long to wait while another process writes, now and at each edit.
+
+    Returns
+    -------
+    Document
+        With its history; each edit is in the file before it counts as committed.
+
+    Raises
+    ------
+    BadInputError, DamagedFileError, FileBusyError, HullFileError
+        See `assoc_hull.io.hull_file_connect.connect`.
+    """
+    database = connect(path, wait)
+    try:
+        with speaking_of(path, wait), _reading(path):
+            database.execute("BEGIN")
+            state = read_state(database)
+            file = HullFile(path, database, state, wait)
+            document = Document(state, keeper=file, author=user())
+            document.stand(*file.follow(document))
+            file.require_print()
+            database.execute("ROLLBACK")
+    except BaseException:
+        database.close()
+        raise
+    return document
+
+
+@contextlib.contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Say that a file is damaged where it holds what no hull file holds."""
+    try:
+        yield
+    except _ODD as error:
+        if isinstance(error, DamagedFileError):
+            raise
+        what = " ".join(f"it is damaged ({type(error).__name__}: {error})".split())
+        raise DamagedFileError(what, f"at {path}", "take it from a copy") from error

@@ -1,0 +1,188 @@
+"""Writing a hull that lives in memory, or a copy of a file, as a hull file.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.io.hull_file_write import save_hull_file
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     document.keeper.close()
+...     print([each.name for each in Path(folder).iterdir()])
+['ship.hull']
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sqlite3
+import tempfile
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.states import walking
+from assoc_hull.errors import BadInputError, HullFileError
+from assoc_hull.graph.journal import Journal
+from assoc_hull.io.hull_file import HullFile
+from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_schema import create
+from assoc_hull.io.hull_file_steps import write_step
+from assoc_hull.io.hull_file_tables import put_rows, write_births, write_settings, write_state
+from assoc_hull.model.change import Change, change_of
+from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.state import HullState
+
+__all__ = ["save_hull_file"]
+
+
+def save_hull_file(
+    document: Document, path: Path, wait: float = 0.0, *, replace: bool = False
+) -> None:
+    """Write a hull with its history, and keep its steps in that file from then on.
+
+    Parameters
+    ----------
+    document : Document
+        The hull; no edit may be open.
+    path : Path
+        The file; its folder must exist.
+    wait : float, s
+        How long to wait for another writer, from then on.
+    replace : bool
+        Write over a file that is there.
+
+    Raises
+    ------
+    BadInputError
+        An edit is open; there is a file of this name, and it is not to be replaced.
+    HullFileError
+        The file cannot be written; nothing is left behind, and the hull is kept where it was.
+    """
+    if document.writer is not None:
+        raise BadInputError("an edit is open", "in save", "end it first")
+    target = Path(os.path.realpath(path))
+    _require_free(target, replace=replace)
+    changes = _write_whole(document, target)
+    database = connect(target, wait)
+    file, before = HullFile(target, database, document.state, wait), document.keeper
+    document.keeper = file
+    file.take_over(document, changes)
+    if isinstance(before, HullFile):
+        before.close()
+
+
+def _require_free(target: Path, *, replace: bool) -> None:
+    """Refuse to write over anything."""
+    if target.is_dir():
+        raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
+    if not target.parent.is_dir():
+        what = f"there is no folder {target.parent}"
+        raise BadInputError(what, f"for {target.name}", "make the folder first")
+    if target.exists() and not replace:
+        what, remedy = "there is a file of this name", "choose another name, or ask to replace it"
+        raise BadInputError(what, f"at {target}", remedy)
+    log = target.with_name(f"{target.name}-wal")
+    if log.exists():
+        what = "the log of another hull file lies beside it, with edits that may be nowhere else"
+        remedy = "close the program that uses it, or move it to where its hull file is"
+        raise BadInputError(what, f"at {log}", remedy)
+
+
+def _write_whole(document: Document, target: Path) -> dict[int, Change]:
+    """Write beside the target, bring it to the disk, then take the target's place."""
+    try:
+        handle, name = tempfile.mkstemp(
+            prefix=f".{target.name}.", suffix=".part", dir=target.parent
+        )
+    except OSError as error:
+        what = f"the file cannot be written ({error.strerror or error})"
+        raise HullFileError(str(target), what, "give another place") from error
+    os.close(handle)
+    try:
+        with speaking_of(target):
+            changes = _fill(document, name)
+        os.chmod(name, _mode(target))
+        os.replace(name, target)
+    except OSError as error:
+        if isinstance(error, HullFileError):
+            raise
+        what = f"the file cannot be written ({error.strerror or error})"
+        raise HullFileError(str(target), what, "give another place") from error
+    finally:
+        for left in (name, f"{name}-journal", f"{name}-wal", f"{name}-shm"):
+            with contextlib.suppress(OSError):
+                os.unlink(left)
+    return changes
+
+
+def _mode(target: Path) -> int:
+    """Give the permissions of the file that is there, or those of a new one."""
+    with contextlib.suppress(OSError):
+        return target.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
+def _fill(document: Document, name: str) -> dict[int, Change]:
+    """Fill an empty file: with a copy of the file that keeps the hull, or from memory."""
+    database = sqlite3.connect(name, isolation_level=None)
+    try:
+        database.execute("PRAGMA synchronous = FULL")
+        if isinstance(document.keeper, HullFile):
+            document.keeper.copy_to(database)
+            return {}
+        create(database)
+        database.execute("BEGIN")
+        changes = _write_all(database, document)
+        database.execute("COMMIT")
+        database.execute("PRAGMA journal_mode = WAL")
+    finally:
+        database.close()
+    return changes
+
+
+def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Change]:
+    """Write the hull as it came, then every step, then where the hull is now."""
+    state, changes = document.state, dict[int, Change]()
+    with walking(document) as walk:
+        walk.go(0)
+        write_state(database, state, _version(), fingerprint(state))
+        for number, step in sorted(document.steps.items()):
+            walk.go(number)
+            assert isinstance(step.journal, Journal), "a hull in memory holds its journals"
+            changes[number] = change_of(state, step.journal)
+            write_step(database, step, changes[number], step.report, fingerprint(state))
+    for table in ("groups", "lines", "curves", "rows"):
+        put_rows(database, state, table, np.arange(_most(state, changes, table)))
+    write_settings(database, state)
+    pairs = {pair for change in changes.values() for pair in change.births}
+    write_births(database, {pair: state.births.get(pair, 0) for pair in pairs})
+    labels = [(each.name, each.step, int(each.branch)) for each in document.labels.values()]
+    database.executemany("INSERT INTO labels VALUES (?, ?, ?)", labels)
+    database.execute(
+        "UPDATE hull SET fingerprint = ?, head = ?, tip = ?",
+        (fingerprint(state), document.head, document.tip),
+    )
+    return changes
+
+
+def _most(state: HullState, changes: dict[int, Change], table: str) -> int:
+    """Give how many rows a table has, or had at any time."""
+    sizes = [size for change in changes.values() for size in change.sizes.get(table, ())]
+    count: int = getattr(state, table).count
+    return max([count, *sizes])
+
+
+def _version() -> str:
+    try:
+        return metadata.version("assoc-hull")
+    except metadata.PackageNotFoundError:
+        return "unknown"

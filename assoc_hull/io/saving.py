@@ -1,0 +1,136 @@
+"""Saving and opening a hull: as a hull file that keeps every edit, or as text.
+
+The name tells which: one that ends in ``.hull.json`` is the canonical text, one in ``.hull`` a
+hull file. Opening looks at what the file holds, not at its name.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.io.saving import close, save
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     written = save(document, Path(folder) / "ship.hull").written
+...     again = save(document).written
+...     close(document)
+>>> written, again
+(True, False)
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from pathlib import Path
+
+import attrs
+
+from assoc_hull.arguments import file_path
+from assoc_hull.edit.document import Document
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.hull_file import HullFile, open_hull_file, user
+from assoc_hull.io.hull_file_connect import is_hull_file
+from assoc_hull.io.hull_file_write import save_hull_file
+from assoc_hull.io.hull_json import read_hull_json, write_hull_json
+
+__all__ = [
+    "FILE_ENDING",
+    "TEXT_ENDING",
+    "Saved",
+    "close",
+    "open_document",
+    "path_of",
+    "refresh",
+    "save",
+]
+
+FILE_ENDING, TEXT_ENDING = ".hull", ".hull.json"
+
+
+@attrs.frozen
+class Saved:
+    """What came of saving.
+
+    Attributes
+    ----------
+    path : Path
+        The file that holds the hull.
+    written : bool
+        Whether anything was written.
+    """
+
+    path: Path
+    written: bool
+
+    def __str__(self) -> str:
+        if self.written:
+            return f"written: {self.path}"
+        return f"nothing to write: every edit is in {self.path} already"
+
+
+def path_of(document: Document) -> Path | None:
+    """Give the hull file of a document, None if it lives in memory."""
+    return document.keeper.path if isinstance(document.keeper, HullFile) else None
+
+
+def save(
+    document: Document, path: str | os.PathLike[str] | None = None, *, replace: bool = False
+) -> Saved:
+    """Write a hull; see `assoc_hull.hull.Hull.save`."""
+    there = path_of(document)
+    if path is None:
+        if there is None:
+            remedy = "give the name of a file, for instance ship.hull"
+            raise BadInputError("this hull lives in memory", "in save", remedy)
+        return Saved(there, written=False)
+    name = file_path(path, "in save")
+    if name.endswith(TEXT_ENDING):
+        write_hull_json(document.state, path)
+        return Saved(Path(path), written=True)
+    if there is not None and there == Path(os.path.realpath(path)):
+        return Saved(there, written=False)
+    if not name.endswith(FILE_ENDING):
+        remedy = f"end the name in {FILE_ENDING} or {TEXT_ENDING}; other forms are exported"
+        raise BadInputError("the form is unknown", f"at {name}", remedy)
+    wait = document.keeper.wait if isinstance(document.keeper, HullFile) else 0.0
+    save_hull_file(document, Path(path), wait, replace=replace)
+    document.author = document.author or user()
+    return Saved(Path(path), written=True)
+
+
+def open_document(path: str | os.PathLike[str], wait: float = 0.0) -> Document:
+    """Open a hull file, or read the canonical text; see `assoc_hull.hull.open`."""
+    if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
+        file = Path(path)
+        if is_hull_file(file) or not (_begins_as_text(file) or file.name.endswith(".json")):
+            return open_hull_file(file, wait)
+    return Document(read_hull_json(path), author=user())
+
+
+def _begins_as_text(path: Path) -> bool:
+    """Tell whether a file begins as the canonical text does."""
+    with contextlib.suppress(OSError), path.open("rb") as file:
+        return file.read(200).lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
+    return False
+
+
+def refresh(document: Document) -> None:
+    """Bring a document to the state in its hull file.
+
+    Raises
+    ------
+    BadInputError
+        It lives in memory.
+    """
+    if not isinstance(document.keeper, HullFile):
+        remedy = "save it as a hull file first"
+        raise BadInputError("this hull lives in memory", "in refresh", remedy)
+    document.keeper.refresh(document)
+
+
+def close(document: Document) -> None:
+    """Let go of the hull file, if there is one."""
+    if isinstance(document.keeper, HullFile):
+        document.keeper.close()

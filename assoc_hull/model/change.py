@@ -1,0 +1,316 @@
+"""What an edit changed, and no more: enough to take it back and to make it again.
+
+A journal holds every write in turn, and with them the splines of all curves that followed: a
+good thing to go back by at once, and too much to keep. A change holds the net effect. Numbers
+are kept as the exclusive or of the bits before and after, which run both ways; what is no
+number is kept as it was and as it became. Splines are not kept: they are lofted from their
+points again, which gives the same bits, since a spline is a pure function of them. Crossings
+are kept, and never computed again.
+
+Examples
+--------
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.edit.transaction import Transaction
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.model.change import change_of, run_change
+>>> from assoc_hull.model.definition import fingerprint
+>>> document = Document(wigley())
+>>> before, table = fingerprint(document.state), document.state.rows
+>>> with Transaction(document, "move") as edit:
+...     edit.write(np.array([9]), table.xyz.data[[9]] * [1.0, 1.01, 1.0], "the move")
+>>> change = change_of(document.state, document.history[-1].journal)
+>>> run_change(document.state, change, forward=False)
+>>> fingerprint(document.state) == before
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import IntArray, SplineBatch
+from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import ArrayColumn
+from assoc_hull.model.family import State
+from assoc_hull.model.places import PlacesOn, Then, places_of, put_places_of
+from assoc_hull.model.recipe import loft_curves
+from assoc_hull.model.state import HullState
+
+__all__ = ["TABLES", "Change", "change_of", "run_change", "shape_curves"]
+
+TABLES = ("groups", "lines", "curves", "rows", "settings")
+
+_PLACES = ("curves.meets", "rows.spot", "rows.parameter")
+_OWN_WAY = (*_PLACES, "curves.spline", "settings.births")
+"""Columns that are not kept as they are: places on curves, splines, and counts of births."""
+
+Births = dict[tuple[str, str], tuple[int, int]]
+
+
+@attrs.frozen(eq=False)
+class Change:
+    """The net effect of one edit on the tables.
+
+    Attributes
+    ----------
+    sizes : dict of str to (int, int)
+        Rows of each table that grew, before and after.
+    bits : dict of str to (rows, bits)
+        By ``"table.column"``: the rows (k,) that changed, and (k, bytes) uint8, the exclusive
+        or of the bytes of each row before and after.
+    objects : dict of str to (rows, old, new)
+        Columns of objects: the rows that changed, and their values before and after.
+    births : dict of (str, str) to (int, int)
+        How many crossings pairs of lines ever had, before and after.
+    moved : (curves, bits)
+        Curves (m,) along which the same crossings lie elsewhere, and (n, 32) uint8, curve by
+        curve the exclusive or of the bytes of their places, four numbers each.
+    before, after : PlacesOn
+        Curves along which other crossings lie, as they were and as they are.
+    lofted : (k,) int
+        Curves that were lofted.
+    kept : (dict, dict)
+        Splines of those of them that could not be made and kept their last good shape, before
+        and after, by curve.
+    """
+
+    sizes: dict[str, tuple[int, int]]
+    bits: dict[str, tuple[IntArray, NDArray[np.uint8]]]
+    objects: dict[str, tuple[IntArray, list[Any], list[Any]]]
+    births: Births
+    moved: tuple[IntArray, NDArray[np.uint8]]
+    before: PlacesOn
+    after: PlacesOn
+    lofted: IntArray
+    kept: tuple[dict[int, SplineBatch], dict[int, SplineBatch]]
+
+    def touched(self, table: str) -> IntArray:
+        """Give the rows of a table whose own columns changed, ascending, new rows included."""
+        old, new = self.sizes.get(table, (0, 0))
+        parts = [np.arange(old, new)]
+        parts += [rows for name, (rows, _) in self.bits.items() if _table(name) == table]
+        parts += [rows for name, (rows, _, _) in self.objects.items() if _table(name) == table]
+        return np.unique(np.concatenate(parts))
+
+    @property
+    def curves(self) -> IntArray:
+        """Curves with other places or another shape, ascending."""
+        parts = (self.moved[0], self.before.curve, self.lofted)
+        return np.unique(np.concatenate(parts))
+
+
+def _table(name: str) -> str:
+    return name.partition(".")[0]
+
+
+def _columns(state: HullState) -> Iterator[tuple[str, Any]]:
+    for table in TABLES:
+        for name, column in getattr(state, table).columns.items():
+            yield f"{table}.{name}", column
+
+
+def change_of(state: HullState, journal: Journal) -> Change:
+    """Take together what a journal did to the tables, right after it has run forward.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables, as the journal left them.
+    journal : Journal
+        All writes of one edit.
+
+    Returns
+    -------
+    Change
+    """
+    written = {id(column) for column in journal.columns()}
+    columns = {name: column for name, column in _columns(state) if id(column) in written}
+    sizes = {name: journal.sizes(getattr(state, name)) for name in TABLES}
+    bits: dict[str, tuple[IntArray, NDArray[np.uint8]]] = {}
+    objects: dict[str, tuple[IntArray, list[Any], list[Any]]] = {}
+    for name, column in columns.items():
+        if name in _OWN_WAY:
+            continue
+        net = journal.net(column)
+        if isinstance(column, ArrayColumn):
+            found = _bytes(net.old) ^ _bytes(net.new)
+            odd = found.any(axis=1)
+            if odd.any():
+                bits[name] = net.rows[odd], found[odd]
+        else:
+            chosen = [
+                i for i, (a, b) in enumerate(zip(net.old, net.new, strict=True)) if not _same(a, b)
+            ]
+            if chosen:
+                objects[name] = (
+                    net.rows[chosen], [net.old[i] for i in chosen], [net.new[i] for i in chosen]
+                )  # fmt: skip
+    moved, before, after = _places(state, journal, columns)
+    lofted, kept = _shapes(state, journal, columns)
+    return Change(
+        {name: size for name, size in sizes.items() if size[0] != size[1]}, bits, objects,
+        _births(journal, columns), moved, before, after, lofted, kept,
+    )  # fmt: skip
+
+
+def _bytes(values: NDArray[Any]) -> NDArray[np.uint8]:
+    """Give each row as bytes."""
+    flat = np.ascontiguousarray(values).reshape(len(values), -1)
+    return flat.view(np.uint8).reshape(len(values), -1)
+
+
+def _same(old: object, new: object) -> bool:
+    if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
+        return np.array_equal(old, new)
+    return old is new or bool(old == new)
+
+
+def _births(journal: Journal, columns: dict[str, Any]) -> Births:
+    if "settings.births" not in columns:
+        return {}
+    net = journal.net(columns["settings.births"])
+    old, new = net.old[0] or {}, net.new[0]
+    pairs = sorted(pair for pair in {*old, *new} if old.get(pair) != new.get(pair))
+    return {pair: (old.get(pair, 0), new.get(pair, 0)) for pair in pairs}
+
+
+def _places(
+    state: HullState, journal: Journal, columns: dict[str, Any]
+) -> tuple[tuple[IntArray, NDArray[np.uint8]], PlacesOn, PlacesOn]:
+    """Compare the places on all curves that may have others than before."""
+    then, curves = _then(state, journal, columns)
+    old, new = places_of(state, curves, then), places_of(state, curves)
+    alike = old.alike(new)
+    one, two = old.take(alike), new.take(alike)
+    still = one.still(two)
+    one, two = one.take(~still), two.take(~still)
+    apart = _bytes(one.at) ^ _bytes(two.at)
+    return (two.curve, apart), old.take(~alike), new.take(~alike)
+
+
+def _then(state: HullState, journal: Journal, columns: dict[str, Any]) -> tuple[Then, IntArray]:
+    """Give what places were taken from before, and the curves that may have others now."""
+    table, touched = state.rows, [np.zeros(0, np.int64)]
+    was = {name: getattr(table, name).data for name in ("curve", "spot", "parameter")}
+    for name, now in was.items():
+        if f"rows.{name}" not in columns:
+            continue
+        net = journal.net(columns[f"rows.{name}"])
+        was[name] = now.copy()
+        was[name][net.rows] = net.old
+        odd = (_bytes(net.old) ^ _bytes(net.new)).reshape(len(net.rows), 2, -1).any(axis=2)
+        touched += [each[net.rows][odd] for each in (table.curve.data, was["curve"])]
+    meets = {}
+    if "curves.meets" in columns:
+        net = journal.net(columns["curves.meets"])
+        meets = dict(zip(net.rows.tolist(), net.old, strict=True))
+        touched.append(net.rows)
+    curves = np.unique(np.concatenate(touched))
+    then = Then(meets, was["curve"], was["spot"], was["parameter"])
+    return then, curves[curves >= 0]
+
+
+def _shapes(
+    state: HullState, journal: Journal, columns: dict[str, Any]
+) -> tuple[IntArray, tuple[dict[int, SplineBatch], dict[int, SplineBatch]]]:
+    """Give the curves that were lofted, and the splines that are no loft of their points."""
+    if "curves.spline" not in columns:
+        return np.zeros(0, np.int64), ({}, {})
+    net, now = journal.net(columns["curves.spline"]), state.curves.state.data
+    was = now.copy()
+    if "curves.state" in columns:
+        states = journal.net(columns["curves.state"])
+        was[states.rows] = states.old
+    kept = tuple(
+        {
+            row: spline
+            for row, spline in zip(net.rows.tolist(), splines, strict=True)
+            if codes[row] != State.CLEAN and spline is not None
+        }
+        for codes, splines in ((was, net.old), (now, net.new))
+    )
+    return net.rows, (kept[0], kept[1])
+
+
+def run_change(state: HullState, change: Change, *, forward: bool) -> None:
+    """Run a change forward or backward over the tables that it was taken from.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables, as they were before the edit (forward), or after it.
+    change : Change
+        The change.
+    forward : bool
+        Make the edit, or take it back.
+    """
+    if forward:
+        _resize(state, change, 1)
+    alive = state.curves.alive.data.copy()
+    columns = dict(_columns(state))
+    for name, (rows, bits) in change.bits.items():
+        _flip(columns[name], rows, bits)
+    for name, (rows, old, new) in change.objects.items():
+        for row, value in zip(rows.tolist(), new if forward else old, strict=True):
+            columns[name].data[row] = value
+    if change.births:
+        state.settings.births.data[0] = _counted(state, change.births, forward)
+    _move(state, change.moved)
+    put_places_of(state, change.after if forward else change.before)
+    revived = np.flatnonzero(state.curves.alive.data & ~alive)
+    if not forward:
+        _resize(state, change, 0)
+    curves = np.union1d(change.lofted, revived)
+    shape_curves(state, curves[curves < state.curves.count], change.kept[forward])
+
+
+def _resize(state: HullState, change: Change, which: int) -> None:
+    for name, sizes in change.sizes.items():
+        getattr(state, name).resize(sizes[which])
+
+
+def _flip(column: ArrayColumn, rows: IntArray, bits: NDArray[np.uint8]) -> None:
+    values = column.store.take(rows, axis=0)
+    flipped = _bytes(values) ^ bits
+    column.store[rows] = flipped.view(column.store.dtype).reshape(values.shape)
+    column.writes += 1
+
+
+def _counted(state: HullState, births: Births, forward: bool) -> dict[tuple[str, str], int]:
+    found = {**state.births, **{pair: counts[forward] for pair, counts in births.items()}}
+    return {pair: count for pair, count in found.items() if count}
+
+
+def _move(state: HullState, moved: tuple[IntArray, NDArray[np.uint8]]) -> None:
+    curves, bits = moved
+    if len(curves):
+        now = places_of(state, curves)
+        at = (_bytes(now.at) ^ bits).view(np.float64)
+        put_places_of(state, attrs.evolve(now, at=at))
+
+
+def shape_curves(state: HullState, curves: IntArray, kept: dict[int, SplineBatch]) -> None:
+    """Give curves their splines: lofted from their points, or as they were kept.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    curves : (k,) int
+        The curves; dead ones are left as they are.
+    kept : dict of int to SplineBatch
+        The splines of curves that could not be made.
+    """
+    chosen = state.curves.alive.data[curves] & (state.curves.state.data[curves] == State.CLEAN)
+    made = curves[chosen]
+    if len(made):
+        batch = loft_curves(state, made)
+        for curve, spline in zip(made.tolist(), batch.single(), strict=True):
+            state.curves.spline.data[curve] = spline
+    for curve, spline in kept.items():
+        state.curves.spline.data[curve] = spline
