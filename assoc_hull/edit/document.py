@@ -148,7 +148,7 @@ class Document:
         self._closed("go")
         return self.go_to(self.labelled(name))
 
-    def labelled(self, name: str) -> int:
+    def labelled(self, name: object) -> int:
         """Give the number of the step that a name stands for.
 
         Raises
