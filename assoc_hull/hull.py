@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.check_hull import Finding
     from assoc_hull.edit.explain import Thing, Why
     from assoc_hull.edit.preview import Preview
+    from assoc_hull.edit.view import OnlyName
     from assoc_hull.io.slice_places import Places
     from assoc_hull.model.verify import Difference
 
@@ -224,14 +225,14 @@ class Hull:
         around: Thing | str | None = None,
         up: int = 1,
         down: int = 1,
-        two_way: bool = False,
+        only: OnlyName | None = None,
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
         from assoc_hull.edit.view import graph_of
 
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
-        return graph_of(self.document, around, hops, flag(two_way, "two_way", "in graph"), edit)
+        return graph_of(self.document, around, hops, only, edit)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
         """Give who drives whom now; see `assoc_hull.model.view.dependencies`."""

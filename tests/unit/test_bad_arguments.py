@@ -59,7 +59,7 @@ HULL: dict[str, Given] = {
     "why": {"thing": POINT},
     "check": {"notes": False},
     "verify": {"relative": 0.0},
-    "graph": {"around": POINT, "up": 1, "down": 1, "two_way": False, "edit": None},
+    "graph": {"around": POINT, "up": 1, "down": 1, "only": "two-way", "edit": None},
     "dependencies": {"points": False},
     "half_breadth": {"x": 40.0, "z": 2.5},
     "save": {"path": "no-such-folder/a.hull.json"},
