@@ -142,7 +142,13 @@ class Hull:
         return self._open
 
     def preview(
-        self, edits: Changes, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
+        self,
+        edits: Changes,
+        policy: PolicyName = "all_or_nothing",
+        gaps: GapsName = "refuse",
+        *,
+        name: str = "preview",
+        why: Sequence[Thing | str] = (),
     ) -> Preview:
         """Run edits, publish nothing, and tell what they would do.
 
@@ -152,16 +158,18 @@ class Hull:
             Called with the edit; or ``{"op": "move", "point": ..., "y": ...}`` and so on.
         policy, gaps
             As for `edit`.
+        name, why : str, sequence of objects or addresses
+            Name of the edit, for its report; of what to tell why it would change.
 
         Returns
         -------
         Preview
-            The report, or why it would be refused; the change of volume and LCB.
+            The report, or why it would be refused; lines that would change; volume and LCB.
         """
         from assoc_hull.edit.preview import preview
 
         return preview(
-            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
+            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name, why
         )
 
     def apply(self, name: str, edits: Changes | None = None) -> EditReport | None:

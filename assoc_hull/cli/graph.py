@@ -28,7 +28,7 @@ def add(commands: Commands) -> None:
     )  # fmt: skip
     add_hull(parser)
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--format", choices=_FORMATS, default="dot", help="default: dot")
+    form.add_argument("--format", choices=_FORMATS, help="default: dot")
     form.add_argument(
         "--json", dest="format", action="store_const", const="json", help="as --format json"
     )
@@ -78,14 +78,25 @@ def _graph(arguments: argparse.Namespace) -> int:
         found = hull.graph(
             around=arguments.around, up=up, down=down, only=arguments.only, edit=arguments.edit
         )
-        text = export(found, arguments.format)
+        text = export(found, arguments.format or _FORMATS[0])
     if not len(found):
         print("nothing passes these filters: the graph is empty", file=sys.stderr)
     if arguments.out is None:
-        print(text, end="")
+        _print(text)
     else:
         arguments.out.write_text(text, "utf-8")
     return 0
+
+
+def _print(text: str) -> None:
+    """Print UTF-8, as the forms demand, whatever the terminal prefers."""
+    bare = getattr(sys.stdout, "buffer", None)
+    if bare is None:
+        print(text, end="")
+        return
+    sys.stdout.flush()
+    bare.write(text.encode())
+    bare.flush()
 
 
 def _hops(arguments: argparse.Namespace) -> tuple[int, int]:

@@ -15,7 +15,7 @@ import numpy as np
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.quiet import Quiet
-from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.report import EditReport, Step
 from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -40,7 +40,8 @@ class Transaction:
     settings : Settings
         Policy and treatment of gaps.
     look : callable or None
-        For a preview: called when the update has run; then everything is taken back.
+        For a preview: called with the step, or None if nothing changed, when the update has
+        run; then everything is taken back.
     """
 
     def __init__(
@@ -48,7 +49,7 @@ class Transaction:
         document: Document,
         name: str,
         settings: Settings | None = None,
-        look: Callable[[], None] | None = None,
+        look: Callable[[Step | None], None] | None = None,
     ) -> None:
         self.document = document
         self.name = name
@@ -57,6 +58,7 @@ class Transaction:
         self.journal = Journal()
         self.pending = Pending()
         self.report: EditReport | None = None
+        self._step: Step | None = None
         self._depth = 0
         self._broken = False
         self._quiet = Quiet()
@@ -166,7 +168,7 @@ class Transaction:
             raise
         if self.look is not None:
             try:
-                self.look()
+                self.look(self._step)
             finally:
                 self._restore()
 
@@ -185,6 +187,8 @@ class Transaction:
         step = update(self.document, self.name, self.journal, self.pending, self.settings)
         if self.look is None:
             self.document.commit(step)
+        else:
+            self._step = step
         return step.report
 
     def _restore(self) -> None:

@@ -51,7 +51,9 @@ HULL: dict[str, Given] = {
         "associations": [], "tolerances": None,
     },
     "edit": {"name": "a", "policy": "all_or_nothing", "gaps": "refuse"},
-    "preview": {"edits": [], "policy": "all_or_nothing", "gaps": "refuse"},
+    "preview": {
+        "edits": [], "policy": "all_or_nothing", "gaps": "refuse", "name": "a", "why": [POINT],
+    },
     "apply": {"name": "a", "edits": []},
     "undo": {"n": 0},
     "redo": {"n": 0},
