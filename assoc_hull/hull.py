@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.keeper import Label
     from assoc_hull.edit.preview import Preview
     from assoc_hull.edit.replay import Replayed
+    from assoc_hull.edit.view import OnlyName
     from assoc_hull.io.saving import Saved
     from assoc_hull.model.verify import Difference
 
@@ -157,7 +158,13 @@ class Hull:
         return self._open
 
     def preview(
-        self, edits: Changes, policy: PolicyName = "all_or_nothing", gaps: GapsName = "refuse"
+        self,
+        edits: Changes,
+        policy: PolicyName = "all_or_nothing",
+        gaps: GapsName = "refuse",
+        *,
+        name: str = "preview",
+        why: Sequence[Thing | str] = (),
     ) -> Preview:
         """Run edits, publish nothing, and tell what they would do.
 
@@ -167,16 +174,18 @@ class Hull:
             Called with the edit; or ``{"op": "move", "point": ..., "y": ...}`` and so on.
         policy, gaps
             As for `edit`.
+        name, why : str, sequence of objects or addresses
+            Name of the edit, for its report; of what to tell why it would change.
 
         Returns
         -------
         Preview
-            The report, or why it would be refused; the change of volume and LCB.
+            The report, or why it would be refused; lines that would change; volume and LCB.
         """
         from assoc_hull.edit.preview import preview
 
         return preview(
-            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps)
+            self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name, why
         )
 
     def apply(self, name: str, edits: Changes | None = None) -> EditReport | None:
@@ -273,14 +282,14 @@ class Hull:
         around: Thing | str | None = None,
         up: int = 1,
         down: int = 1,
-        two_way: bool = False,
+        only: OnlyName | None = None,
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
         """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
         from assoc_hull.edit.view import graph_of
 
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
-        return graph_of(self.document, around, hops, flag(two_way, "two_way", "in graph"), edit)
+        return graph_of(self.document, around, hops, only, edit)
 
     def dependencies(self, points: bool = False) -> networkx.DiGraph[str]:
         """Give who drives whom now; see `assoc_hull.model.view.dependencies`."""

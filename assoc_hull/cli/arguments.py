@@ -43,6 +43,6 @@ def add_hull(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("hull", metavar="HULL", type=Path, help="a .hull.json file")
 
 
-def add_json(parser: argparse.ArgumentParser) -> None:
+def add_json(parser: argparse._ActionsContainer) -> None:
     """Add the wish for one JSON document on standard output."""
     parser.add_argument("--json", action="store_true", help="print one JSON document")

@@ -12,14 +12,15 @@ from typing import Any, NoReturn
 
 from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.preview_words import preview_words
 from assoc_hull.cli.problems import InFileError, check_target
+from assoc_hull.cli.why import why_words
 from assoc_hull.cli.words import edit_words
-from assoc_hull.edit.explain import Why
+from assoc_hull.edit.cause import Why
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import AssocHullError, BadInputError, RefusedEditError
-from assoc_hull.hull import Hull
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -50,36 +51,62 @@ def add(commands: Commands) -> None:
         "--why", metavar="OBJECT", action="append", default=[],
         help="tell why this object changed; may be given more than once",
     )  # fmt: skip
-    parser.add_argument("--dry-run", action="store_true", help="report, and write nothing")
+    parser.add_argument(
+        "--dry-run",
+        action="store_true",
+        help="tell what would change, by how much and where; write nothing",
+    )
     add_json(parser)
 
 
 def _edit(arguments: argparse.Namespace) -> int:
-    target: Path = arguments.out or arguments.hull
-    if not arguments.dry_run:
-        check_target(target, HULL_ENDINGS)
     changes = _read(arguments.edits)
-    hull = open_hull(arguments.hull)
     name = arguments.name or arguments.edits.stem
     try:
-        with progress("updating"):
-            report = _carry_out(hull, name, changes, arguments.edits)
+        if arguments.dry_run:
+            return _try(arguments, name, changes)
+        return _carry_out(arguments, name, changes)
     except RefusedEditError as error:
-        return _refused(arguments, error)
+        return _refused(arguments, error.edit, error.findings)
+
+
+def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
+    """Edit the hull and write it."""
+    target: Path = arguments.out or arguments.hull
+    check_target(target, HULL_ENDINGS)
+    hull = open_hull(arguments.hull)
+    with progress("updating"), _values_of(str(arguments.edits)), hull.edit(name) as edit:
+        _modify_all(edit, changes, arguments.edits)
+    assert edit.report is not None, "an edit without an error has a report"
     causes = {each: hull.why(each) for each in arguments.why}
-    if not arguments.dry_run:
-        hull.save(target)
-    _tell(arguments, hull, report, causes, None if arguments.dry_run else target)
+    hull.save(target)
+    facts = _facts(edit.report, causes, hull.fingerprint, target)
+    told = [edit_words(hull, edit.report), *why_words(causes), f"written: {target}"]
+    emit(arguments, facts, "\n".join([name, *told]))
     return 0
 
 
-def _carry_out(hull: Hull, name: str, changes: Changes, file: Path) -> EditReport:
-    with _values_of(str(file)), hull.edit(name) as edit:
-        for number, change in enumerate(changes, start=1):
-            with _values_of(f"{file}, modification {number}"):
-                _modify(edit, change, f"{file}, modification {number}")
-    assert edit.report is not None, "an edit without an error has a report"
-    return edit.report
+def _try(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
+    """Tell what the edit would do; nothing is written."""
+    hull = open_hull(arguments.hull)
+    with progress("updating"), _values_of(str(arguments.edits)):
+        found = hull.preview(
+            lambda edit: _modify_all(edit, changes, arguments.edits), name=name, why=arguments.why
+        )
+    if found.report is None:
+        return _refused(arguments, name, found.refused)
+    facts = _facts(found.report, found.why, found.fingerprint, None) | {
+        "lines": found.lines, "volume_change": found.volume_change, "lcb_change": found.lcb_change,
+    }  # fmt: skip
+    told = [*preview_words(hull, found), *why_words(found.why), "nothing written"]
+    emit(arguments, facts, "\n".join([name, *told]))
+    return 0
+
+
+def _modify_all(edit: Edit, changes: Changes, file: Path) -> None:
+    for number, change in enumerate(changes, start=1):
+        with _values_of(f"{file}, modification {number}"):
+            _modify(edit, change, f"{file}, modification {number}")
 
 
 def _modify(edit: Edit, change: Mapping[str, Any], place: str) -> None:
@@ -102,33 +129,26 @@ def _values_of(place: str) -> Iterator[None]:
         raise BadInputError(what, f"in {place}", "mend them") from error
 
 
-def _refused(arguments: argparse.Namespace, error: RefusedEditError) -> int:
-    facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
-    emit(arguments, facts, "\n".join(error.findings))
-    count = len(error.findings)
+def _refused(arguments: argparse.Namespace, name: str, findings: Sequence[str]) -> int:
+    facts = {"refused": True, "edit": name, "findings": findings, "saved": None}
+    emit(arguments, facts, "\n".join(findings))
+    what = "would be refused" if arguments.dry_run else "refused"
+    count = len(findings)
     print(
-        f"refused: edit {error.edit!r}, {count} finding{'s' if count > 1 else ''}; "
-        "the hull is unchanged",
+        f"{what}: edit {name!r}, {count} finding{'s' if count > 1 else ''}; the hull is unchanged",
         file=sys.stderr,
     )
     return 1
 
 
-def _tell(
-    arguments: argparse.Namespace,
-    hull: Hull,
-    report: EditReport,
-    causes: dict[str, Why],
-    saved: Path | None,
-) -> None:
-    facts = {
+def _facts(
+    report: EditReport, causes: Mapping[str, Why], fingerprint: str | None, saved: Path | None
+) -> dict[str, Any]:
+    return {
         "refused": False, "edit": report.name,
         "report": report, "inflections": report.inflections, "why": causes,
-        "fingerprint": hull.fingerprint, "saved": saved,
+        "fingerprint": fingerprint, "saved": saved,
     }  # fmt: skip
-    written = "nothing written" if saved is None else f"written: {saved}"
-    told = [f"why {name}\n{cause}" for name, cause in causes.items()]
-    emit(arguments, facts, "\n".join([report.name, edit_words(hull, report), *told, written]))
 
 
 def _read(path: Path) -> Changes:

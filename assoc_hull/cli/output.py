@@ -18,7 +18,7 @@ import numpy as np
 from assoc_hull.edit.explain import Why
 from assoc_hull.io.progress import Tell, silent
 
-__all__ = ["emit", "plain", "progress", "progress_bar", "why_document"]
+__all__ = ["can_print", "emit", "plain", "progress", "progress_bar", "say", "why_document"]
 
 _PATIENCE = 1.0
 """Seconds after which a person is told what takes so long."""
@@ -26,7 +26,22 @@ _PATIENCE = 1.0
 
 def emit(arguments: argparse.Namespace, document: Mapping[str, Any], text: str) -> None:
     """Print the document if JSON was asked for, else the text."""
-    print(json.dumps(plain(document), indent=1, allow_nan=False) if arguments.json else text)
+    say(json.dumps(plain(document), indent=1, allow_nan=False) if arguments.json else text)
+
+
+def say(text: str) -> None:
+    """Print on standard output; characters that it cannot take become their numbers."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    print(text.encode(encoding, "backslashreplace").decode(encoding))
+
+
+def can_print(marks: str) -> bool:
+    """Tell whether standard output can take some characters."""
+    try:
+        marks.encode(getattr(sys.stdout, "encoding", None) or "utf-8")
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def plain(value: Any) -> Any:

@@ -25,6 +25,7 @@ __all__ = [
     "hull_facts",
     "hull_words",
     "largest_gap",
+    "lists",
     "slice_words",
     "wrapped",
 ]
@@ -176,7 +177,7 @@ def edit_words(hull: Hull, report: EditReport, indent: str = "  ") -> str:
         *_moved(hull, report, indent),
         f"{indent}largest gap  {1e3 * report.largest_gap:.2f} mm; "
         f"{sum(count for _, count in report.inflections)} new inflections",
-        *_lists(report, indent),
+        *lists(report, indent),
     ]
     return "\n".join(lines)
 
@@ -193,7 +194,7 @@ def _moved(hull: Hull, report: EditReport, indent: str) -> Iterator[str]:
     )
 
 
-def _lists(report: EditReport, indent: str) -> Iterator[str]:
+def lists(report: EditReport, indent: str) -> Iterator[str]:
     """Name what appeared, vanished, was mended or could not be made."""
     for title in ("born", "gone", "mended", "failed", "blocked", "notes"):
         names: Sequence[str] = getattr(report, title)

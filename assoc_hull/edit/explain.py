@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 
-import attrs
 import numpy as np
 
 from assoc_hull.arguments import shown
+from assoc_hull.edit.cause import Why
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
@@ -17,10 +17,7 @@ from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.state import HullState
 
-__all__ = ["Thing", "Why", "node_of", "why"]
-
-_TOLD = 4
-"""So many of the places where a change stopped are named in the text."""
+__all__ = ["Thing", "Why", "node_of", "why", "why_after"]
 
 Thing = Group | Line | Curve | Point | Crossing
 
@@ -34,100 +31,47 @@ _BLOCKED = "not evaluated: something it is made from has failed"
 _FAILED = "could not be made: it keeps its last good shape"
 
 
-@attrs.frozen
-class Why:
-    """The causes of the last change of one object, a tree.
-
-    Attributes
-    ----------
-    object, name : str
-        Key and address of the object.
-    edit : str or None
-        Name of the edit; None if none has reached the object.
-    step : int
-        Number of the edit in the history, from 1; 0 if none.
-    moved : float or None, m
-        By how much the object changed; None where the edit itself set it, or nothing is
-        known.
-    what : str
-        What happened to it.
-    causes : tuple of Why
-        The objects whose change made this one be evaluated, the one that moved most first.
-    stopped : tuple of str
-        Where it stopped: objects made from this one that came out as they were.
-    """
-
-    object: str
-    name: str
-    edit: str | None
-    step: int
-    moved: float | None
-    what: str
-    causes: tuple[Why, ...] = ()
-    stopped: tuple[str, ...] = ()
-
-    def chain(self) -> list[str]:
-        """Give the keys from the object back to the edit, by the causes that moved most."""
-        found = [self.object]
-        link = self
-        while link.causes:
-            link = link.causes[0]
-            found.append(link.object)
-        return found
-
-    def __str__(self) -> str:
-        head = [] if self.edit is None else [f"edit {self.step}, {self.edit!r}:"]
-        return "\n".join([*head, *self._lines(0, set())])
-
-    def _lines(self, depth: int, told: set[str]) -> Iterator[str]:
-        indent = "  " * depth
-        amount = "" if self.moved is None else f", moved {1e3 * self.moved:.3f} mm"
-        again = self.object in told and bool(self.causes)
-        yield f"{indent}{self.name}: {self.what}{amount}" + (" (see above)" if again else "")
-        if again:
-            return
-        told.add(self.object)
-        if self.stopped:
-            more = f" and {len(self.stopped) - _TOLD} more" if len(self.stopped) > _TOLD else ""
-            named = ", ".join(self.stopped[:_TOLD])
-            yield f"{indent}  stopped at {named}{more}: same bits as before"
-        for cause in self.causes:
-            yield from cause._lines(depth + 1, told)
-
-
 def why(document: Document, node: int) -> Why:
     """Explain the last change of a node.
 
     Parameters
     ----------
     document : Document
-        The hull with its history.
+    The hull with its history.
     node : int
-        Twice the row of a point, or twice the number of a curve and one.
+    Twice the row of a point, or twice the number of a curve and one.
 
     Returns
     -------
     Why
-        The last committed edit that changed or evaluated the node, and the causes back to
-        what the designer set. A watched crossing has no value of its own: its causes are
-        its curves.
+    The last committed edit that changed or evaluated the node, and the causes back to
+    what the designer set. A watched crossing has no value of its own: its causes are
+    its curves.
 
     Examples
     --------
-    >>> from assoc_hull.edit.document import Document
+    from assoc_hull.edit.document import Document
     >>> from assoc_hull.edit.explain import why
     >>> from assoc_hull.examples.wigley import wigley
     >>> print(why(Document(wigley()), 0))
     ST 1 x profile: as it was made: no edit has reached it
     """
-    book = AddressBook(document.state)
-    if _is_watched(document.state, node):
-        return _watched(document, book, node)
-    for number in range(len(document.history), 0, -1):
-        teller = _Teller(document.state, book, document.history[number - 1], number)
+    return why_after(document.state, document.history, node)
+
+
+def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:
+    """Explain the last change of a node by steps that led to the state, oldest first.
+
+    For a look at an edit that is not in the history; otherwise as `why`.
+    """
+    book = AddressBook(state)
+    if _is_watched(state, node):
+        return _watched(state, steps, book, node)
+    for number in range(len(steps), 0, -1):
+        teller = _Teller(state, book, steps[number - 1], number)
         if teller.tracer.knows(node):
             return teller.tell(teller.tracer.trace(node))
-    return Why(_key(document.state, node), _name(book, node), None, 0, None, _still(document, node))
+    return Why(_key(state, node), _name(book, node), None, 0, None, _still(state, node))
 
 
 def node_of(state: HullState, thing: Thing | str) -> int:
@@ -176,13 +120,13 @@ def _is_watched(state: HullState, node: int) -> bool:
     return bool(crossing and state.rows.role.data[row] == Role.WATCHED)
 
 
-def _watched(document: Document, book: AddressBook, node: int) -> Why:
-    curves = document.state.rows.curve.data[node >> 1].tolist()
-    causes = [why(document, 2 * curve + 1) for curve in curves]
+def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: int) -> Why:
+    curves = state.rows.curve.data[node >> 1].tolist()
+    causes = [why_after(state, steps, 2 * curve + 1) for curve in curves]
     causes.sort(key=lambda each: -each.step)
     last = causes[0]
     return Why(
-        _key(document.state, node), _name(book, node), last.edit, last.step, None,
+        _key(state, node), _name(book, node), last.edit, last.step, None,
         "watched, it lies where its curves pass", tuple(causes),
     )  # fmt: skip
 
@@ -200,8 +144,8 @@ def _name(book: AddressBook, node: int) -> str:
     return book.address(node >> 1)
 
 
-def _still(document: Document, node: int) -> str:
-    return {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}.get(_state(document.state, node), _MADE)
+def _still(state: HullState, node: int) -> str:
+    return {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}.get(_state(state, node), _MADE)
 
 
 def _state(state: HullState, node: int) -> State:

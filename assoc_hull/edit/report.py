@@ -105,8 +105,10 @@ class EditReport:
         Who made the edit.
     time : str
         When it was committed, ISO 8601, UTC.
-    fairness : Fairness or tuple or None
-        What `inflections` counts, or gives where it has been counted already.
+    fairness : Fairness or None
+        What `inflections` counts; None where it is `counted` already.
+    counted : tuple of (str, int)
+        What was counted.
     """
 
     name: str
@@ -124,7 +126,8 @@ class EditReport:
     carried: tuple[str, ...] = ()
     cut_again: tuple[str, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
-    fairness: Fairness | Inflections | None = attrs.field(default=None, eq=False, repr=False)
+    fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
+    counted: Inflections = attrs.field(default=(), eq=False, repr=False)
     changed: bool = True
     number: int = attrs.field(default=0, eq=False)
     author: str = attrs.field(default="", eq=False)
@@ -133,9 +136,7 @@ class EditReport:
     @property
     def inflections(self) -> tuple[tuple[str, int], ...]:
         """Curves with more curvature sign changes than before, and how many more."""
-        if isinstance(self.fairness, Fairness):
-            return self.fairness.added()
-        return self.fairness or ()
+        return self.counted if self.fairness is None else self.fairness.added()
 
     def __str__(self) -> str:
         if not self.changed:

@@ -32,6 +32,7 @@ from assoc_hull.edit.mapping import Jacobian, Mapping, space_map
 from assoc_hull.edit.pending import Settings
 from assoc_hull.edit.record import recorded
 from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
@@ -58,7 +59,8 @@ class Edit:
     settings : Settings
         Policy and treatment of gaps.
     look : callable or None
-        For a preview: called when the update has run, before everything is taken back.
+        For a preview: called with the step, or None if nothing changed, when the update has
+        run, before everything is taken back.
     """
 
     def __init__(
@@ -66,7 +68,7 @@ class Edit:
         document: Document,
         name: str,
         settings: Settings | None = None,
-        look: Callable[[], None] | None = None,
+        look: Callable[[Step | None], None] | None = None,
     ) -> None:
         self._held = Transaction(document, name, settings, look)
 

@@ -17,6 +17,7 @@ from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.quiet import Quiet
 from assoc_hull.edit.record import Script
 from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -41,7 +42,8 @@ class Transaction:
     settings : Settings
         Policy and treatment of gaps.
     look : callable or None
-        For a preview: called when the update has run; then everything is taken back.
+        For a preview: called with the step, or None if nothing changed, when the update has
+        run; then everything is taken back.
     """
 
     def __init__(
@@ -49,7 +51,7 @@ class Transaction:
         document: Document,
         name: str,
         settings: Settings | None = None,
-        look: Callable[[], None] | None = None,
+        look: Callable[[Step | None], None] | None = None,
     ) -> None:
         self.document = document
         self.name = name
@@ -59,6 +61,7 @@ class Transaction:
         self.pending = Pending()
         self.script: list[dict[str, Any]] = []
         self.report: EditReport | None = None
+        self._step: Step | None = None
         self._depth = 0
         self._broken = False
         self._quiet = Quiet()
@@ -172,7 +175,7 @@ class Transaction:
             raise
         if self.look is not None:
             try:
-                self.look()
+                self.look(self._step)
             finally:
                 self._restore()
 
@@ -192,6 +195,8 @@ class Transaction:
         if self.look is None:
             step.script = Script.of(self.script, self.settings)
             self.document.commit(step)
+        else:
+            self._step = step
         return step.report
 
     def _restore(self) -> None:

@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
 
-from assoc_hull.arguments import integer, shown
+from assoc_hull.arguments import choice, integer, shown
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain import Thing
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph import view as filters
-from assoc_hull.model.handles import Point, handle
+from assoc_hull.model.handles import Crossing, Line, Point, handle
 from assoc_hull.model.state import HullState
 from assoc_hull.model.view import graph, point_id
 
 if TYPE_CHECKING:
     import networkx
 
-__all__ = ["changed_by", "graph_of"]
+__all__ = ["ONLY", "OnlyName", "changed_by", "graph_of"]
+
+OnlyName = Literal["two-way", "one-way", "latent", "changed"]
+ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed")
 
 
 def graph_of(
     document: Document,
     around: Thing | str | None = None,
     hops: tuple[int, int] = (1, 1),
-    two_way: bool = False,
+    only: OnlyName | None = None,
     edit: int | None = None,
 ) -> networkx.MultiDiGraph[str]:
     """Give objects and links as a graph, see `assoc_hull.model.view.graph`, or a part of it.
@@ -32,14 +36,27 @@ def graph_of(
     ----------
     document : Document
         The hull with its history.
-    around : object, address or None
-        Only what lies within some hops of this object.
+    around : object, address, node or None
+        Only what lies within some hops of this object; of a line, of its curves too.
     hops : (int, int)
-        Most hops against and along the links.
-    two_way : bool
-        Only pairs of curves each of which generates, or may generate, on the other.
+        Most hops against and along the links, counted in the whole graph.
+    only : {"two-way", "one-way", "latent", "changed"} or None
+        Links of this kind and what they join: curves (and groups) each of which generates,
+        or may generate, on the other; those of which only one does; curves that may come to
+        meet and do not; or what an edit changed.
     edit : int or None
-        Only what this edit changed: 1 is the first, -1 the last.
+        Only what this edit changed: 1 is the first, -1 the last. None with "changed" means
+        the last.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+        What passes every filter that was given.
+
+    Raises
+    ------
+    UnknownNameError, ForeignPointError, WrongTypeError, BadInputError
+        No such object, filter or edit.
 
     Examples
     --------
@@ -49,40 +66,54 @@ def graph_of(
     >>> sorted(graph_of(Document(wigley()), "WL 2.5 x ST 7", (0, 1)).nodes)[-1]
     'waterlines:2.500000/1'
     """
+    if only is not None:
+        choice(only, "only", ONLY, "in graph")
+    number = -1 if only == "changed" and edit is None else edit
+    changed = None if number is None else changed_by(document, number)
     found = graph(document.state)
+    kept = set(found)
     if around is not None:
-        found = filters.around(found, _node(document.state, around), *hops)
-    if two_way:
-        found = _two_way(found)
-    return found if edit is None else filters.only(found, changed_by(document, edit))
+        kept &= filters.near(found, _nodes(document.state, around, found), *hops)
+    if changed is not None:
+        kept &= changed
+    if only in ("two-way", "one-way", "latent"):
+        found = _linked(found, only)
+    return filters.only(found, kept) if len(kept) < len(found) else found
 
 
-def _two_way(found: networkx.MultiDiGraph[str]) -> networkx.MultiDiGraph[str]:
-    """Keep crossings whose two points were both generated, and latent pairs, with their curves."""
-    touches = [each for each in found.edges(data=True) if each[2]["kind"] == "touch actual"]
-    made = {head for _, head, _ in touches}
-    friends = filters.two_way(found, "friend")
-    points = {node for node in friends if node in made and made.issuperset(friends[node])}
-    curves = {tail for tail, head, _ in touches if head in points}
-    latent = filters.two_way(found, "touch latent")
-    kept = filters.only(found, points | curves | set(latent))
-    one_way = [
-        (tail, head, key)
-        for tail, head, key, data in kept.edges(keys=True, data=True)
-        if data["kind"] == "touch latent" and not latent.has_edge(tail, head)
-    ]
-    kept.remove_edges_from(one_way)
-    return kept
+def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.MultiDiGraph[str]:
+    """Keep links of one kind, what they join, and for crossings both curves and friends."""
+
+    def chosen(data: Mapping[str, Any]) -> bool:
+        return data["kind"] == "touch latent" if kind == "latent" else data.get("way") == kind
+
+    def kept(data: Mapping[str, Any]) -> bool:
+        return "way" not in data or chosen(data)
+
+    nodes = set[str]()
+    for tail, head, data in found.edges(data=True):
+        if chosen(data):
+            nodes |= {tail, head}
+            if data["kind"] == "touch actual":
+                nodes.update(found.successors(head))
+    return filters.only(found, nodes, kept)
 
 
-def _node(state: HullState, thing: Thing | str) -> str:
-    found = handle(state, thing) if isinstance(thing, str) else thing
-    if not isinstance(found, Thing):
-        what = f"the object is {shown(found)}"
+def _nodes(state: HullState, thing: Thing | str, found: networkx.MultiDiGraph[str]) -> list[str]:
+    """Give the nodes of an object; a line lies no nearer to its curves than they themselves."""
+    if isinstance(thing, str) and thing in found and found.nodes[thing]["kind"] == "point":
+        return [thing]
+    given = handle(state, thing) if isinstance(thing, str) else thing
+    if not isinstance(given, Thing):
+        what = f"the object is {shown(given)}"
         raise WrongTypeError(what, "in graph", "give a handle or an address")
-    if found.tables is not state:
-        raise ForeignPointError(f"{type(found).__name__.lower()} {found.id!r}")
-    return point_id(state, found.row, found.side) if isinstance(found, Point) else found.id
+    if given.tables is not state:
+        raise ForeignPointError(f"{type(given).__name__.lower()} {given.id!r}")
+    if isinstance(given, Crossing):
+        return [point_id(state, given.row, side) for side in (0, 1)]
+    if isinstance(given, Point):
+        return [point_id(state, given.row, given.side)]
+    return [given.id, *(each.id for each in (given.curves if isinstance(given, Line) else ()))]
 
 
 def changed_by(document: Document, number: int) -> frozenset[str]:
@@ -113,14 +144,15 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     >>> changed_by(Document(wigley()), 1)
     Traceback (most recent call last):
     ...
-    assoc_hull.errors.BadInputError: edit 1 was asked, in a history of 0; give a number from 1
+    assoc_hull.errors.BadInputError: edit 1 was asked, in a history of 0; make an edit first
     """
     count = len(document.history)
     integer(number, "edit", "in graph", least=-(10**6))
     if not (1 <= number <= count or -count <= number <= -1):
         raise BadInputError(
-            f"edit {number} was asked", f"in a history of {count}", "give a number from 1"
-        )
+            f"edit {number} was asked", f"in a history of {count}",
+            f"give a number from 1 to {count}" if count else "make an edit first",
+        )  # fmt: skip
     step = document.history[number - 1 if number > 0 else number]
     state = document.state
     curves = {str(state.curves.key.data[curve]) for curve in step.curves.tolist()}

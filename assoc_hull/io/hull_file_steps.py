@@ -87,7 +87,7 @@ def script_from(text: str) -> Script:
 
 def report_text(report: EditReport) -> str:
     """Give a report as JSON; lengths in m, times in s."""
-    said = attrs.asdict(report, filter=lambda field, _: field.name != "fairness")
+    said = attrs.asdict(report, filter=lambda field, _: field.name not in ("fairness", "counted"))
     return json.dumps({**said, "inflections": report.inflections}, separators=(",", ":"))
 
 
@@ -107,7 +107,7 @@ def report_from(text: str) -> EditReport:
     plain: dict[str, Any] = {
         name: tuple(x) if isinstance(x, list) else x for name, x in said.items()
     }
-    return EditReport(**plain, largest=largest, fairness=counted)
+    return EditReport(**plain, largest=largest, counted=counted)
 
 
 def steps_of(

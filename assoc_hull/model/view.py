@@ -7,9 +7,11 @@ friend, and the objects a curve touches, actually or latently.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from assoc_hull.model.address import AddressBook
+from assoc_hull.model.canonical import Places, places
 from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.place import defines, generates_on, latent_curves
 from assoc_hull.model.state import HullState
@@ -17,7 +19,11 @@ from assoc_hull.model.state import HullState
 if TYPE_CHECKING:
     import networkx
 
-__all__ = ["dependencies", "graph", "point_id"]
+__all__ = ["ONE_WAY", "TWO_WAY", "dependencies", "graph", "point_id"]
+
+Reach = Mapping[int, frozenset[int]]
+
+ONE_WAY, TWO_WAY = "one-way", "two-way"
 
 
 def point_id(state: HullState, row: int, side: int) -> str:
@@ -50,6 +56,9 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
         - ``touch latent``: from a curve to one it may come to meet;
         - ``association``: from a group to one on which it generates.
 
+        Touches and associations have a ``way``: two-way where the other side generates
+        back, else one-way. Nodes and edges come in the order of the keys.
+
     Examples
     --------
     >>> from assoc_hull.examples.wigley import wigley
@@ -61,48 +70,77 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
     import networkx
 
     found: networkx.MultiDiGraph[str] = networkx.MultiDiGraph()
-    book = AddressBook(state)
-    _add_groups(found, state)
-    _add_lines(found, state, book)
-    _add_curves(found, state, book)
-    _add_points(found, state, book)
-    _add_links(found, state)
+    book, order = AddressBook(state), places(state)
+    reach = {
+        group: frozenset(generates_on(state, group).tolist()) for group in order.groups.tolist()
+    }
+    _add_groups(found, state, order, reach)
+    _add_lines(found, state, order, book)
+    _add_curves(found, state, order, book)
+    _add_latent(found, state, order)
+    _add_points(found, state, order, book)
+    _add_links(found, state, order, reach)
     return found
 
 
-def _add_groups(found: networkx.MultiDiGraph[str], state: HullState) -> None:
+def _way(back: bool) -> str:
+    return TWO_WAY if back else ONE_WAY
+
+
+def _add_groups(
+    found: networkx.MultiDiGraph[str], state: HullState, order: Places, reach: Reach
+) -> None:
     names = state.groups.name.data
-    for group in state.live("groups").tolist():
+    for group in order.groups.tolist():
         family = state.groups.family.data[group]
         found.add_node(names[group], kind="group", name=names[group], family=family)
-    for group in state.live("groups").tolist():
-        for other in generates_on(state, group).tolist():
-            found.add_edge(names[group], names[other], kind="association")
+    for group in order.groups.tolist():
+        for other in order.groups.tolist():
+            if other in reach[group]:
+                way = _way(group in reach[other])
+                found.add_edge(names[group], names[other], kind="association", way=way)
 
 
-def _add_lines(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
-    for line in state.live("lines").tolist():
+def _add_lines(
+    found: networkx.MultiDiGraph[str], state: HullState, order: Places, book: AddressBook
+) -> None:
+    for line in order.lines.tolist():
         key, group = state.lines.key.data[line], int(state.lines.group.data[line])
         found.add_node(key, kind="line", name=book.line_name(line))
-        found.add_edge(key, state.groups.name.data[group], kind="membership")
+        if group >= 0:
+            found.add_edge(key, state.groups.name.data[group], kind="membership")
 
 
-def _add_curves(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
+def _add_curves(
+    found: networkx.MultiDiGraph[str], state: HullState, order: Places, book: AddressBook
+) -> None:
     keys = state.curves.key.data
-    for curve in state.live("curves").tolist():
+    for curve in order.curves.tolist():
         found.add_node(
             keys[curve], kind="curve", name=book.curve_name(curve), role="curve",
             state=State(int(state.curves.state.data[curve])).name.lower(),
             revision=state.revision_curve.get(curve, 0),
         )  # fmt: skip
-        found.add_edge(keys[curve], state.lines.key.data[state.line_of(curve)], kind="membership")
-    for curve in state.live("curves").tolist():
-        for other in latent_curves(state, curve).tolist():
-            found.add_edge(keys[curve], keys[other], kind="touch latent")
+        line = state.line_of(curve)
+        if line >= 0:
+            found.add_edge(keys[curve], state.lines.key.data[line], kind="membership")
 
 
-def _add_points(found: networkx.MultiDiGraph[str], state: HullState, book: AddressBook) -> None:
-    for row, side in _points(state):
+def _add_latent(found: networkx.MultiDiGraph[str], state: HullState, order: Places) -> None:
+    keys = state.curves.key.data
+    latent = {
+        curve: frozenset(latent_curves(state, curve).tolist()) for curve in order.curves.tolist()
+    }
+    for curve, others in latent.items():
+        for other in sorted(others, key=order.curve.__getitem__):
+            way = _way(curve in latent[other])
+            found.add_edge(keys[curve], keys[other], kind="touch latent", way=way)
+
+
+def _add_points(
+    found: networkx.MultiDiGraph[str], state: HullState, order: Places, book: AddressBook
+) -> None:
+    for row, side in _points(state, order):
         crossing = state.rows.sort.data[row] == Sort.CROSSING
         found.add_node(
             point_id(state, row, side), kind="point", name=book.address(row, side),
@@ -114,29 +152,27 @@ def _add_points(found: networkx.MultiDiGraph[str], state: HullState, book: Addre
         )  # fmt: skip
 
 
-def _points(state: HullState) -> list[tuple[int, int]]:
+def _points(state: HullState, order: Places) -> list[tuple[int, int]]:
     curve = state.rows.curve.data
-    return [
-        (row, side)
-        for row in state.live("rows").tolist()
-        for side in (0, 1)
-        if curve[row, side] >= 0
-    ]
+    return [(row, side) for row in order.rows.tolist() for side in (0, 1) if curve[row, side] >= 0]
 
 
-def _add_links(found: networkx.MultiDiGraph[str], state: HullState) -> None:
+def _add_links(
+    found: networkx.MultiDiGraph[str], state: HullState, order: Places, reach: Reach
+) -> None:
     keys, curves = state.curves.key.data, state.rows.curve.data
     groups = state.lines.group.data[state.curves.line.data]
-    reach = {group: set(generates_on(state, group).tolist()) for group in set(groups.tolist())}
-    for row, side in _points(state):
+    for row, side in _points(state, order):
         here, mine, parent = point_id(state, row, side), curves[row, side], curves[row, 1 - side]
         found.add_edge(here, keys[mine], kind="container")
         if parent < 0:
             continue
         found.add_edge(here, keys[parent], kind="parent")
         found.add_edge(here, point_id(state, row, 1 - side), kind="friend")
-        if int(groups[mine]) in reach[int(groups[parent])]:
-            found.add_edge(keys[parent], here, kind="touch actual")
+        giver, taker = int(groups[parent]), int(groups[mine])
+        if taker in reach[giver]:
+            way = _way(giver in reach[taker])
+            found.add_edge(keys[parent], here, kind="touch actual", way=way)
 
 
 def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str]:
@@ -167,20 +203,20 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
     import networkx
 
     found: networkx.DiGraph[str] = networkx.DiGraph()
-    book = AddressBook(state)
-    for curve in state.live("curves").tolist():
+    book, order = AddressBook(state), places(state)
+    for curve in order.curves.tolist():
         name = book.curve_name(curve)
         found.add_node(state.curves.key.data[curve], kind="curve", name=name)
     if points:
-        _add_rows(found, state, book)
+        _add_rows(found, state, order, book)
     else:
-        _add_drives(found, state)
+        _add_drives(found, state, order)
     return found
 
 
-def _add_drives(found: networkx.DiGraph[str], state: HullState) -> None:
+def _add_drives(found: networkx.DiGraph[str], state: HullState, order: Places) -> None:
     keys, table = state.curves.key.data, state.rows
-    for row in state.live("rows").tolist():
+    for row in order.rows.tolist():
         driver = int(table.driver.data[row])
         for reader in table.reader.data[row].tolist():
             if driver < 0 or reader < 0:
@@ -190,9 +226,11 @@ def _add_drives(found: networkx.DiGraph[str], state: HullState) -> None:
             found.add_edge(tail, head, kind="drives", through=[*through, table.key.data[row]])
 
 
-def _add_rows(found: networkx.DiGraph[str], state: HullState, book: AddressBook) -> None:
+def _add_rows(
+    found: networkx.DiGraph[str], state: HullState, order: Places, book: AddressBook
+) -> None:
     keys, table = state.curves.key.data, state.rows
-    for row in state.live("rows").tolist():
+    for row in order.rows.tolist():
         readers = [reader for reader in table.reader.data[row].tolist() if reader >= 0]
         if not readers:
             continue

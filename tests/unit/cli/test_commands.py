@@ -1,6 +1,7 @@
 """Every command does what its help says, in words and as JSON."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -41,7 +42,8 @@ def test_the_program_runs_as_a_module(module: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "command", ["demo", "example", "import", "info", "check", "verify", "edit", "graph", "plot"]
+    "command",
+    ["demo", "example", "import", "info", "check", "verify", "edit", "why", "graph", "plot"],
 )
 def test_help_shows_examples(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     """Each command has examples that begin with the name of the program."""
@@ -160,6 +162,103 @@ def test_the_whole_graph_is_written(hull: Path, capsys: pytest.CaptureFixture[st
     assert main(["graph", str(hull), "--format", "json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert len(found["nodes"]) == len(ah.open(hull).graph())
+
+
+def test_graphs_are_filtered(hull: Path, facts: Json) -> None:
+    """By way, by what lies up and down, both; the filters are those of Python."""
+    ship = ah.open(hull)
+    with ship.edit("declare") as edit:
+        edit.associate("sections", "waterlines", two_way=False)
+    ship.save(hull)
+    for only in ("two-way", "one-way", "latent"):
+        found = facts("graph", hull, "--only", only)
+        assert [each["id"] for each in found["nodes"]] == list(ship.graph(only=only))
+    near = facts("graph", hull, "--around", "WL 2.5", "--up", 1, "--down", 0)
+    assert [each["id"] for each in near["nodes"]] == list(ship.graph(around="WL 2.5", down=0))
+    both = facts("graph", hull, "--around", "WL 2.5 x ST 7", "--only", "one-way", "--hops", 1)
+    ways = {(each["kind"], each["way"]) for each in both["edges"] if "way" in each}
+    assert ways == {("touch actual", "one-way")}
+
+
+def test_a_graph_of_nothing_is_told(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """On standard error; the text is that of a graph without nodes."""
+    assert main(["graph", str(hull), "--only", "one-way"]) == 0
+    told = capsys.readouterr()
+    assert told.out == "digraph hull {\n}\n"
+    assert "the graph is empty" in told.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["--hops", "2"], "--around"),
+        (["--only", "both"], "two-way"),
+        (["--around", "WL 77"], "WL 5"),
+        (["--only", "changed"], "history of 0"),
+        (["--edit", "1"], "make an edit first"),
+        (["--around", "WL 2.5", "--hops", "-1"], "0 or more"),
+        (["--json", "--format", "dot"], "not allowed"),
+    ],
+    ids=["no centre", "filter", "name", "no history", "no edit", "hops", "two forms"],
+)  # fmt: skip
+def test_filters_that_cannot_be_used_are_named(
+    arguments: list[str], word: str, hull: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In one line, exit 2."""
+    assert main(["graph", str(hull), *arguments]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert word in told.err
+    assert told.err.count("\n") == 1
+
+
+def test_a_graph_does_not_replace_its_hull(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """However the file is called."""
+    before = hull.read_bytes()
+    (hull.parent / "link").symlink_to(hull)
+    for name in (hull, hull.parent / "link"):
+        assert main(["graph", str(hull), "-o", str(name)]) == 2
+        assert "would replace the hull" in capsys.readouterr().err
+    assert hull.read_bytes() == before
+
+
+def test_a_graph_is_the_same_in_every_process(hull: Path) -> None:
+    """In every form; nothing depends on the seed of hashes."""
+    code = """
+import sys
+from assoc_hull.cli import main
+for form in ("dot", "graphml", "mermaid", "json"):
+    main(["graph", sys.argv[1], "--format", form, "--around", "WL 2.5", "--hops", "1"])
+"""
+    found = [
+        subprocess.run(
+            [sys.executable, "-c", code, str(hull)], capture_output=True, check=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("1", "2")
+    ]  # fmt: skip
+    assert found[0].count(b"WL 2.5 x ST 7") > 4
+    assert found[0] == found[1]
+
+
+def test_names_of_lines_may_hold_marks(hull: Path, tmp_path: Path) -> None:
+    """Each form can be read after lines were renamed to what the forms are made of."""
+    ship, name = ah.open(hull), 'a "b" (c) <d> | & \\ ; 船体 {e}'
+    with ship.edit("rename") as edit:
+        edit.rename("WL 2.5", name)
+    ship.save(hull)
+    out = tmp_path / "graph"
+    for form in ("dot", "graphml", "mermaid", "json"):
+        command = ["graph", str(hull), "--around", name, "--format", form, "-o", str(out)]
+        assert main(command) == 0
+        text = out.read_text("utf-8")
+        if form == "json":
+            names = [each["name"] for each in json.loads(text)["nodes"]]
+            assert f"{name} x ST 7" in names
+        if form == "graphml":
+            found = ElementTree.fromstring(text).iter("{http://graphml.graphdrawing.org/xmlns}data")
+            assert f"{name} x ST 7" in [each.text for each in found]
+        assert "船体" in text
 
 
 @pytest.mark.parametrize("ending", ["pdf", "svg", "png"])

@@ -41,12 +41,104 @@ def test_the_first_hull_stays_if_another_is_named(hull: Path, edits: Edits, fact
 
 
 def test_a_dry_run_writes_nothing(hull: Path, edits: Edits, facts: Json) -> None:
-    """And reports the same."""
-    before = hull.read_bytes()
+    """And reports what the edit then does, with the fingerprint that the hull then has."""
+    before, file = hull.read_bytes(), edits(moved(hull, 0.01))
+    trial = facts("edit", hull, file, "--dry-run")
+    assert (hull.read_bytes(), trial["saved"]) == (before, None)
+    assert sorted(each.name for each in hull.parent.iterdir()) == ["edits.json", "ship.hull.json"]
+    done = facts("edit", hull, file)
+    for name in ("refused", "edit", "inflections", "fingerprint"):
+        assert trial[name] == done[name]
+    for name in ("seconds", "number", "author", "time"):
+        trial["report"].pop(name)
+        assert done["report"].pop(name) or name == "author"
+    assert trial["report"] == done["report"]
+
+
+def test_a_dry_run_needs_no_place_to_write(hull: Path, edits: Edits, facts: Json) -> None:
+    """A hull that may only be read, in a folder that may only be read."""
+    file = edits(moved(hull, 0.01))
+    modes = {each: each.stat().st_mode for each in (hull, hull.parent)}
+    try:
+        hull.chmod(0o444)
+        hull.parent.chmod(0o555)
+        assert facts("edit", hull, file, "--dry-run")["refused"] is False
+    finally:
+        for each, mode in modes.items():
+            each.chmod(mode)
+
+
+def test_a_dry_run_tells_lines_movement_and_place(hull: Path, edits: Edits, facts: Json) -> None:
+    """As data: each line with the point that moves most, and the change of what is displaced."""
     found = facts("edit", hull, edits(moved(hull, 0.01)), "--dry-run")
-    assert (hull.read_bytes(), found["saved"]) == (before, None)
-    assert found["fingerprint"] != ah.open(hull).fingerprint
-    assert len(found["report"]["relofted"]) == 2
+    names = [(each["group"], each["line"], each["point"]) for each in found["lines"]]
+    assert names == [("sections", "ST 7", POINT), ("waterlines", "WL 2.5", POINT)]
+    for each in found["lines"]:
+        assert each["distance"] == pytest.approx(0.01)
+        assert each["place"] == pytest.approx([35.0, ah.open(hull).points[POINT].y + 0.01, 2.5])
+    preview = ah.open(hull).preview(moved(hull, 0.01))
+    assert found["volume_change"] == preview.volume_change
+    assert found["lcb_change"] == preview.lcb_change
+    assert preview.volume_change is not None
+    assert preview.volume_change > 0.0
+
+
+def test_a_dry_run_tells_it_in_words(
+    hull: Path, edits: Edits, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By group: how many, which, the largest movement and where; then what remains."""
+    changes = [{"op": "pull", "point": POINT, "d": 0.02, "radius": [15, 4]}]
+    assert main(["edit", str(hull), str(edits(changes)), "--dry-run"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:2] == ["edits", "  would change 15 lines"]
+    assert lines[2] == "  sections     5"
+    assert lines[3] == "    lines        ST 5, ST 6, ST 7, ST 8, ST 9"
+    assert lines[4].startswith(f"    most         26.567 mm at {POINT} (35.000, 2.939, 2.500) m")
+    assert lines[5] == "  waterlines   10, 1 of them by less than 0.1 mm"
+    assert [line.split()[0] for line in lines[-4:-1]] == ["inflections", "largest", "volume"]
+    assert "LCB" in lines[-2]
+    assert lines[-1] == "nothing written"
+
+
+def test_a_dry_run_of_nothing_says_so(
+    hull: Path, edits: Edits, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A point that lies there already."""
+    file = edits(moved(hull, 0.0))
+    assert facts("edit", hull, file, "--dry-run")["lines"] == []
+    assert main(["edit", str(hull), str(file), "--dry-run"]) == 0
+    assert "nothing would change" in capsys.readouterr().out
+
+
+def test_a_dry_run_tells_every_reason_of_a_refusal(
+    hull: Path, edits: Edits, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Those of the edit itself, with its exit code."""
+    file, before = edits(moved(hull, 40.0)), hull.read_bytes()
+    trial = facts("edit", hull, file, "--dry-run", code=1)
+    assert trial == facts("edit", hull, file, code=1)
+    assert len(trial["findings"]) > 1
+    assert main(["edit", str(hull), str(file), "--dry-run"]) == 1
+    told = capsys.readouterr()
+    assert told.out.splitlines() == trial["findings"]
+    assert told.err.startswith("would be refused: edit 'edits', ")
+    assert hull.read_bytes() == before
+
+
+def test_an_error_of_a_dry_run_names_the_modification(
+    hull: Path, edits: Edits, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In the words of the real run."""
+    for wrong in (
+        {"op": "move", "point": POINT, "x": 1.0},
+        {"op": "move", "point": POINT, "y": []},
+    ):
+        file, told = edits([{"op": "rename", "obj": "WL 5", "name": "five"}, wrong]), []
+        for option in ([], ["--dry-run"]):
+            assert main(["edit", str(hull), str(file), *option]) == 2
+            told.append(capsys.readouterr().err)
+        assert told[0] == told[1]
+        assert "modification 2" in told[0]
 
 
 def test_an_edit_tells_why(hull: Path, edits: Edits, facts: Json) -> None:
