@@ -108,7 +108,7 @@ def parse_britfair(text: str, source: str, book: Notebook) -> RawLines:
     source : str
         Its name, for messages.
     book : Notebook
-        Takes knuckles, tangents that are not read, and parts that do not meet.
+        Takes tangents that are not read, and parts that do not meet.
 
     Raises
     ------
@@ -122,7 +122,6 @@ def parse_britfair(text: str, source: str, book: Notebook) -> RawLines:
     if not group:
         raise BadInputError("the type of the file is unknown", f"at {rows.where}", "give 1, 2 or 3")
     pieces: list[RawPiece] = []
-    knuckles = 0
     while True:
         where = f"line {rows.lines[rows.at][0]} of {source}" if rows.left else rows.where
         count, place = _head(rows)
@@ -137,11 +136,7 @@ def parse_britfair(text: str, source: str, book: Notebook) -> RawLines:
             raise BadInputError(
                 "the first curve continues another", f"at {where}", "give the place of its plane"
             )
-        knuckles += 1
         pieces[-1] = _continued(pieces[-1], group, points, where, book)
-    if knuckles:
-        what = f"{knuckles} are marked; kept where lines turn enough to be told from noise"
-        book.assume("knuckles", source, what, knuckles)
     return RawLines(pieces)
 
 
@@ -189,4 +184,5 @@ def _continued(
         what = f"its parts lie {away:.4g} apart at a knuckle ({where}) and were joined"
         book.suspect("knuckle", piece.line, what, away)
     same = 1 if away < 1e-9 else 0
-    return RawPiece(piece.line, np.concatenate([piece.points, more[same:]]), piece.where)
+    points = np.concatenate([piece.points, more[same:]])
+    return RawPiece(piece.line, points, piece.where, np.vstack([piece.knuckles, more[:1]]))

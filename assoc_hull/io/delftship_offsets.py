@@ -56,12 +56,12 @@ _MOST = 0.8
 
 @attrs.frozen(eq=False)
 class _Run:
-    """One curve: word of its head, first line in the file, points, and marked knuckles."""
+    """One curve: word of its head, first line in the file, points, and which are knuckles."""
 
     head: str
     first: int
     points: FloatArray
-    knuckles: int
+    knuckles: list[int]
 
 
 def is_delftship_offsets(text: str) -> bool:
@@ -121,7 +121,7 @@ def parse_delftship_offsets(text: str, source: str, book: Notebook) -> RawLines:
     source : str
         Its name, for messages.
     book : Notebook
-        Takes knuckles, and the curves that are left out.
+        Takes the curves that are left out.
 
     Raises
     ------
@@ -136,14 +136,11 @@ def parse_delftship_offsets(text: str, source: str, book: Notebook) -> RawLines:
         if run.head in ("diagonal", "free") or name is None:
             left[run.head] = left.get(run.head, 0) + 1
         else:
-            pieces.append(RawPiece(name, run.points, f"line {run.first} of {source}"))
+            where = f"line {run.first} of {source}"
+            pieces.append(RawPiece(name, run.points, where, run.points[run.knuckles]))
     for head, count in left.items():
         what = f"{count} curves under {head!r} are left out: nothing tells what lines they are"
         book.suspect("curve", source, what, count)
-    knuckles = sum(run.knuckles for run in runs)
-    if knuckles:
-        what = f"{knuckles} are marked; kept where lines turn enough to be told from noise"
-        book.assume("knuckles", source, what, knuckles)
     return RawLines(pieces)
 
 
@@ -165,7 +162,8 @@ def _border(points: FloatArray, runs: list[_Run]) -> str | None:
 def _runs(text: str, source: str) -> list[_Run]:
     """Give the curves."""
     found: list[_Run] = []
-    head, first, marks = "", 0, 0
+    head, first = "", 0
+    marks: list[int] = []
     points: list[list[float]] = []
     rows = text.lstrip("\ufeff").splitlines()
     for number, row in enumerate([*rows, ""], start=1):
@@ -174,10 +172,10 @@ def _runs(text: str, source: str) -> list[_Run]:
             if len(points) > 1:
                 found.append(_Run(head, first, np.array(points), marks))
             head = row.split()[0].lower() if begins else head
-            first, marks, points = number + 1, 0, []
+            first, marks, points = number + 1, [], []
             continue
         cells = row.split()
-        marks += len(cells) == 4
+        marks += [len(points)] if len(cells) == 4 else []
         points.append(_point(cells, f"at line {number} of {source}"))
     return found
 

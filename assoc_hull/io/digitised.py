@@ -97,6 +97,7 @@ def read_lines(
     found = parse_lines(text, source, book)
     raw = found.pieces
     factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
+    knuckles = _knuckles(raw, factor)
     raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
@@ -121,7 +122,19 @@ def read_lines(
     return Slices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
+        knuckles=knuckles,
     )  # fmt: skip
+
+
+def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
+    """Give the places marked as knuckles by line, m, to port."""
+    found: dict[str, list[FloatArray]] = {}
+    for each in raw:
+        if len(each.knuckles):
+            places = each.knuckles * factor
+            places[:, 1] = np.abs(places[:, 1])
+            found.setdefault(each.line, []).append(places)
+    return {name: np.concatenate(places) for name, places in found.items()}
 
 
 def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:

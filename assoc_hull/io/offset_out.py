@@ -135,8 +135,8 @@ def csv_text(offsets: Offsets) -> str:
 
 
 def _exact(value: float) -> str:
-    """Write a place so that it reads back to the same bits."""
-    return repr(value + 0.0).removesuffix(".0")
+    """Write a place to a nanometre: no workbook keeps more digits than that takes."""
+    return repr(round(value, 9) + 0.0).removesuffix(".0")
 
 
 def _half_breadths(
