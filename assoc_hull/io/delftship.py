@@ -119,11 +119,11 @@ def parse_delftship(text: str, source: str, book: Notebook) -> RawLines:
     for first, points in _curves(rows, head + 1, source):
         where = f"line {first} of {source}"
         name = name_of(points)
-        if name is None:
-            what = f"the curve at {where} lies in no plane and is left out"
-            book.suspect("curve", f"line {first}", what)
+        parts = [points] if name == "profile" else _apart(points)
+        if name is None or not parts:
+            how = "in no plane" if name is None else "in the centre plane, across the ship,"
+            book.suspect("curve", where, f"the curve lies {how} and is left out")
             continue
-        parts = _apart(points)
         split += len(parts) - 1
         pieces += [RawPiece(name, part, where) for part in parts]
     if split:
