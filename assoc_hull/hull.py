@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.preview import Preview
     from assoc_hull.edit.replay import Replayed
     from assoc_hull.edit.view import OnlyName
+    from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.saving import Saved
     from assoc_hull.model.verify import Difference
 
@@ -331,6 +332,12 @@ class Hull:
         from assoc_hull.io.saving import save
 
         return save(self.document, path, replace=flag(replace, "replace", "in save"))
+
+    def export(self, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:
+        """Write offsets or sections for other programs; see `assoc_hull.io.export.export`."""
+        from assoc_hull.io.export import export
+
+        return export(self.state, path, form)
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""

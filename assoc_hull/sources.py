@@ -105,8 +105,8 @@ def read(
 
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
     (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
-    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF) all but
-    planes and axes.
+    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF, BRITFAIR,
+    DELFTship, GHS) all but planes and axes. Tables of offsets may be CSV or XLSX.
 
     Raises
     ------

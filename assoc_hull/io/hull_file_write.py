@@ -35,6 +35,7 @@ from assoc_hull.io.hull_file_connect import connect, speaking_of
 from assoc_hull.io.hull_file_schema import create
 from assoc_hull.io.hull_file_steps import write_step
 from assoc_hull.io.hull_file_tables import put_rows, write_births, write_settings, write_state
+from assoc_hull.io.whole_file import mode_for
 from assoc_hull.model.change import Change, change_of
 from assoc_hull.model.definition import fingerprint
 from assoc_hull.model.state import HullState
@@ -108,7 +109,7 @@ def _write_whole(document: Document, target: Path) -> dict[int, Change]:
     try:
         with speaking_of(target):
             changes = _fill(document, name)
-        os.chmod(name, _mode(target))
+        os.chmod(name, mode_for(target))
         os.replace(name, target)
     except OSError as error:
         if isinstance(error, HullFileError):
@@ -120,15 +121,6 @@ def _write_whole(document: Document, target: Path) -> dict[int, Change]:
             with contextlib.suppress(OSError):
                 os.unlink(left)
     return changes
-
-
-def _mode(target: Path) -> int:
-    """Give the permissions of the file that is there, or those of a new one."""
-    with contextlib.suppress(OSError):
-        return target.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
 
 
 def _fill(document: Document, name: str) -> dict[int, Change]:
