@@ -1,14 +1,18 @@
 """What all tests share: the hypothesis profiles and the folder of published hulls."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
+from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.sources import examples
-from tests.cases.dtc import read_dtc
+from tests.cases.dtc import read_dtc_with_report
+from tests.taken_back import taken_back
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -25,6 +29,19 @@ settings.register_profile(
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give every process its run of neighbouring tests; whoever is done early takes from others.
+
+    So what a module computes once is computed by one process, mostly, and none stands idle
+    while another has a queue.
+    """
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log) if config.getvalue("dist") == "load" else None
+
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 
@@ -51,6 +68,13 @@ def series60_70() -> Hull:
     return examples.series60(0.70)
 
 
+@pytest.fixture
+def fresh_series60_70(series60_70: Hull) -> Iterator[Hull]:
+    """Series 60 CB .70, to be edited at will: it is taken back when the test is over."""
+    with taken_back(series60_70) as hull:
+        yield hull
+
+
 @pytest.fixture(scope="session")
 def bulk_carrier() -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
@@ -58,6 +82,12 @@ def bulk_carrier() -> Hull:
 
 
 @pytest.fixture(scope="session")
-def dtc(data_folder: Path) -> Hull:
-    """The DTC container ship at 10 mm, from its mesh; a test that edits it undoes its edits."""
-    return read_dtc(data_folder)
+def dtc_with_report(data_folder: Path) -> tuple[Hull, SliceReport]:
+    """The DTC container ship at 10 mm, from its mesh, and the report of it."""
+    return read_dtc_with_report(data_folder)
+
+
+@pytest.fixture(scope="session")
+def dtc(dtc_with_report: tuple[Hull, SliceReport]) -> Hull:
+    """The DTC container ship; a test that edits it undoes its edits."""
+    return dtc_with_report[0]

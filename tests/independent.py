@@ -6,6 +6,7 @@ Roots come from `scipy.interpolate.PPoly`, closures from a plain walk of the rol
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import attrs
 import numpy as np
@@ -48,8 +49,9 @@ class Root:
     tangent: FloatArray
 
 
+@lru_cache(maxsize=1024)
 def polynomial(spline: SplineBatch) -> PPoly:
-    """Give a spline of the kernel as a piecewise polynomial of scipy."""
+    """Give a spline of the kernel, which nobody can change, as a piecewise polynomial of scipy."""
     h = np.diff(spline.knot)[:, None]
     p, q = spline.xyz[:-1], spline.xyz[1:]
     u, v = spline.leave[:-1], spline.arrive[1:]
@@ -58,8 +60,16 @@ def polynomial(spline: SplineBatch) -> PPoly:
     return PPoly(np.array([cubic, square, u, p]), spline.knot)
 
 
-def roots(spline: SplineBatch, normal: FloatArray, offset: float) -> list[Root]:
+def roots(spline: SplineBatch, normal: FloatArray, offset: float) -> tuple[Root, ...]:
     """Meet a spline with a plane; touching it without passing is no meeting."""
+    return _roots(spline, tuple(normal.tolist()), offset)
+
+
+@lru_cache(maxsize=16384)
+def _roots(
+    spline: SplineBatch, normal: tuple[float, float, float], offset: float
+) -> tuple[Root, ...]:
+    """Kept, as most splines of a hull are the very same after an edit."""
     curve = polynomial(spline)
     height = curve.c @ normal
     height[3] -= offset
@@ -67,24 +77,44 @@ def roots(spline: SplineBatch, normal: FloatArray, offset: float) -> list[Root]:
     exact = spline.knot[spline.xyz @ normal == offset]
     at = np.sort(np.concatenate([found[np.isfinite(found)], exact]))
     at = at[np.concatenate([[True], np.diff(at) > _SAME])] if len(at) else at
-    slope = curve.derivative()(at) if len(at) else np.zeros((0, 3))
+    if not len(at):
+        return ()
+    slope = curve.derivative()(at)
     length = np.linalg.norm(slope, axis=1)
-    return [
-        Root(curve(t), part / size) for t, part, size in zip(at, slope, length, strict=True) if size
-    ]
+    places = curve(at)
+    return tuple(
+        Root(place, part / size)
+        for place, part, size in zip(places, slope, length, strict=True)
+        if size
+    )
 
 
 def distance(spline: SplineBatch, place: FloatArray) -> float:
-    """Measure how far a place lies from a spline."""
+    """Measure how far a place lies from a spline.
+
+    A segment lies in the box round its Bezier points: one whose box is farther than what is
+    found already is left out.
+    """
     curve = polynomial(spline)
     best = float(np.linalg.norm(spline.xyz - place, axis=1).min())
-    for i, width in enumerate(np.diff(curve.x).tolist()):
+    low, high = _boxes(spline)
+    apart = np.linalg.norm(np.maximum(np.maximum(low - place, place - high), 0.0), axis=1)
+    for i in np.flatnonzero(apart <= best).tolist():
+        width = float(curve.x[i + 1] - curve.x[i])
         parts = [np.poly1d(curve.c[:, i, axis] - [0, 0, 0, place[axis]]) for axis in range(3)]
         still = np.roots(sum((part * part.deriv() for part in parts), np.poly1d([0.0])))
         inside = still.real[(np.abs(still.imag) < 1e-6) & (still.real > 0.0) & (still.real < width)]
         for t in inside.tolist():
             best = min(best, float(np.linalg.norm([part(t) for part in parts])))
     return best
+
+
+def _boxes(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:
+    """Give the lowest and highest corner of the box round each segment, (n - 1, 3) each, m."""
+    third = np.diff(spline.knot)[:, None] / 3.0
+    first, last = spline.xyz[:-1], spline.xyz[1:]
+    around = [first, first + third * spline.leave[:-1], last - third * spline.arrive[1:], last]
+    return np.min(around, axis=0) - _SAME, np.max(around, axis=0) + _SAME
 
 
 def gap_between(one: Root, other: Root) -> float:
@@ -101,10 +131,10 @@ def _plane(state: HullState, curve: int) -> tuple[FloatArray, float] | None:
     return state.lines.normal.data[line], float(state.lines.offset.data[line])
 
 
-def _meet(state: HullState, curve: int, other: int) -> list[Root]:
+def _meet(state: HullState, curve: int, other: int) -> tuple[Root, ...]:
     """Meet a curve with the plane of another."""
     plane = _plane(state, other)
-    return [] if plane is None else roots(state.spline(curve), *plane)
+    return () if plane is None else roots(state.spline(curve), *plane)
 
 
 def trouble(hull: ah.Hull, kept: bool = False) -> Iterator[str]:

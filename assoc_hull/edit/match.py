@@ -14,6 +14,7 @@ import numpy as np
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.segments import bernstein
 from assoc_hull.geometry.spline import derivative
 from assoc_hull.model.family import FAMILIES, BoundaryKind
 from assoc_hull.model.gaps import crossing_normals
@@ -23,6 +24,9 @@ __all__ = ["Contact", "Meeting", "find_contacts", "find_meetings", "snap"]
 
 _REACH = 0.1
 """How far (m) the end of a line may lie from the boundary curve it is meant to end on."""
+
+_TOUCH, _BESIDE = 1e-6, 1e-3
+"""A place this near (m) lies on a boundary; the box of a segment is widened, for rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -112,6 +116,7 @@ def find_contacts(
         The kinds of the points of each curve.
     """
     found: list[Contact] = []
+    known = _Boundaries.of(state, reference)
     for curve in range(reference.count):
         line = state.line_of(curve)
         if state.lines.boundary.data[line] >= 0:
@@ -125,7 +130,7 @@ def find_contacts(
             if needed is None or not mine:
                 continue
             place = reference.xyz[start + point]
-            contact = _nearest(state, reference, mine, line, place)
+            contact = _nearest(known, mine, line, place)
             if contact is not None:
                 boundary, at, xyz, sign = contact
                 found.append(Contact(boundary, curve, point, at, xyz, sign))
@@ -146,26 +151,59 @@ def _boundaries_of(state: HullState, line: int) -> list[tuple[int, BoundaryKind]
     ]
 
 
+@attrs.frozen(eq=False)
+class _Boundaries:
+    """The reference splines, with the boxes of their segments and what was asked before."""
+
+    state: HullState
+    reference: SplineBatch
+    low: FloatArray
+    high: FloatArray
+    _met: dict[tuple[int, int], Meetings] = attrs.field(factory=dict)
+
+    @classmethod
+    def of(cls, state: HullState, reference: SplineBatch) -> _Boundaries:
+        control = bernstein(reference)
+        return cls(state, reference, control.min(axis=1) - _BESIDE, control.max(axis=1) + _BESIDE)
+
+    def meet(self, boundary: int, line: int) -> Meetings:
+        """Give where a boundary passes the plane of a line: the same for both ends of it."""
+        key = (boundary, line)
+        if key not in self._met:
+            lines = self.state.lines
+            offset = np.array([float(lines.offset.data[line])])
+            curve = self.reference.curve(boundary)
+            self._met[key] = meet_planes(curve, lines.normal.data[line], offset)
+        return self._met[key]
+
+    def may_touch(self, boundary: int, place: FloatArray) -> bool:
+        """Tell whether a place lies in, or right beside, the box of a segment."""
+        first, stop = (int(self.reference.start[boundary + i]) - boundary - i for i in (0, 1))
+        inside = (self.low[first:stop] <= place) & (place <= self.high[first:stop])
+        return bool(inside.all(axis=1).any())
+
+
 def _nearest(
-    state: HullState, reference: SplineBatch, boundaries: list[int], line: int, place: FloatArray
+    known: _Boundaries, boundaries: list[int], line: int, place: FloatArray
 ) -> tuple[int, float, FloatArray, int] | None:
     """Give the boundary's passage through the line's plane that is nearest to a place.
 
     Where the boundary runs in the plane there is no passage: then its nearest point.
     """
-    normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    state = known.state
     best: tuple[float, int, float, FloatArray, int] | None = None
     for boundary in boundaries:
-        met = meet_planes(reference.curve(boundary), normal, np.array([offset]))
-        own = state.line_of(boundary)
+        met, own = known.meet(boundary, line), state.line_of(boundary)
         planes = (own, line) if state.lines.planar.data[own] else (line,)
         for i in range(len(met.t)):
             away = float(np.linalg.norm(met.xyz[i] - place))
             if away < _REACH and (best is None or away < best[0]):
                 xyz = snap(state, planes, met.xyz[i])
                 best = (away, boundary, float(met.t[i]), xyz, int(met.sign[i]))
-        at, xyz, away_all = closest(reference, boundary, place[None])
-        if float(away_all[0]) < 1e-6 and (best is None or best[0] > 1e-6):
+        if (best is not None and best[0] <= _TOUCH) or not known.may_touch(boundary, place):
+            continue
+        at, xyz, away_all = closest(known.reference, boundary, place[None])
+        if float(away_all[0]) < _TOUCH:
             best = (0.0, boundary, float(at[0]), snap(state, planes, xyz[0]), 0)
     return None if best is None else best[1:]
 

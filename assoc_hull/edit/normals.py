@@ -7,6 +7,8 @@ import numpy as np
 
 from assoc_hull.edit.outward import turn_outward
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.interpolation import interpolate
+from assoc_hull.graph.table import ListColumn
 from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.recipe import loft_curves
@@ -27,24 +29,23 @@ def hull_normals(state: HullState) -> FloatArray:
     normal = np.zeros((table.count, 3))
     normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
     normal = turn_outward(state, normal, tangent)
-    for curve in state.live("curves").tolist():
-        _interpolate(state, curve, normal)
+    _interpolate(state, normal)
     return normal
 
 
 def _tangents(state: HullState) -> FloatArray:
     """Give the unit tangents of both curves at every point, (rows, 2, 3)."""
-    table = state.rows
+    table, curves = state.rows, state.live("curves").tolist()
     found = np.zeros((table.count, 2, 3))
     known = np.zeros((table.count, 2), bool)
-    for curve in state.live("curves").tolist():
-        spline, rows = _present(state, curve), state.curves.rows.data[curve]
-        slope = spline.leave + spline.arrive
-        slope[0], slope[-1] = spline.leave[0], spline.arrive[-1]
+    if curves:
+        batch = SplineBatch.join([_present(state, curve) for curve in curves])
+        slope, first, last = batch.leave + batch.arrive, batch.start[:-1], batch.start[1:] - 1
+        slope[first], slope[last] = batch.leave[first], batch.arrive[last]
         length = np.sqrt((slope * slope).sum(axis=1))
-        side = state.curves.side.data[curve]
-        found[rows, side] = slope / np.where(length > 0.0, length, 1.0)[:, None]
-        known[rows, side] = True
+        there = _joined(state.curves.rows, curves), _joined(state.curves.side, curves)
+        found[there] = slope / np.where(length > 0.0, length, 1.0)[:, None]
+        known[there] = True
     for side in (0, 1):
         missing = table.alive.data & ~known[:, side] & np.isfinite(table.parameter.data[:, side])
         rows = np.flatnonzero(missing & (table.curve.data[:, side] >= 0))
@@ -54,6 +55,11 @@ def _tangents(state: HullState) -> FloatArray:
     return found
 
 
+def _joined(column: ListColumn, curves: list[int]) -> IntArray:
+    """Put the arrays that a column holds for curves one behind the other."""
+    return np.concatenate([column.data[curve] for curve in curves])
+
+
 def _present(state: HullState, curve: int) -> SplineBatch:
     """Give the spline through a curve's points as they are, in mid-transaction too."""
     spline = state.spline(curve)
@@ -61,23 +67,26 @@ def _present(state: HullState, curve: int) -> SplineBatch:
     return spline if same else loft_curves(state, np.array([curve]))
 
 
-def _interpolate(state: HullState, curve: int, normal: FloatArray) -> None:
-    """Fill in the normals at a curve's own points, from those at its crossings."""
-    rows: IntArray = state.curves.rows.data[curve]
-    knots = _present(state, curve).knot
-    own = state.rows.sort.data[rows] != Sort.CROSSING
-    meets = state.curves.meets.data[curve]
-    met = meets.row >= 0
-    at = np.concatenate([knots[~own], meets.parameter[met]])
-    values = normal[np.concatenate([rows[~own], meets.row[met]])]
-    good = (values != 0.0).any(axis=1)
-    if not own.any() or not good.any():
+def _interpolate(state: HullState, normal: FloatArray) -> None:
+    """Fill in the normals at points that have one curve only, from those at its crossings."""
+    curves = state.live("curves").tolist()
+    if not curves:
         return
-    order = np.argsort(at[good], kind="stable")
-    at, values = at[good][order], values[good][order]
-    blend = np.column_stack([np.interp(knots[own], at, values[:, i]) for i in range(3)])
+    splines = [_present(state, curve) for curve in curves]
+    knot = np.concatenate([spline.knot for spline in splines])
+    curve = np.repeat(np.arange(len(curves)), [len(spline.knot) for spline in splines])
+    rows = _joined(state.curves.rows, curves)
+    own = state.rows.sort.data[rows] != Sort.CROSSING
+    meets = [state.curves.meets.data[each] for each in curves]
+    meeting = np.repeat(np.arange(len(curves)), [len(each.row) for each in meets])
+    where = np.concatenate([curve[~own], meeting])
+    known = np.concatenate([rows[~own], *(each.row for each in meets)])
+    at = np.concatenate([knot[~own], *(each.parameter for each in meets)])
+    values = normal[known]
+    good = (known >= 0) & (values != 0.0).any(axis=1)
+    blend, told = interpolate(where[good], at[good], values[good], curve[own], knot[own])
     length = np.sqrt((blend * blend).sum(axis=1))
-    normal[rows[own]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
+    normal[rows[own][told]] = blend / np.where(length > 1e-12, length, 1.0)[:, None]
 
 
 @attrs.frozen(eq=False)

@@ -73,7 +73,7 @@ def closest(
             "give an index from 0",
         )
     rows = _checked(points)
-    curve = batch.curve(int(curve_index))
+    curve = batch if batch.count == 1 else batch.curve(int(curve_index))
     size = max(1, _PAIRS // max(1, len(curve.knot) - 1))
     parts = [_nearest(curve, rows[i : i + size]) for i in range(0, max(1, len(rows)), size)]
     t, xyz, distance = (np.concatenate(part) for part in zip(*parts, strict=True))

@@ -34,6 +34,7 @@ __all__ = [
 
 _ROUNDING = 4e-16  # a step below this changes nothing in [0, 1]
 _HALVINGS = 80  # more than bisection alone needs
+_FEW = 48  # brackets, so many as plain numbers are faster for than arrays
 
 STEPS = 3
 """From the secant, three steps of Halley's rule reach the last bits of nearly all roots."""
@@ -234,21 +235,66 @@ def _bracketed(
     coefficients: FloatArray, low: FloatArray, high: FloatArray, rising: NDArray[np.bool_]
 ) -> FloatArray:
     """Find the one root in each bracket: Newton steps where they halve, else bisection."""
-    slopes = differentiate(coefficients)
+    if len(low) <= _FEW:
+        # Calls of numpy cost more than the arithmetic here; plain numbers have the same bits.
+        given = zip(
+            coefficients.tolist(), low.tolist(), high.tolist(), rising.tolist(), strict=True
+        )
+        return np.array([_bracketed_one(*each) for each in given], np.float64)
+    columns = list(np.ascontiguousarray(coefficients.T))
+    slopes = [power * column for power, column in enumerate(columns[1:], 1)]
     at, last = 0.5 * (low + high), high - low
     alive = np.ones(len(at), bool)
-    for _ in range(_HALVINGS):
-        if not alive.any():
-            break
-        height = horner(coefficients, at[:, None])[:, 0]
-        right = (height < 0.0) == rising
-        low, high = np.where(right, at, low), np.where(right, high, at)
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            aim = at - height / horner(slopes, at[:, None])[:, 0]
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for _ in range(_HALVINGS):
+            if not alive.any():
+                break
+            height = _value(columns, at)
+            right = (height < 0.0) == rising
+            low, high = np.where(right, at, low), np.where(right, high, at)
+            aim = at - height / _value(slopes, at)
             good = (aim >= low) & (aim <= high) & (np.abs(aim - at) <= 0.5 * last)
-        aim = np.where(height == 0.0, at, np.where(good, aim, 0.5 * (low + high)))
-        last = np.abs(aim - at)
-        # A root that has settled stays: its last bit must not depend on the others.
-        at = np.where(alive, aim, at)
-        alive &= last > _ROUNDING
+            aim = np.where(height == 0.0, at, np.where(good, aim, 0.5 * (low + high)))
+            last = np.abs(aim - at)
+            # A root that has settled stays: its last bit must not depend on the others.
+            at = np.where(alive, aim, at)
+            alive &= last > _ROUNDING
     return at
+
+
+def _value(columns: list[FloatArray], at: FloatArray) -> FloatArray:
+    """Evaluate polynomials by their coefficients, power by power, at one place each."""
+    value = columns[-1] + 0.0 * at
+    for column in columns[-2::-1]:
+        value *= at
+        value += column
+    return value
+
+
+def _bracketed_one(coefficients: list[float], low: float, high: float, rising: bool) -> float:
+    """Find the one root in a bracket as `_bracketed` does, operation by operation."""
+    falling = coefficients[::-1]
+    slopes = [power * each for power, each in enumerate(coefficients[1:], 1)][::-1]
+    at, last = 0.5 * (low + high), high - low
+    for _ in range(_HALVINGS):
+        height, slope = _value_one(falling, at), _value_one(slopes, at)
+        if height == 0.0:
+            break
+        if (height < 0.0) == rising:
+            low = at
+        else:
+            high = at
+        aim = at - height / slope if slope else np.inf
+        if not (low <= aim <= high and abs(aim - at) <= 0.5 * last):
+            aim = 0.5 * (low + high)
+        last, at = abs(aim - at), aim
+        if not last > _ROUNDING:
+            break
+    return at
+
+
+def _value_one(falling: list[float], at: float) -> float:
+    value = falling[0]
+    for each in falling[1:]:
+        value = value * at + each
+    return value

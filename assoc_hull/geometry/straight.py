@@ -176,9 +176,10 @@ def _seeds(
 
 def _fit_line(points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Give a place, the unit direction and the signed distances of a fitted line."""
-    origin = points.mean(axis=0)
+    origin = points.sum(axis=0) / len(points)
     local = points - origin
-    sxx, syy, sxy = (local[:, 0] ** 2).sum(), (local[:, 1] ** 2).sum(), (local.prod(axis=1)).sum()
+    x, y = local[:, 0], local[:, 1]
+    sxx, syy, sxy = (x * x).sum(), (y * y).sum(), (x * y).sum()
     angle = 0.5 * np.arctan2(2.0 * sxy, sxx - syy)
     ahead = np.array([np.cos(angle), np.sin(angle)])
     if ahead @ (points[-1] - points[0]) < 0.0:
@@ -188,7 +189,8 @@ def _fit_line(points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 def _grow(off: FloatArray, first: int, last: int, within: float) -> tuple[int, int]:
     """Give the ends of the stretch around a seed whose points all lie within a tolerance."""
-    out = np.append(np.append(True, np.abs(off) > within), True)
+    out = np.ones(len(off) + 2, bool)
+    np.greater(np.abs(off), within, out=out[1:-1])
     # A single wild point does not end a run.
     far = np.flatnonzero(out[1:-1] & (out[:-2] | out[2:]))
     before, after = far[far < first], far[far > last]
@@ -213,9 +215,12 @@ def _run(
     for _ in range(4):
         origin, ahead, _ = _fit_line(points[first : last + 1])
         off = _distances(points, origin, ahead)
-        first, last = _grow(off, (first + last) // 2, (first + last) // 2, within)
-        if last - first < 3:
+        grown = _grow(off, (first + last) // 2, (first + last) // 2, within)
+        if grown[1] - grown[0] < 3:
             return None
+        if grown == (first, last):
+            break
+        first, last = grown
     length = float(at[last] - at[first])
     wide = _grow(off, first, last, 4.0 * within)
     growth = float(at[wide[1]] - at[wide[0]]) / max(length, 1e-12) - 1.0

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.io.mesh import read_mesh
-from assoc_hull.io.slice_net import net_from_slices
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import tangents
 
@@ -68,13 +64,13 @@ def test_adopted_points_keep_clear_of_crossings(dtc: ah.Hull) -> None:
             assert beside.min() > 0.9 * SPACING
 
 
-def test_curves_off_or_wavier_than_their_lines_are_few_and_named(data_folder: Path) -> None:
+def test_curves_off_or_wavier_than_their_lines_are_few_and_named(dtc: ah.Hull) -> None:
     """Of 81 curves at most 6 exceed their tolerance, by 2 at most, each with a note.
 
     All together have at most 10 inflections that the lines lack.
     """
-    slices = read_mesh(data_folder / "dtc" / "DTC-scaled.stl.gz", scale=59.407)
-    report = net_from_slices(slices)[1].adoption
+    report = dtc.adoption
+    assert report is not None
     given, more = report.inflections
     print(f"\n{given} inflections given, {more} more; {report.own_points} adopted points")
     assert more <= 10  # 13 where adopted points are not moved for it

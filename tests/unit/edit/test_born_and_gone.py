@@ -20,10 +20,10 @@ def ids(hull: ah.Hull) -> set[str]:
     ids=["waterline", "section", "buttock", "diagonal"],
 )
 def test_crossings_of_a_new_line_are_reported_as_born(
-    group: str, position: float | tuple[float, float]
+    fresh_series60_70: ah.Hull, group: str, position: float | tuple[float, float]
 ) -> None:
     """All of them, and no other; those of a removed line as gone."""
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
     before = ids(hull)
     with hull.edit("add") as edit:
         line = edit.add_line(group, position, "new")
@@ -53,9 +53,9 @@ def _bent(edit: Edit) -> None:
     edit.transform(lambda p: p + np.outer(p[:, 1] ** 2, bend), ["sections", "profile"])
 
 
-def test_what_a_curve_in_space_cannot_do_is_said() -> None:
+def test_what_a_curve_in_space_cannot_do_is_said(fresh_series60_70: ah.Hull) -> None:
     """It has no plane to be shifted; its watched crossings are told as gone, with the reason."""
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
     before = ids(hull)
     with hull.edit("bend") as edit:
         _bent(edit)

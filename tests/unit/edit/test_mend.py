@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from assoc_hull.edit.mend import mend
-from assoc_hull.examples.series60 import series60
 from assoc_hull.graph.journal import Journal
+from assoc_hull.hull import Hull
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState
@@ -33,9 +33,9 @@ def _beside(state: HullState, row: int, side: int) -> bool:
 
 
 @pytest.fixture(scope="module")
-def state() -> HullState:
+def state(series60_70: Hull) -> HullState:
     """A net with watched crossings; what a test does to it is taken back."""
-    return series60(0.70)
+    return series60_70.state
 
 
 @pytest.mark.parametrize("held", [False, True])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -17,11 +17,13 @@ from assoc_hull.errors import (
     UnknownNameError,
 )
 from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.family import Role, Sort
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import refused
+from tests.taken_back import taken_back
 
 Map = Callable[[FloatArray], FloatArray]
 MAIN = ["sections", "profile"]
@@ -78,10 +80,25 @@ def wigley() -> ah.Hull:
     return small()
 
 
+@pytest.fixture(scope="module")
+def whole_wigley() -> ah.Hull:
+    """The example as it comes."""
+    return ah.examples.wigley()
+
+
+@pytest.fixture
+def fresh_wigley(whole_wigley: ah.Hull) -> Iterator[ah.Hull]:
+    """The example, to be edited at will: it is taken back when the test is over."""
+    with taken_back(whole_wigley) as hull:
+        yield hull
+
+
 @pytest.fixture(params=["wigley", "series60"])
-def hull(request: pytest.FixtureRequest) -> ah.Hull:
+def hull(request: pytest.FixtureRequest) -> Iterator[ah.Hull]:
     """A mathematical hull and a real one."""
-    return small() if request.param == "wigley" else ah.examples.series60(cb=0.70)
+    name = "wigley" if request.param == "wigley" else "series60_70"
+    with taken_back(request.getfixturevalue(name)) as shared:
+        yield shared
 
 
 @pytest.mark.parametrize("drivers", [MAIN, None], ids=["sections and profile", "all"])
@@ -145,21 +162,21 @@ def off_formula(hull: ah.Hull, breadth: float, draught: float) -> float:
     return worst
 
 
-def test_breadth_on_wigley_agrees_with_the_formula() -> None:
+def test_breadth_on_wigley_agrees_with_the_formula(fresh_wigley: ah.Hull) -> None:
     """Followers of a broader Wigley hull pass the formula as closely as the hull it came from.
 
     Sections and profile drive, the waterlines follow. The loft leaves the formula by up to
     4.2 mm beside the ends; scaled, by as much more.
     """
-    hull = ah.examples.wigley()
+    hull = fresh_wigley
     before = off_formula(hull, 10.0, 6.25)
     transformed(hull, lambda xyz: xyz * [1.0, 1.1, 1.0], MAIN)
     assert off_formula(hull, 11.0, 6.25) < 1.1 * before + 1e-4
 
 
-def test_depth_on_wigley_agrees_with_the_formula() -> None:
+def test_depth_on_wigley_agrees_with_the_formula(fresh_wigley: ah.Hull) -> None:
     """Waterlines stay in their planes and are cut where the higher hull passes them."""
-    hull = ah.examples.wigley()
+    hull = fresh_wigley
     planes = [line.position for line in hull.groups["waterlines"].lines.values()]
     before = off_formula(hull, 10.0, 6.25)
     transformed(hull, lambda xyz: xyz * [1.0, 1.0, 1.05], MAIN)
@@ -167,9 +184,9 @@ def test_depth_on_wigley_agrees_with_the_formula() -> None:
     assert off_formula(hull, 10.0, 6.25 * 1.05) < before + 1e-4
 
 
-def test_planes_follow_where_the_mapping_moves_them() -> None:
+def test_planes_follow_where_the_mapping_moves_them(fresh_wigley: ah.Hull) -> None:
     """Asked to, the planes of followers go along: the waterlines are those of before, scaled."""
-    hull = ah.examples.wigley()
+    hull = fresh_wigley
     before = [line.position for line in hull.groups["waterlines"].lines.values()]
     names = list(hull.groups["waterlines"].lines)
     transformed(hull, lambda xyz: xyz * [1.0, 1.0, 1.05], MAIN, planes="follow")
@@ -190,12 +207,14 @@ MAPS: dict[str, tuple[Map, str]] = {
 
 
 @pytest.mark.parametrize(("mapping", "planes"), MAPS.values(), ids=MAPS.keys())
-def test_series60_keeps_what_must_hold(mapping: Map, planes: str) -> None:
+def test_series60_keeps_what_must_hold(
+    fresh_series60_70: ah.Hull, mapping: Map, planes: str
+) -> None:
     """On a real net crossings lie on their curves, gaps keep their limits, nothing is missing.
 
     Every driver stays within 2 mm of its exact image.
     """
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
     old = {
         line.name: sample(hull.state.spline(line.curves[0].row), 8)[1]
         for line in hull.groups["sections"].lines.values()
@@ -207,13 +226,13 @@ def test_series60_keeps_what_must_hold(mapping: Map, planes: str) -> None:
     assert report.largest_gap <= 10e-3
     for name, places in old.items():
         curve = hull.groups["sections"].lines[name].curves[0]
-        away = [np.linalg.norm(curve.closest(place)[1] - place) for place in mapping(places)]
-        assert max(away) <= 2e-3 + 1e-6
+        away = closest(curve.spline, 0, mapping(places))[2]
+        assert away.max() <= 2e-3 + 1e-6
 
 
-def test_contacts_come_with_the_flat() -> None:
+def test_contacts_come_with_the_flat(fresh_series60_70: ah.Hull) -> None:
     """A buttock that comes over the flat of bottom gets two tangent points, along the flat."""
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
     assert "BTK 0.84 x flat of bottom" not in hull.crossings
     transformed(hull, lambda xyz: xyz * [1.0, 1.1, 1.0], MAIN)
     born = [key for key in hull.history[-1].born if "flat of bottom x buttocks:7.3152" in key]
@@ -236,9 +255,11 @@ def hump(xyz: FloatArray) -> FloatArray:
 
 
 @pytest.mark.parametrize("name", ["WL 0.625", "WL 0.075"])
-def test_a_line_falls_into_pieces(name: str) -> None:
+def test_a_line_falls_into_pieces(
+    fresh_wigley: ah.Hull, fresh_series60_70: ah.Hull, name: str
+) -> None:
     """A waterline that the keel rises above is cut anew: two pieces, one of them the old curve."""
-    hull = ah.examples.wigley() if name == "WL 0.625" else ah.examples.series60(cb=0.70)
+    hull = fresh_wigley if name == "WL 0.625" else fresh_series60_70
     line = hull.lines[name]
     curve, crossings = line.curves[0].id, {point.id for point in line.curves[0].points}
     transformed(hull, hump, MAIN)
@@ -250,9 +271,9 @@ def test_a_line_falls_into_pieces(name: str) -> None:
     assert len(kept) > len(crossings) // 2
 
 
-def test_a_line_comes_to_end_elsewhere() -> None:
+def test_a_line_comes_to_end_elsewhere(fresh_series60_70: ah.Hull) -> None:
     """A waterline that the tilted deck edge comes down to ends there."""
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
 
     def tilt(xyz: FloatArray) -> FloatArray:
         return xyz + np.outer(0.015 * (xyz[:, 0] - 60.0), [0.0, 0.0, 1.0])
@@ -270,9 +291,9 @@ def test_a_line_that_the_hull_leaves_is_named(wigley: ah.Hull) -> None:
     assert "of waterlines meets nothing" in text
 
 
-def test_bent_drivers_become_space_curves() -> None:
+def test_bent_drivers_become_space_curves(fresh_wigley: ah.Hull) -> None:
     """A section that leaves its plane has none any more; waterlines still end and cross on it."""
-    hull = transformed(ah.examples.wigley(), rake, MAIN)
+    hull = transformed(fresh_wigley, rake, MAIN)
     line = hull.groups["sections"].lines["ST 10"]
     assert line.plane is None
     assert any("curve in space" in note for note in hull.history[-1].notes)
@@ -284,9 +305,9 @@ def test_bent_drivers_become_space_curves() -> None:
     assert hull.verify() == ()
 
 
-def test_waterlines_drive_sections() -> None:
+def test_waterlines_drive_sections(fresh_wigley: ah.Hull) -> None:
     """The rank is no matter: sections follow waterlines that are named as drivers."""
-    hull = ah.examples.wigley()
+    hull = fresh_wigley
     transformed(hull, lambda xyz: xyz * [1.02, 1.0, 1.0], ["waterlines"])
     assert hull.lines["ST 10"].position == 50.0
     assert hull.half_breadth(50.0, 5.0) == pytest.approx(
@@ -461,9 +482,9 @@ def test_other_refusals(wigley: ah.Hull, act: Callable[[ah.Hull], object]) -> No
     assert wigley.history == ()
 
 
-def test_a_refused_update_changes_no_bit() -> None:
+def test_a_refused_update_changes_no_bit(fresh_series60_70: ah.Hull) -> None:
     """A buttock whose plane the narrower hull does not reach any more is named, with its place."""
-    hull = ah.examples.series60(cb=0.70)
+    hull = fresh_series60_70
     narrower: Map = lambda xyz: xyz * [1.0, 0.9, 1.0]  # noqa: E731
     assert "8.01189 m of buttocks" in refused(
         hull, lambda e: e.transform(narrower, MAIN), RefusedEditError

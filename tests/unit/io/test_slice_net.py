@@ -1,7 +1,6 @@
 """From slices of hulls with a formula to smooth lines and a net."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,9 +11,10 @@ from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import loft, sample
 from assoc_hull.hull import Hull
 from assoc_hull.io.digitised import read_lines
-from assoc_hull.io.mesh import read_mesh, slice_mesh
+from assoc_hull.io.mesh import slice_mesh
 from assoc_hull.io.mesh_file import Triangles
 from assoc_hull.io.slice_net import net_from_slices, sources_from_slices
+from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.model.verify import verify
 from tests import meshes
 
@@ -137,11 +137,9 @@ def test_one_line_is_no_net() -> None:
         net_from_slices(slices)
 
 
-def test_dtc_is_adopted(data_folder: Path) -> None:
+def test_dtc_is_adopted(dtc_with_report: tuple[Hull, SliceReport]) -> None:
     """DTC: at most 600 adopted points, 45 inflections more, gaps p95 4 mm, nothing found."""
-    slices = read_mesh(data_folder / "dtc" / "DTC-scaled.stl.gz", scale=59.407)
-    state, report = net_from_slices(slices)
-    hull = Hull(state)
+    hull, report = dtc_with_report
     gaps = [each.gap for each in hull.crossings.values() if each.gap is not None]
     assert report.adopted <= 600
     assert report.inflections[1] <= 45

@@ -1,14 +1,13 @@
 """Hulls that are drawn, and ways to look at a picture."""
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples, read
+from assoc_hull.sources import examples
 
 pytest.importorskip("matplotlib")
 
@@ -26,15 +25,9 @@ def wigley() -> Hull:
 
 
 @pytest.fixture(scope="session")
-def series60() -> Hull:
-    """A hull of all families and boundaries, edited by no test."""
-    return examples.series60(0.70)
-
-
-@pytest.fixture(scope="session")
-def dtc(data_folder: Path) -> Hull:
-    """A container ship with bulb, stern bulb and transom, cut from its mesh."""
-    return read(data_folder / "dtc" / "DTC-scaled.stl.gz", scale=59.407, draught=14.5)
+def series60(series60_70: Hull) -> Hull:
+    """A hull of all families and boundaries, as it is when no test edits it."""
+    return series60_70
 
 
 def _lines(figure: Figure, begin: str) -> Iterator[FloatArray]:

@@ -70,10 +70,10 @@ def test_before_and_after_shows_what_moved(pulled: tuple[Hull, Drawing]) -> None
 @pytest.mark.parametrize("paper", list(PAPERS))
 @pytest.mark.parametrize("station", ["ST 3", "ST 16"])
 def test_the_words_at_the_largest_movement_keep_within_the_frame(
-    station: str, paper: PaperName, boxes_of: Boxes
+    station: str, paper: PaperName, boxes_of: Boxes, fresh_series60_70: Hull
 ) -> None:
     """In the fore body and in the aft body, clear of the frame and of all other words."""
-    hull = examples.series60(0.70)
+    hull = fresh_series60_70
     before = snapshot(hull)
     with hull.edit("pull") as edit:
         edit.pull(f"WL 0.5 x {station}", 0.05, (20.0, 4.0))
