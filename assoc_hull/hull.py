@@ -345,6 +345,12 @@ class Hull:
 
         refresh(self.document)
 
+    def detach(self) -> None:
+        """Edit in memory from now on; the hull file stays as it is until the hull is saved."""
+        from assoc_hull.io.saving import detach
+
+        detach(self.document)
+
     def close(self) -> None:
         """Let go of the hull file; it can be read on, and not be edited."""
         from assoc_hull.io.saving import close

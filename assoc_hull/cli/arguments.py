@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,9 +13,21 @@ if TYPE_CHECKING:
 else:
     Commands = argparse._SubParsersAction
 
-__all__ = ["HULL_ENDINGS", "PICTURE_ENDINGS", "Commands", "add_command", "add_hull", "add_json"]
+__all__ = [
+    "FILE_ENDING",
+    "HULL_ENDINGS",
+    "PICTURE_ENDINGS",
+    "TEXT_ENDING",
+    "Commands",
+    "add_command",
+    "add_hull",
+    "add_json",
+    "add_replace",
+    "add_wait",
+]
 
-HULL_ENDINGS = (".hull.json",)
+FILE_ENDING, TEXT_ENDING = ".hull", ".hull.json"
+HULL_ENDINGS = (FILE_ENDING, TEXT_ENDING)
 PICTURE_ENDINGS = (".pdf", ".svg", ".png")
 
 
@@ -40,7 +53,34 @@ def add_command(
 
 def add_hull(parser: argparse.ArgumentParser) -> None:
     """Add the hull to be read."""
-    parser.add_argument("hull", metavar="HULL", type=Path, help="a .hull.json file")
+    parser.add_argument("hull", metavar="HULL", type=Path, help="a .hull or .hull.json file")
+
+
+def add_wait(parser: argparse.ArgumentParser) -> None:
+    """Add how long to wait for another writer."""
+    parser.add_argument(
+        "--wait", type=_seconds, default=0.0, metavar="S",
+        help="wait so long (s) while another process writes to HULL (default: 0)",
+    )  # fmt: skip
+
+
+def _seconds(text: str) -> float:
+    """Take a time in seconds."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not 0.0 <= found < 1e6:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time in seconds")
+    return found
+
+
+def add_replace(parser: argparse.ArgumentParser) -> None:
+    """Add the leave to write over a hull file."""
+    parser.add_argument(
+        "--replace", action="store_true",
+        help="write over a .hull file that is there, with its history",
+    )  # fmt: skip
 
 
 def add_json(parser: argparse._ActionsContainer) -> None:

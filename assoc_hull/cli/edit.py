@@ -10,10 +10,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from assoc_hull.cli.arguments import HULL_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.arguments import (
+    HULL_ENDINGS,
+    Commands,
+    add_command,
+    add_hull,
+    add_json,
+    add_replace,
+    add_wait,
+)
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.preview_words import preview_words
-from assoc_hull.cli.problems import InFileError, check_target
+from assoc_hull.cli.problems import InFileError, check_hull_target, check_target
 from assoc_hull.cli.why import why_words
 from assoc_hull.cli.words import edit_words
 from assoc_hull.edit.cause import Why
@@ -33,9 +41,9 @@ def add(commands: Commands) -> None:
     parser = add_command(
         commands, "edit", "carry out edits and let the hull follow; exit 1 if they are refused",
         _edit,
-        """assoc-hull edit ship.hull.json edits.json
-        assoc-hull edit ship.hull.json edits.json -o fairer.hull.json --why "BTK 0.44"
-        assoc-hull edit ship.hull.json edits.json --dry-run --json
+        """assoc-hull edit ship.hull edits.json --why "BTK 0.44"
+        assoc-hull edit ship.hull edits.json -o fairer.hull
+        assoc-hull edit ship.hull edits.json --dry-run --json
 
         edits.json: [{"op": "move", "point": "WL 0.5 x ST 16", "y": 7.35},
         {"op": "pull", "point": "WL 0.5 x ST 17", "d": 0.02, "radius": [20, 8]}]
@@ -56,6 +64,8 @@ def add(commands: Commands) -> None:
         action="store_true",
         help="tell what would change, by how much and where; write nothing",
     )
+    add_wait(parser)
+    add_replace(parser)
     add_json(parser)
 
 
@@ -73,13 +83,19 @@ def _edit(arguments: argparse.Namespace) -> int:
 def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
     """Edit the hull and write it."""
     target: Path = arguments.out or arguments.hull
+    apart = arguments.out is not None and arguments.out != arguments.hull
     check_target(target, HULL_ENDINGS)
-    hull = open_hull(arguments.hull)
+    if apart:
+        check_hull_target(target, replace=arguments.replace)
+    hull = open_hull(arguments.hull, wait=arguments.wait)
+    if apart:
+        hull.detach()
     with progress("updating"), _values_of(str(arguments.edits)), hull.edit(name) as edit:
         _modify_all(edit, changes, arguments.edits)
     assert edit.report is not None, "an edit without an error has a report"
     causes = {each: hull.why(each) for each in arguments.why}
-    hull.save(target)
+    if apart or hull.path is None:
+        hull.save(target, replace=arguments.replace)
     facts = _facts(edit.report, causes, hull.fingerprint, target)
     told = [edit_words(hull, edit.report), *why_words(causes), f"written: {target}"]
     emit(arguments, facts, "\n".join([name, *told]))

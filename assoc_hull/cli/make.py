@@ -8,19 +8,21 @@ from pathlib import Path
 from typing import Any
 
 from assoc_hull.cli.arguments import (
-    HULL_ENDINGS,
     PICTURE_ENDINGS,
     Commands,
     add_command,
     add_json,
+    add_replace,
 )
 from assoc_hull.cli.output import emit, plain, progress, progress_bar
-from assoc_hull.cli.problems import check_target
+from assoc_hull.cli.problems import check_hull_target, check_target
 from assoc_hull.cli.words import adoption_words, hull_words, slice_words
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.io.progress import Tell
+from assoc_hull.io.saving import holds_hull
 from assoc_hull.sources import examples
+from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
 
@@ -41,7 +43,7 @@ def add(commands: Commands) -> None:
 def _add_example(commands: Commands) -> None:
     parser = add_command(
         commands, "example", "write a hull that ships with the program", _example,
-        "assoc-hull example series60-070 -o ship.hull.json",
+        "assoc-hull example series60-070 -o ship.hull",
     )  # fmt: skip
     parser.add_argument("name", metavar="NAME", choices=_EXAMPLES, help=", ".join(_EXAMPLES))
     _add_target(parser)
@@ -51,7 +53,8 @@ def _add_example(commands: Commands) -> None:
 def _add_import(commands: Commands) -> None:
     parser = add_command(
         commands, "import", "make a hull from offsets, a mesh or digitised lines", _import,
-        """assoc-hull import offsets.csv -o ship.hull.json
+        """assoc-hull import offsets.csv -o ship.hull
+        assoc-hull import ship.hull.json -o ship.hull
         assoc-hull import hull.stl -o ship.hull.json --scale 59.407 --stations 41
         assoc-hull import hull.stl -o ship.hull.json --report report.json --picture report.pdf
         assoc-hull import sections.bri -o ship.hull.json
@@ -101,21 +104,23 @@ def _add_import(commands: Commands) -> None:
 
 def _add_target(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "-o", "--out", metavar="HULL", type=Path, required=True, help="the .hull.json file to write"
-    )
+        "-o", "--out", metavar="HULL", type=Path, required=True,
+        help="the hull to write: .hull keeps the history, .hull.json is text",
+    )  # fmt: skip
+    add_replace(parser)
 
 
 def _example(arguments: argparse.Namespace) -> int:
-    check_target(arguments.out, HULL_ENDINGS)
+    check_hull_target(arguments.out, replace=arguments.replace)
     with progress(f"making {arguments.name}"):
         hull = _EXAMPLES[arguments.name]()
-    hull.save(arguments.out)
+    hull.save(arguments.out, replace=arguments.replace)
     _tell(arguments, hull, {}, "")
     return 0
 
 
 def _import(arguments: argparse.Namespace) -> int:
-    check_target(arguments.out, HULL_ENDINGS)
+    check_hull_target(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
         check_target(arguments.report, (".json",))
     if arguments.picture is not None:
@@ -126,7 +131,7 @@ def _import(arguments: argparse.Namespace) -> int:
         if arguments.picture is not None:
             tell("drawing", 0, 0)
             _draw(hull, arguments.picture)
-    hull.save(arguments.out)
+    hull.save(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
         arguments.report.write_text(json.dumps(plain(report), indent=1) + "\n", "utf-8")
     _tell(arguments, hull, {"report": report}, text + "\n")
@@ -161,6 +166,8 @@ _OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance"
 def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.slice_read import holds_lines, require_file
 
+    if holds_hull(arguments.file):
+        return _adopt_nothing(arguments)
     if holds_lines(arguments.file):
         if arguments.station_zero != "auto":
             raise BadInputError(
@@ -175,6 +182,20 @@ def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, A
             "leave it out",
         )  # fmt: skip
     return _adopt_offsets(arguments)
+
+
+def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    """Take a hull that was saved; its history comes along where the file has one."""
+    plain_unit, plain_zero = arguments.unit == "auto", arguments.station_zero == "auto"
+    names = (*_OF_SLICES, "length", "breadth", "draught", "report", "picture")
+    given = [name for name in names if getattr(arguments, name) is not None]
+    given += ["unit"] * (not plain_unit) + ["station-zero"] * (not plain_zero)
+    if given:
+        where = f"with {arguments.file}, which is a hull already"
+        raise BadInputError(f"--{given[0]} cannot be given", where, "leave it out")
+    hull = open_hull(arguments.file)
+    hull.detach()
+    return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
 
 
 def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:

@@ -7,9 +7,10 @@ import traceback
 from collections.abc import Collection
 from pathlib import Path
 
+from assoc_hull.cli.arguments import FILE_ENDING, HULL_ENDINGS
 from assoc_hull.errors import AssocHullError, BadInputError
 
-__all__ = ["InFileError", "UsageError", "check_target", "explain"]
+__all__ = ["InFileError", "UsageError", "check_hull_target", "check_target", "explain"]
 
 _DEBUG = "ASSOC_HULL_DEBUG"
 
@@ -83,3 +84,24 @@ def check_target(path: Path, endings: Collection[str]) -> None:
         raise BadInputError(
             f"there is no folder {path.parent}", f"for {path.name}", "make the folder first"
         )
+
+
+def check_hull_target(path: Path, *, replace: bool) -> None:
+    """Refuse, before anything is computed, a hull that could not be written there.
+
+    Parameters
+    ----------
+    path : Path
+        The file; ``.hull`` or ``.hull.json``.
+    replace : bool
+        Whether a hull file that is there may be written over; the text form always may.
+
+    Raises
+    ------
+    BadInputError
+        See `check_target`; or there is a hull file of this name.
+    """
+    check_target(path, HULL_ENDINGS)
+    if path.name.endswith(FILE_ENDING) and path.exists() and not replace:
+        what, remedy = "there is a file of this name", "choose another name, or say --replace"
+        raise BadInputError(what, f"at {path}", remedy)

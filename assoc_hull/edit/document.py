@@ -48,6 +48,8 @@ class Document:
         Keeps what is committed; None for a hull that lives in memory only.
     author : str
         Who edits.
+    start : str
+        Fingerprint of the hull as it came; empty where it has not been taken.
     writer : object
         The transaction that is open; None if none is.
     """
@@ -60,6 +62,7 @@ class Document:
     labels: dict[str, Label] = attrs.field(factory=dict)
     keeper: Keeper | None = None
     author: str = ""
+    start: str = ""
     writer: object = attrs.field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:

@@ -86,6 +86,8 @@ class Step:
         keeps its number, whatever is undone.
     script : Script
         What was asked for, so that it can be asked for again.
+    fingerprint : str
+        That of the hull after the step; empty where it has not been taken.
     load : callable or None
         Gives the body; the step then need not hold it.
     """
@@ -95,6 +97,7 @@ class Step:
     number: int = 0
     parent: int = 0
     script: Script = attrs.field(factory=Script)
+    fingerprint: str = ""
     load: Callable[[], StepBody] | None = None
     _body: StepBody | None = None
 

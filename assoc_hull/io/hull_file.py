@@ -151,9 +151,8 @@ class HullFile:
             raise TypeError("a step that was just made holds its journal")
         with speaking_of(self.path):
             self._put(change, step.rows, step.curves)
-            write_step(
-                self.database, step, change, step.report, self._sign(step.number, step.number)
-            )
+            step.fingerprint = self._sign(step.number, step.number)
+            write_step(self.database, step, change)
             self._label(branch)
             self.database.execute("COMMIT")
         self.serial += 1
@@ -177,7 +176,7 @@ class HullFile:
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
                 self._put(journal.change, step.rows, step.curves)
             found = self._sign(head, tip)
-            if found != self._recorded(head):
+            if found != self.recorded(head):
                 what = f"the hull after step {head} is not as it was when that was committed"
                 raise DamagedFileError(what, f"in {self.path}", _COPY)
             self._label(branch)
@@ -217,7 +216,8 @@ class HullFile:
         )
         return found
 
-    def _recorded(self, head: int) -> object:
+    def recorded(self, head: int) -> object:
+        """Give the fingerprint that was written for the state after a step."""
         if not head:
             return self._one("SELECT start FROM hull")[0]
         return self._one("SELECT fingerprint FROM steps WHERE number = ?", head)[0]
@@ -340,6 +340,7 @@ def open_hull_file(path: Path, wait: float = 0.0) -> Document:
             file = HullFile(path, database, state, wait)
             document = Document(state, keeper=file, author=user())
             document.stand(*file.follow(document))
+            document.start = str(file.recorded(0))
             file.require_print()
             database.execute("ROLLBACK")
     except BaseException:

@@ -31,9 +31,7 @@ from assoc_hull.model.state import HullState
 __all__ = ["body_of", "digest", "report_from", "report_text", "steps_of", "write_step"]
 
 
-def write_step(
-    database: sqlite3.Connection, step: Step, change: Change, report: EditReport, fingerprint: str
-) -> None:
+def write_step(database: sqlite3.Connection, step: Step, change: Change) -> None:
     """Write a step.
 
     Parameters
@@ -41,17 +39,18 @@ def write_step(
     database : sqlite3.Connection
         The file, inside a transaction.
     step : Step
-        The step; `change` and `report` are what is written of its body.
-    fingerprint : str
-        That of the hull after the step.
+        The step, with the fingerprint of the hull after it.
+    change : Change
+        What it changed.
     """
+    report = step.report
     trace = pack(
         {"reader": step.cause.reader, "source": step.cause.source, "changed": step.changed,
          "moved": step.moved, "seeds": step.seeds}
     )  # fmt: skip
     row = (
         step.number, step.parent, step.name, report.author, report.time, int(step.structural),
-        fingerprint, script_text(step.script), report_text(report), trace, pack_change(change),
+        step.fingerprint, script_text(step.script), report_text(report), trace, pack_change(change),
     )  # fmt: skip
     database.execute(
         "INSERT INTO steps VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -129,13 +128,16 @@ def steps_of(
         return lambda: load(number)
 
     rows = database.execute(
-        "SELECT number, parent, name, structural, script FROM steps WHERE number > ? "
+        "SELECT number, parent, name, structural, script, fingerprint FROM steps WHERE number > ? "
         "ORDER BY number", (after,),
     )  # fmt: skip
     return [
-        Step(name, bool(structural), number, parent, script_from(script), loader(number))
-        for number, parent, name, structural, script in rows
-    ]
+        Step(
+            name, bool(structural), number, parent, script_from(script), fingerprint,
+            loader(number),
+        )
+        for number, parent, name, structural, script, fingerprint in rows
+    ]  # fmt: skip
 
 
 def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:

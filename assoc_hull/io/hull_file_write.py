@@ -24,21 +24,19 @@ import tempfile
 from importlib import metadata
 from pathlib import Path
 
-import numpy as np
-
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.states import walking
+from assoc_hull.edit.step import Rerun
 from assoc_hull.errors import BadInputError, HullFileError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file import HullFile
 from assoc_hull.io.hull_file_connect import connect, speaking_of
 from assoc_hull.io.hull_file_schema import create
 from assoc_hull.io.hull_file_steps import write_step
-from assoc_hull.io.hull_file_tables import put_rows, write_births, write_settings, write_state
+from assoc_hull.io.hull_file_tables import write_state
 from assoc_hull.io.whole_file import mode_for
 from assoc_hull.model.change import Change, change_of
 from assoc_hull.model.definition import fingerprint
-from assoc_hull.model.state import HullState
 
 __all__ = ["save_hull_file"]
 
@@ -142,21 +140,22 @@ def _fill(document: Document, name: str) -> dict[int, Change]:
 
 
 def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Change]:
-    """Write the hull as it came, then every step, then where the hull is now."""
+    """Write every step, then the hull as it is now."""
     state, changes = document.state, dict[int, Change]()
     with walking(document) as walk:
-        walk.go(0)
-        write_state(database, state, _version(), fingerprint(state))
+        if not document.start:
+            walk.go(0)
+            document.start = fingerprint(state)
         for number, step in sorted(document.steps.items()):
-            walk.go(number)
-            assert isinstance(step.journal, Journal), "a hull in memory holds its journals"
-            changes[number] = change_of(state, step.journal)
-            write_step(database, step, changes[number], step.report, fingerprint(state))
-    for table in ("groups", "lines", "curves", "rows"):
-        put_rows(database, state, table, np.arange(_most(state, changes, table)))
-    write_settings(database, state)
-    pairs = {pair for change in changes.values() for pair in change.births}
-    write_births(database, {pair: state.births.get(pair, 0) for pair in pairs})
+            journal = step.journal
+            if isinstance(journal, Journal):
+                walk.go(number)
+                changes[number] = change_of(state, journal)
+                step.fingerprint = step.fingerprint or fingerprint(state)
+                journal = Rerun(state, changes[number])
+            assert isinstance(journal, Rerun), "a step holds its journal or its change"
+            write_step(database, step, journal.change)
+    write_state(database, state, _version(), document.start)
     labels = [(each.name, each.step, int(each.branch)) for each in document.labels.values()]
     database.executemany("INSERT INTO labels VALUES (?, ?, ?)", labels)
     database.execute(
@@ -164,13 +163,6 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ch
         (fingerprint(state), document.head, document.tip),
     )
     return changes
-
-
-def _most(state: HullState, changes: dict[int, Change], table: str) -> int:
-    """Give how many rows a table has, or had at any time."""
-    sizes = [size for change in changes.values() for size in change.sizes.get(table, ())]
-    count: int = getattr(state, table).count
-    return max([count, *sizes])
 
 
 def _version() -> str:

@@ -40,6 +40,8 @@ __all__ = [
     "TEXT_ENDING",
     "Saved",
     "close",
+    "detach",
+    "holds_hull",
     "open_document",
     "path_of",
     "refresh",
@@ -104,12 +106,17 @@ def open_document(path: str | os.PathLike[str], wait: float = 0.0) -> Document:
     """Open a hull file, or read the canonical text; see `assoc_hull.hull.open`."""
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
         file = Path(path)
-        if is_hull_file(file) or not (_begins_as_text(file) or file.name.endswith(".json")):
+        if is_hull_file(file) or not (_is_text(file) or file.name.endswith(".json")):
             return open_hull_file(file, wait)
     return Document(read_hull_json(path), author=user())
 
 
-def _begins_as_text(path: Path) -> bool:
+def holds_hull(path: Path) -> bool:
+    """Tell whether a file begins as a hull file or as the canonical text does."""
+    return is_hull_file(path) or _is_text(path)
+
+
+def _is_text(path: Path) -> bool:
     """Tell whether a file begins as the canonical text does."""
     with contextlib.suppress(OSError), path.open("rb") as file:
         return file.read(200).lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
@@ -128,6 +135,11 @@ def refresh(document: Document) -> None:
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
     document.keeper.refresh(document)
+
+
+def detach(document: Document) -> None:
+    """Let a hull live in memory, with all its history; the hull file stays as it is."""
+    document.keeper = None
 
 
 def close(document: Document) -> None:

@@ -67,6 +67,7 @@ HULL: dict[str, Given] = {
     "save": {"path": "no-such-folder/a.hull.json", "replace": False},
     "refresh": {},
     "close": {},
+    "detach": {},
     "checkpoint": {"name": "here"},
     "go": {"name": "nowhere"},
     "diff": {"before": "nowhere", "after": None},
