@@ -96,8 +96,7 @@ class Document:
         """Take a finished step into the history; whatever fails, it is not in it."""
         step.number, step.parent = len(self.steps) + 1, self.head
         branch = self._branch(self.tip if self.undone else None)
-        stamp = datetime.now(UTC).isoformat(timespec="seconds")
-        report = attrs.evolve(step.report, number=step.number, author=self.author, time=stamp)
+        report = attrs.evolve(step.report, number=step.number, author=self.author, time=_now())
         step.replace(attrs.evolve(step.body, report=report))
         self._revise(step, 1)
         try:
@@ -215,7 +214,7 @@ class Document:
         self._closed("checkpoint")
         if text(name, "the name", "in checkpoint") in self.labels:
             raise NameTakenError("checkpoint or branch", name)
-        label = Label(name, self.head)
+        label = Label(name, self.head, author=self.author, time=_now())
         with self._writing():
             if self.keeper is not None:
                 self.keeper.label(label)
@@ -273,7 +272,7 @@ class Document:
         number = 1
         while f"branch {number}" in self.labels:
             number += 1
-        return Label(f"branch {number}", tip, branch=True)
+        return Label(f"branch {number}", tip, True, self.author, _now())
 
     def _name(self, label: Label | None) -> None:
         if label is not None:
@@ -306,3 +305,8 @@ class Document:
                 revisions[number] = revisions.get(number, 0) + by
                 if not revisions[number]:
                     del revisions[number]
+
+
+def _now() -> str:
+    """Give the time for the record; nothing is computed from it."""
+    return datetime.now(UTC).isoformat(timespec="seconds")

@@ -29,11 +29,15 @@ class Label:
     branch : bool
         Whether it was given to undone steps when another edit was made in their place; else a
         checkpoint, that somebody asked for.
+    author, time : str
+        Who gave the name, and when: ISO 8601, UTC.
     """
 
     name: str
     step: int
     branch: bool = False
+    author: str = attrs.field(default="", eq=False)
+    time: str = attrs.field(default="", eq=False)
 
 
 class Keeper(Protocol):

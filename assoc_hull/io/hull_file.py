@@ -45,7 +45,13 @@ from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file_connect import connect, speaking_of
-from assoc_hull.io.hull_file_steps import body_of, steps_of, write_step
+from assoc_hull.io.hull_file_steps import (
+    body_of,
+    read_labels,
+    steps_of,
+    write_labels,
+    write_step,
+)
 from assoc_hull.io.hull_file_tables import (
     put_rows,
     read_revisions,
@@ -193,8 +199,7 @@ class HullFile:
 
     def _label(self, label: Label | None) -> None:
         if label is not None:
-            row = (label.name, label.step, int(label.branch))
-            self.database.execute("INSERT INTO labels VALUES (?, ?, ?)", row)
+            write_labels(self.database, [label])
 
     def _put(self, change: Change, rows: IntArray, curves: IntArray) -> None:
         """Write the rows of the tables that a change touched, as they are now."""
@@ -250,9 +255,9 @@ class HullFile:
         with speaking_of(self.path, self.wait):
             head, tip, serial = self._one("SELECT head, tip, serial FROM hull")
             new = steps_of(database, len(document.steps), self.load)
-            labels = database.execute("SELECT name, step, branch FROM labels").fetchall()
+            labels = read_labels(database)
         document.steps |= {step.number: step for step in new}
-        document.labels = {name: Label(name, step, bool(branch)) for name, step, branch in labels}
+        document.labels = {label.name: label for label in labels}
         self._known, self.serial = len(document.steps), serial
         return head, tip
 

@@ -25,7 +25,7 @@ __all__ = ["APPLICATION", "MIGRATIONS", "SCHEMA", "TABLES", "create", "migrate"]
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 1
+SCHEMA = 2
 
 TABLES = """
 CREATE TABLE hull (
@@ -74,7 +74,8 @@ CREATE TABLE births (
     a TEXT NOT NULL, b TEXT NOT NULL, count INTEGER NOT NULL, PRIMARY KEY (a, b)
 ) WITHOUT ROWID;
 CREATE TABLE labels (
-    name TEXT PRIMARY KEY, step INTEGER NOT NULL, branch INTEGER NOT NULL
+    name TEXT PRIMARY KEY, step INTEGER NOT NULL, branch INTEGER NOT NULL,
+    author TEXT NOT NULL DEFAULT '', time TEXT NOT NULL DEFAULT ''
 );
 CREATE TABLE steps (
     number INTEGER PRIMARY KEY, parent INTEGER NOT NULL, name TEXT NOT NULL,
@@ -86,7 +87,14 @@ CREATE TABLE steps (
 
 Migration = Callable[[sqlite3.Connection], None]
 
-MIGRATIONS: Mapping[int, Migration] = {}
+
+def _sign_labels(database: sqlite3.Connection) -> None:
+    """From 1 to 2: names tell who gave them, and when; of older ones nobody knows."""
+    for column in ("author", "time"):
+        database.execute(f"ALTER TABLE labels ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
+
+
+MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels}
 """By version: what brings a file of it to the next one."""
 
 

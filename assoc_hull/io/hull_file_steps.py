@@ -13,12 +13,13 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import attrs
 import numpy as np
 
+from assoc_hull.edit.keeper import Label
 from assoc_hull.edit.record import Script
 from assoc_hull.edit.report import EditReport, Movement
 from assoc_hull.edit.step import Rerun, Step, StepBody
@@ -28,7 +29,16 @@ from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import Change
 from assoc_hull.model.state import HullState
 
-__all__ = ["body_of", "digest", "report_from", "report_text", "steps_of", "write_step"]
+__all__ = [
+    "body_of",
+    "digest",
+    "read_labels",
+    "report_from",
+    "report_text",
+    "steps_of",
+    "write_labels",
+    "write_step",
+]
 
 
 def write_step(database: sqlite3.Connection, step: Step, change: Change) -> None:
@@ -165,3 +175,19 @@ def body_of(row: tuple[Any, ...], state: HullState) -> StepBody:
         Rerun(state, unpack_change(row[11])), Readers(reader, source), changed,
         trace["moved"].astype(np.float64), seeds, report_from(row[9]),
     )  # fmt: skip
+
+
+def write_labels(database: sqlite3.Connection, labels: Sequence[Label]) -> None:
+    """Write names of states."""
+    rows = [(each.name, each.step, int(each.branch), each.author, each.time) for each in labels]
+    database.executemany("INSERT INTO labels VALUES (?, ?, ?, ?, ?)", rows)
+
+
+def read_labels(database: sqlite3.Connection) -> list[Label]:
+    """Read all names of states, in the order of the steps."""
+    rows = database.execute(
+        "SELECT name, step, branch, author, time FROM labels ORDER BY step, name"
+    )
+    return [
+        Label(name, step, bool(branch), author, time) for name, step, branch, author, time in rows
+    ]

@@ -32,7 +32,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file import HullFile
 from assoc_hull.io.hull_file_connect import connect, speaking_of
 from assoc_hull.io.hull_file_schema import create
-from assoc_hull.io.hull_file_steps import write_step
+from assoc_hull.io.hull_file_steps import write_labels, write_step
 from assoc_hull.io.hull_file_tables import write_state
 from assoc_hull.io.whole_file import mode_for
 from assoc_hull.model.change import Change, change_of
@@ -156,8 +156,7 @@ def _write_all(database: sqlite3.Connection, document: Document) -> dict[int, Ch
             assert isinstance(journal, Rerun), "a step holds its journal or its change"
             write_step(database, step, journal.change)
     write_state(database, state, _version(), document.start)
-    labels = [(each.name, each.step, int(each.branch)) for each in document.labels.values()]
-    database.executemany("INSERT INTO labels VALUES (?, ?, ?)", labels)
+    write_labels(database, list(document.labels.values()))
     database.execute(
         "UPDATE hull SET fingerprint = ?, head = ?, tip = ?",
         (fingerprint(state), document.head, document.tip),

@@ -26,6 +26,7 @@ True
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -160,8 +161,14 @@ def change_of(state: HullState, journal: Journal) -> Change:
 
 def _bytes(values: NDArray[Any]) -> NDArray[np.uint8]:
     """Give each row as bytes."""
-    flat = np.ascontiguousarray(values).reshape(len(values), -1)
-    return flat.view(np.uint8).reshape(len(values), -1)
+    width = values.itemsize * math.prod(values.shape[1:])
+    return np.frombuffer(values.tobytes(), np.uint8).reshape(len(values), width)
+
+
+def _differ(old: NDArray[Any], new: NDArray[Any]) -> NDArray[np.bool_]:
+    """Tell for each row whether a bit differs."""
+    found: NDArray[np.bool_] = (_bytes(old) != _bytes(new)).any(axis=1)
+    return found
 
 
 def _same(old: object, new: object) -> bool:
@@ -203,7 +210,7 @@ def _then(state: HullState, journal: Journal, columns: dict[str, Any]) -> tuple[
         net = journal.net(columns[f"rows.{name}"])
         was[name] = now.copy()
         was[name][net.rows] = net.old
-        odd = (_bytes(net.old) ^ _bytes(net.new)).reshape(len(net.rows), 2, -1).any(axis=2)
+        odd = np.stack([_differ(net.old[:, side], net.new[:, side]) for side in (0, 1)], axis=1)
         touched += [each[net.rows][odd] for each in (table.curve.data, was["curve"])]
     meets = {}
     if "curves.meets" in columns:
