@@ -265,10 +265,12 @@ class Hull:
         return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
-        """Rebuild the hull beside the published one and give every difference."""
+        """Rebuild the hull beside the published one, and look through its file: all that differs."""
+        from assoc_hull.io.saving import damages
         from assoc_hull.model.verify import verify
 
-        return tuple(verify(self.state, not_negative(relative, "relative", "in verify")))
+        found = verify(self.state, not_negative(relative, "relative", "in verify"))
+        return (*found, *damages(self.document))
 
     @property
     def fingerprint(self) -> str:

@@ -358,7 +358,8 @@ def open_hull_file(path: Path, wait: float = 0.0) -> Document:
 def _reading(path: Path) -> Iterator[None]:
     """Say that a file is damaged where it holds what no hull file holds."""
     try:
-        yield
+        with np.errstate(all="ignore"):
+            yield
     except _ODD as error:
         if isinstance(error, DamagedFileError):
             raise

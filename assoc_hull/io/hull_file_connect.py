@@ -72,7 +72,12 @@ def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
 
 def writable(path: Path) -> bool:
     """Tell whether file and folder may be written: the database needs a log beside the file."""
-    return os.access(path, os.W_OK) and os.access(path.parent, os.W_OK | os.X_OK)
+    return _may(path, os.W_OK) and _may(path.parent, os.W_OK | os.X_OK)
+
+
+def _may(path: Path, mode: int) -> bool:
+    """Tell whether this process may use a file or folder so, as who it is at present."""
+    return os.access(path, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
 def connect(path: Path, wait: float) -> sqlite3.Connection:
@@ -112,7 +117,7 @@ def _address(path: Path) -> str:
     if writable(path):
         return f"{name}?mode=rw"
     log = path.with_name(f"{path.name}-wal")
-    if log.exists() or os.access(path.parent, os.W_OK | os.X_OK):
+    if log.exists() or _may(path.parent, os.W_OK | os.X_OK):
         return f"{name}?mode=ro"
     return f"{name}?mode=ro&immutable=1"  # nobody can write a log in that folder
 

@@ -79,16 +79,16 @@ def save_hull_file(
 
 def _require_free(target: Path, *, replace: bool) -> None:
     """Refuse to write over anything."""
-    if target.is_dir():
+    if os.path.isdir(target):
         raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
-    if not target.parent.is_dir():
+    if not os.path.isdir(target.parent):
         what = f"there is no folder {target.parent}"
         raise BadInputError(what, f"for {target.name}", "make the folder first")
-    if target.exists() and not replace:
+    if os.path.lexists(target) and not replace:
         what, remedy = "there is a file of this name", "choose another name, or ask to replace it"
         raise BadInputError(what, f"at {target}", remedy)
     log = target.with_name(f"{target.name}-wal")
-    if log.exists():
+    if os.path.lexists(log):
         what = "the log of another hull file lies beside it, with edits that may be nowhere else"
         remedy = "close the program that uses it, or move it to where its hull file is"
         raise BadInputError(what, f"at {log}", remedy)

@@ -34,12 +34,14 @@ from assoc_hull.io.hull_file import HullFile, open_hull_file, user
 from assoc_hull.io.hull_file_connect import is_hull_file
 from assoc_hull.io.hull_file_write import save_hull_file
 from assoc_hull.io.hull_json import read_hull_json, write_hull_json
+from assoc_hull.model.verify import Difference
 
 __all__ = [
     "FILE_ENDING",
     "TEXT_ENDING",
     "Saved",
     "close",
+    "damages",
     "detach",
     "holds_hull",
     "open_document",
@@ -140,6 +142,13 @@ def refresh(document: Document) -> None:
 def detach(document: Document) -> None:
     """Let a hull live in memory, with all its history; the hull file stays as it is."""
     document.keeper = None
+
+
+def damages(document: Document) -> list[Difference]:
+    """Look through the hull file, if there is one, for what is not as it was written."""
+    keeper = document.keeper
+    found = keeper.damages() if isinstance(keeper, HullFile) else []
+    return [Difference(each, "hull file", float("inf")) for each in found]
 
 
 def close(document: Document) -> None:
