@@ -265,7 +265,7 @@ class Hull:
         return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
-        """Rebuild the hull beside the published one, and look through its file: all that differs."""
+        """Rebuild the hull beside the published one, look through its file: all that differs."""
         from assoc_hull.io.saving import damages
         from assoc_hull.model.verify import verify
 

@@ -21,7 +21,8 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
-from assoc_hull.plot import lines_plan
+from assoc_hull.plot import lines_plan, neighbourhood
+from assoc_hull.sources import examples
 
 FOLDER = Path(__file__).parent / "images"
 LARGEST = 150_000
@@ -32,6 +33,14 @@ def plan() -> Figure:
     return lines_plan(ship(), paper="A4")
 
 
+def one_way() -> Figure:
+    """Draw what drives a waterline of a hull whose sections do not follow it."""
+    hull = examples.wigley()
+    with hull.edit("first lines") as edit:
+        edit.associate("sections", "waterlines", two_way=False)
+    return neighbourhood(hull, "WL 2.5", paper="A4")
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "crossing": crossing,
@@ -39,6 +48,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "pull": pull,
     "pinned_or_field": pinned_or_field,
     "levels": levels,
+    "one_way": one_way,
     "spline": knuckle_end,
     "completions": completions,
     "bulk_carrier": bulk_carrier,

@@ -52,7 +52,8 @@ def _check(arguments: argparse.Namespace) -> int:
     with progress("checking"):
         found = hull.check(notes=arguments.notes)
     wrong = sum(each.kind != _NOTE for each in found)
-    lines = [*map(str, found), f"{wrong} findings" if wrong else "no findings"]
+    count = f"{wrong} finding{'s' if wrong > 1 else ''}" if wrong else "no findings"
+    lines = [*map(str, found), count]
     emit(arguments, {"findings": found}, "\n".join(lines))
     return 1 if wrong else 0
 
@@ -62,7 +63,8 @@ def _verify(arguments: argparse.Namespace) -> int:
     with progress("rebuilding"):
         found = hull.verify(arguments.relative)
     lines = [f"{each.key}: {each.field} differs by {each.amount:.3g}" for each in found]
-    lines.append(f"{len(found)} differences" if found else "no differences")
+    plural = "s" if len(found) > 1 else ""
+    lines.append(f"{len(found)} difference{plural}" if found else "no differences")
     facts = {"fingerprint": hull.fingerprint, "differences": found}
     emit(arguments, facts, "\n".join(lines))
     return 1 if found else 0

@@ -7,17 +7,19 @@ from collections.abc import Callable, Iterator
 import attrs
 import numpy as np
 
+from assoc_hull.edit.check_associations import find_associations
 from assoc_hull.edit.check_links import find_links
 from assoc_hull.edit.check_roles import find_roles
 from assoc_hull.edit.check_sense import find_sense
-from assoc_hull.edit.check_shape import find_shape
+from assoc_hull.edit.check_shape import bounded, find_shape
+from assoc_hull.edit.check_tables import find_tables
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.finding import Finding, row_finding
 from assoc_hull.errors import RingError
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import State
 from assoc_hull.model.gaps import gap_at, watched_on
-from assoc_hull.model.index import build_index
+from assoc_hull.model.index import driven_levels
 from assoc_hull.model.state import HullState
 
 __all__ = ["Finding", "check"]
@@ -48,10 +50,28 @@ def check(source: Document | HullState, notes: bool = False) -> tuple[Finding, .
     """
     state = source.state if isinstance(source, Document) else source
     book = AddressBook(state)
-    found: list[Finding] = []
+    found = list(find_tables(state, book))
+    damaged = bool(found)
     for look in (*_LOOKS, *((find_roles,) if notes else ())):
-        found += sorted(look(state, book), key=lambda each: (each.kind, each.object))
+        mine = list[Finding]()
+        try:
+            mine.extend(look(state, book))
+        except _STUMBLES as error:
+            if not damaged:
+                raise
+            mine.append(_left_out(look.__name__, error))
+        found += sorted(mine, key=lambda each: (each.kind, each.object))
     return tuple(found)
+
+
+_STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+
+
+def _left_out(look: str, error: Exception) -> Finding:
+    """Say that a look could not be finished over the damage that is told before."""
+    title = look.strip("_").removeprefix("find_")
+    text = f"could not be checked to the end ({type(error).__name__}): mend the tables first"
+    return Finding("tables", title, None, None, text)
 
 
 def _broken(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -70,7 +90,7 @@ def _broken(state: HullState, book: AddressBook) -> Iterator[Finding]:
 
 _BROKEN = {
     State.FAILED: "could not be lofted and keeps its last good shape: undo the edit or mend it",
-    State.BLOCKED: "is not up to date: something it is made from has failed",
+    State.BLOCKED: "is not up to date, as something it is made from has failed: mend that",
 }
 
 
@@ -84,6 +104,8 @@ def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """Watched crossings whose curves pass each other farther apart than they may."""
     rows = watched_on(state, state.live("curves"))
     rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
+    lofted = np.array([bounded(spline) for spline in state.curves.spline.data], bool)
+    rows = rows[lofted[state.rows.curve.data[rows]].all(axis=1)]
     gap, limit = gap_at(state, rows), state.rows.limit.data[rows]
     for i in np.flatnonzero(gap > limit).tolist():
         text = (
@@ -96,7 +118,7 @@ def _gaps(state: HullState, book: AddressBook) -> Iterator[Finding]:
 def _rings(state: HullState, _: AddressBook) -> Iterator[Finding]:
     """Driven links that run in a ring."""
     try:
-        build_index(state)
+        driven_levels(state)
     except RingError as error:
         yield Finding("ring", error.path[0], None, float(len(error.path) - 1), str(error))
 
@@ -107,5 +129,6 @@ _LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
     find_sense,
     _gaps,
     find_links,
+    find_associations,
     _rings,
 )

@@ -1,4 +1,4 @@
-"""Findings on links: roles against readers and drivers, orphans, twins, associations."""
+"""Findings on links: roles against readers and drivers, orphans, twins."""
 
 from __future__ import annotations
 
@@ -7,17 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from assoc_hull.edit.finding import Finding, row_finding
-from assoc_hull.edit.topology import generates
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import HullState
 
-__all__ = ["expected_links", "find_links"]
+__all__ = ["crossings_of", "expected_links", "find_links", "role_words"]
 
 
 def find_links(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Give all findings on links between points, curves, lines and associations.
+    """Give all findings on links between points, curves, lines and groups.
 
     Examples
     --------
@@ -34,7 +33,8 @@ def find_links(state: HullState, book: AddressBook) -> Iterator[Finding]:
     yield from _orphan_curves(state, book)
     yield from _orphan_lines(state, book)
     yield from _twins(state, book)
-    yield from _undeclared(state, book)
+    yield from _alone(state, book)
+    yield from _foreign(state, book)
 
 
 def expected_links(state: HullState, rows: IntArray) -> tuple[IntArray, IntArray]:
@@ -55,11 +55,16 @@ def _roles(state: HullState, book: AddressBook) -> Iterator[Finding]:
     wrong = (state.rows.reader.data[rows] != reader).any(axis=1)
     wrong |= state.rows.driver.data[rows] != driver
     for row in rows[wrong].tolist():
-        role = Role(int(state.rows.role.data[row])).text
         crossing = state.rows.sort.data[row] == Sort.CROSSING
-        what = f"is {role}" if crossing else f"is {_sort(state, row)}"
+        role = Role(int(state.rows.role.data[row]))
+        what = role_words(role) if crossing else f"is {_sort(state, row)}"
         text = f"{what}, and its links say otherwise: set its role again"
         yield row_finding(state, book, row, "links", text)
+
+
+def role_words(role: Role) -> str:
+    """Say what role a crossing has."""
+    return role.text if role in (Role.DRIVES_A, Role.DRIVES_B) else f"is {role.text}"
 
 
 def _sort(state: HullState, row: int) -> str:
@@ -76,7 +81,8 @@ def _listed(state: HullState, book: AddressBook) -> Iterator[Finding]:
                 text = f"is made through {key}, which has gone: undo the edit"
                 yield Finding("links", book.curve_name(curve), None, None, text)
             elif not (reader[row] == curve).any():
-                text = f"defines {book.curve_name(curve)} and is not linked to it"
+                name = book.curve_name(curve)
+                text = f"defines {name} and is not linked to it: set its role again"
                 yield row_finding(state, book, row, "links", text)
 
 
@@ -89,9 +95,15 @@ def _orphan_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
             key = state.rows.key.data[row]
             yield Finding("orphan", key, None, None, "lies on no curve that exists: delete it")
             continue
+        for anchor in state.rows.anchor.data[row].tolist():
+            if anchor >= 0 and not state.rows.alive.data[anchor]:
+                text = f"rides with {state.rows.key.data[anchor]}, which has gone: undo the edit"
+                yield row_finding(state, book, row, "orphan", text)
         for curve in state.rows.reader.data[row].tolist():
             if curve >= 0 and row not in state.curves.rows.data[curve]:
-                text = f"should define {book.curve_name(curve)}, which does not know it"
+                text = (
+                    f"should define {book.curve_name(curve)}, which does not know it: undo the edit"
+                )
                 yield row_finding(state, book, row, "orphan", text)
 
 
@@ -100,9 +112,10 @@ def _orphan_curves(state: HullState, book: AddressBook) -> Iterator[Finding]:
         line = state.line_of(curve)
         if line < 0 or not state.lines.alive.data[line]:
             key = state.curves.key.data[curve]
-            yield Finding("orphan", key, None, None, "belongs to no line that exists")
+            text = "belongs to no line that exists: undo the edit"
+            yield Finding("orphan", key, None, None, text)
         elif curve not in state.lines.curves.data[line]:
-            text = f"is not among the curves of {book.line_name(line)}"
+            text = f"is not among the curves of {book.line_name(line)}: undo the edit"
             yield Finding("orphan", state.curves.key.data[curve], None, None, text)
 
 
@@ -111,7 +124,8 @@ def _orphan_lines(state: HullState, book: AddressBook) -> Iterator[Finding]:
         group = int(state.lines.group.data[line])
         if group < 0 or not state.groups.alive.data[group]:
             key = state.lines.key.data[line]
-            yield Finding("orphan", key, None, None, "belongs to no group that exists")
+            text = "belongs to no group that exists: undo the edit"
+            yield Finding("orphan", key, None, None, text)
         elif not any(state.curves.alive.data[curve] for curve in state.lines.curves.data[line]):
             yield Finding("orphan", book.line_name(line), None, None, "has no curves: remove it")
 
@@ -122,47 +136,46 @@ def _twins(state: HullState, book: AddressBook) -> Iterator[Finding]:
         curve: set(state.curves.meets.data[curve].row.tolist())
         for curve in state.live("curves").tolist()
     }
-    for row in _crossings(state):
+    for row in crossings_of(state):
         contact = bool(state.rows.contact.data[row])
         for side, curve in enumerate(state.rows.curve.data[row].tolist()):
             if curve not in known or (contact and side == 1):
                 continue
             reads = bool((state.rows.reader.data[row] == curve).any())
             if row not in known[curve] and not (contact and reads):
-                text = f"is not among the meetings of {book.curve_name(curve)}: its twin is missing"
+                name = book.curve_name(curve)
+                text = f"is not among the meetings of {name}, its twin is missing: undo the edit"
                 yield row_finding(state, book, row, "twin", text)
 
 
-def _crossings(state: HullState) -> list[int]:
+def crossings_of(state: HullState) -> list[int]:
+    """Give the crossings that lie on two curves of lines."""
     rows = state.live("rows")
-    found: list[int] = rows[state.rows.sort.data[rows] == Sort.CROSSING].tolist()
+    curves = state.rows.curve.data[rows]
+    both = (curves >= 0).all(axis=1) & (state.curves.line.data[curves] >= 0).all(axis=1)
+    found: list[int] = rows[both & (state.rows.sort.data[rows] == Sort.CROSSING)].tolist()
     return found
 
 
-def _undeclared(state: HullState, book: AddressBook) -> Iterator[Finding]:
-    """Crossings of lines that are not associated, or driven against the association."""
-    declared: dict[tuple[int, int], tuple[bool, bool]] = {}
-    for row in _crossings(state):
-        curves = state.rows.curve.data[row].tolist()
-        lines = (state.line_of(curves[0]), state.line_of(curves[1]))
-        groups = tuple(int(state.lines.group.data[line]) for line in lines)
-        pair = (groups[0], groups[1])
-        if pair not in declared:
-            declared[pair] = generates(state, *lines)
-        text = _against(declared[pair], Role(int(state.rows.role.data[row])))
-        if text and (declared[pair] == (False, False) or state.rows.override.data[row] < 0):
-            yield row_finding(state, book, row, "association", text)
+def _alone(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Crossings that lie on one curve only."""
+    table = state.rows
+    for row in state.live("rows").tolist():
+        a, b = table.curve.data[row].tolist()
+        if table.sort.data[row] == Sort.CROSSING and a >= 0 and b < 0:
+            text = f"crosses {book.curve_name(a)} and no other curve: its twin is missing"
+            yield row_finding(state, book, row, "twin", f"{text}: undo the edit")
 
 
-def _against(generating: tuple[bool, bool], role: Role) -> str:
-    """Say how a role goes against what is declared; empty if it does not."""
-    if generating == (False, False):
-        return "joins groups that are not associated: associate them, or remove the crossing"
-    allowed = {
-        (True, True): set(Role),
-        (True, False): {Role.DRIVES_B, Role.WATCHED},
-        (False, True): {Role.DRIVES_A, Role.WATCHED},
-    }[generating]
-    if role in allowed:
-        return ""
-    return f"is {role.text} against a one-way association: set its role, or associate two-way"
+def _foreign(state: HullState, book: AddressBook) -> Iterator[Finding]:
+    """Meetings of curves that are crossings which have gone, or lie elsewhere."""
+    table = state.rows
+    for curve in state.live("curves").tolist():
+        rows, name = state.curves.meets.data[curve].row, book.curve_name(curve)
+        for row in rows[rows >= 0].tolist():
+            if not table.alive.data[row]:
+                text = f"meets a curve at {table.key.data[row]}, which has gone: undo the edit"
+                yield Finding("twin", name, None, None, text)
+            elif not (table.curve.data[row] == curve).any():
+                text = f"is among the meetings of {name} and does not lie on it: undo the edit"
+                yield row_finding(state, book, row, "twin", text)

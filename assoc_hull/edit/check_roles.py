@@ -13,6 +13,7 @@ from collections.abc import Iterator
 import attrs
 import numpy as np
 
+from assoc_hull.edit.check_shape import bounded
 from assoc_hull.edit.finding import Finding, row_finding
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Sort
@@ -60,7 +61,7 @@ def _may_define(state: HullState) -> dict[tuple[int, int], set[bool]]:
     found: dict[tuple[int, int], set[bool]] = {}
     for curve in state.live("curves").tolist():
         on = points_on(state, curve)
-        if len(on.row) < 2:
+        if len(on.row) < 2 or not bounded(state.curves.spline.data[curve]):
             continue
         candidates = _candidates(state, curve, on)
         for row, sure, likely in zip(

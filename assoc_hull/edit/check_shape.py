@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeGuard
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.place import points_on
 from assoc_hull.model.state import HullState
 
-__all__ = ["find_shape"]
+__all__ = ["bounded", "find_shape"]
 
 
 def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -34,8 +35,8 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
     yield from _off_planes(state, book)
     for curve in state.live("curves").tolist():
         yield from _close(state, book, curve)
-        spline: SplineBatch | None = state.curves.spline.data[curve]
-        if spline is None or not _bounded(spline):
+        spline = state.curves.spline.data[curve]
+        if not bounded(spline):
             yield _unbounded(state, book, curve)
             continue
         yield from _folds(book, curve, spline)
@@ -48,8 +49,11 @@ def _unbounded_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
         yield row_finding(state, book, row, "not finite", "has no finite place: undo the edit")
 
 
-def _bounded(spline: SplineBatch) -> bool:
-    return all(np.isfinite(part).all() for part in (spline.xyz, spline.leave, spline.arrive))
+def bounded(spline: SplineBatch | None) -> TypeGuard[SplineBatch]:
+    """Tell whether a curve has a spline, and all its numbers are finite."""
+    return spline is not None and all(
+        np.isfinite(part).all() for part in (spline.xyz, spline.leave, spline.arrive)
+    )
 
 
 def _unbounded(state: HullState, book: AddressBook, curve: int) -> Finding:
@@ -108,5 +112,6 @@ def _off_planes(state: HullState, book: AddressBook) -> Iterator[Finding]:
         exact = (np.abs(normal) == 1.0).any(axis=1)
         wrong = off > np.where(exact, 0.0, state.tolerances.consistent)
         for i in np.flatnonzero(wrong).tolist():
-            text = f"lies {off[i]:.3g} m out of the plane of {book.line_name(int(lines[i]))}"
+            name = book.line_name(int(lines[i]))
+            text = f"lies {off[i]:.3g} m out of the plane of {name}: undo the edit"
             yield row_finding(state, book, int(mine[i]), "off plane", text, float(off[i]))

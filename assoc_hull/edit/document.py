@@ -36,8 +36,6 @@ class Document:
     ----------
     state : HullState
         The published tables.
-    index : Index
-        Look-ups derived from them.
     history, undone : list of Step
         Committed steps, oldest first; steps taken back, the last one taken back last.
     steps : dict of int to Step
@@ -55,7 +53,6 @@ class Document:
     """
 
     state: HullState
-    index: Index = attrs.field(init=False)
     history: list[Step] = attrs.field(factory=list)
     undone: list[Step] = attrs.field(factory=list)
     steps: dict[int, Step] = attrs.field(factory=dict)
@@ -64,13 +61,21 @@ class Document:
     author: str = ""
     start: str = ""
     writer: object = attrs.field(default=None, init=False)
+    _index: Index | None = attrs.field(default=None, init=False)
 
-    def __attrs_post_init__(self) -> None:
-        self.index = build_index(self.state)
+    @property
+    def index(self) -> Index:
+        """Look-ups derived from the tables, when they are first needed.
+
+        So a hull whose links run in a ring can be opened, and be told what is wrong.
+        """
+        if self._index is None:
+            self._index = build_index(self.state)
+        return self._index
 
     def refresh(self) -> None:
         """Derive the look-ups anew, after the structure changed."""
-        self.index = build_index(self.state)
+        self._index = build_index(self.state)
 
     @property
     def head(self) -> int:

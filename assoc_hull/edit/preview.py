@@ -118,12 +118,10 @@ class _After:
 
 def _look(document: Document, step: Step | None, asked: Sequence[Thing | str]) -> _After:
     state, steps = document.state, [*document.history, *([] if step is None else [step])]
-    causes = {
-        thing if isinstance(thing, str) else thing.id: why_after(
-            state, steps, node_of(state, thing)
-        )
-        for thing in asked
-    }
+    causes = dict[str, Why]()
+    for thing in asked:
+        node = node_of(state, thing)
+        causes[thing if isinstance(thing, str) else thing.id] = why_after(state, steps, node)
     return _After(_measure(document), line_changes(state, step), causes, fingerprint(state))
 
 

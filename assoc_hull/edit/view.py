@@ -101,7 +101,7 @@ def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.Multi
 
 def _nodes(state: HullState, thing: Thing | str, found: networkx.MultiDiGraph[str]) -> list[str]:
     """Give the nodes of an object; a line lies no nearer to its curves than they themselves."""
-    if isinstance(thing, str) and thing in found and found.nodes[thing]["kind"] == "point":
+    if isinstance(thing, str) and thing in found and found.nodes[thing].get("kind") == "point":
         return [thing]
     given = handle(state, thing) if isinstance(thing, str) else thing
     if not isinstance(given, Thing):

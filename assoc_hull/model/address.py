@@ -121,6 +121,8 @@ class AddressBook:
     def curve_name(self, curve: int) -> str:
         """Give the name of a curve: that of its line, with a number if it is one of several."""
         line = self.state.line_of(curve)
+        if line < 0:
+            return str(self.state.curves.key.data[curve])
         pieces = self._pieces(line)
         if len(pieces) < 2 or curve not in pieces:
             return self.line_name(line)
@@ -207,9 +209,13 @@ class AddressBook:
         table, names = self.state.rows, tuple[str, ...]()
         a, b = table.curve.data[row].tolist()
         lines = self.state.curves.line.data
+        if a < 0 or lines[a] < 0 or (b >= 0 and lines[b] < 0):
+            return None
         if b < 0:
             names = (self.line_name(int(lines[a])),)
             sort = Sort(int(table.sort.data[row]))
+            if sort is Sort.CROSSING:
+                return None
             rows = self._own_rows(int(lines[a]), sort)
             if row not in rows:
                 return None

@@ -18,7 +18,7 @@ from assoc_hull.graph.rank import levels
 from assoc_hull.model.recipe import same_objects
 from assoc_hull.model.state import HullState
 
-__all__ = ["Index", "Objects", "PlaneSet", "build_index"]
+__all__ = ["Index", "Objects", "PlaneSet", "build_index", "driven_levels"]
 
 T = TypeVar("T")
 
@@ -122,12 +122,25 @@ def build_index(state: HullState) -> Index:
     rows = state.rows
     driver = np.where(rows.alive.data, rows.driver.data, -1)
     driven = np.flatnonzero(driver >= 0)
-    reader = np.where(rows.reader.data[:, 0] >= 0, rows.reader.data[:, 0], rows.reader.data[:, 1])
-    level = levels(
-        state.curves.count, driver[driven], reader[driven], lambda c: str(state.curves.key.data[c])
-    )
     drives, guess = _by_value(driver[driven], driven), np.zeros((rows.count, 2), np.int32)
-    return Index(_partners(state), drives, _riders(state), level, guess)
+    return Index(_partners(state), drives, _riders(state), driven_levels(state), guess)
+
+
+def driven_levels(state: HullState) -> IntArray:
+    """Give the level of each curve in the graph of driven links, (c,) int.
+
+    Raises
+    ------
+    RingError
+        If driven links run in a ring; the path names the curves.
+    """
+    rows = state.rows
+    driver = np.where(rows.alive.data, rows.driver.data, -1)
+    reader = np.where(rows.reader.data[:, 0] >= 0, rows.reader.data[:, 0], rows.reader.data[:, 1])
+    link = np.flatnonzero((driver >= 0) & (reader >= 0))
+    return levels(
+        state.curves.count, driver[link], reader[link], lambda c: str(state.curves.key.data[c])
+    )
 
 
 def _by_value(values: IntArray, items: IntArray) -> dict[int, IntArray]:

@@ -170,8 +170,8 @@ def _add_links(
         found.add_edge(here, keys[parent], kind="parent")
         found.add_edge(here, point_id(state, row, 1 - side), kind="friend")
         giver, taker = int(groups[parent]), int(groups[mine])
-        if taker in reach[giver]:
-            way = _way(giver in reach[taker])
+        if taker in reach.get(giver, ()):
+            way = _way(giver in reach.get(taker, ()))
             found.add_edge(keys[parent], here, kind="touch actual", way=way)
 
 

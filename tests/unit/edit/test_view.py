@@ -26,6 +26,8 @@ from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import Association
 from assoc_hull.model.view import dependencies, graph, point_id
 
+from .planted_defects import DEFECTS, planted, sound
+
 
 @pytest.fixture
 def document() -> Document:
@@ -245,3 +247,14 @@ def test_every_form_tells_all_nodes_and_edges(document: Document, form: str) -> 
         else:
             mark = " -> " if form == "dot" else " -->"
             assert text.count(mark) == found.number_of_edges()
+
+
+@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize(
+    "name", [name for name, defect in DEFECTS.items() if defect.kind != "tables"]
+)
+def test_a_spoilt_hull_has_a_graph(name: str, form: str) -> None:
+    """It is wanted most then: orphans and lone crossings are shown as far as they are linked."""
+    state = sound()
+    planted(name, state)
+    assert len(export(graph(state), form)) > 1000

@@ -88,6 +88,16 @@ def test_a_file_that_is_cut_off(file: Path, part: float, capfd: pytest.CaptureFi
     refused(file, capfd, "begins otherwise" if part < 0.01 else "it is cut off")
 
 
+def opened(path: Path) -> ah.Hull | None:
+    """Open a file; None if that is refused in one line."""
+    try:
+        return ah.open(path)
+    except ah.AssocHullError as error:
+        if "\n" in str(error):
+            raise
+    return None
+
+
 def test_flipped_bytes_are_noticed_or_do_no_harm(
     file: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -96,10 +106,8 @@ def test_flipped_bytes_are_noticed_or_do_no_harm(
     noticed = 0
     for place in range(0, len(whole), 97):
         file.write_bytes(whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :])
-        try:
-            hull = ah.open(file)
-        except ah.AssocHullError as error:
-            assert "\n" not in str(error)
+        hull = opened(file)
+        if hull is None:
             noticed += 1
             continue
         assert hull.fingerprint == expected
