@@ -45,6 +45,9 @@ _LONGEST, _SHORTEST = 600.0, 1.0
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
 
+_MOST_PIECES = 400
+"""Pieces of one line are joined in seconds up to here; what has more was taken to bits."""
+
 _REACH = 0.1
 _GROUPS = {
     "ST": "sections", "SECTION": "sections", "FRAME": "sections", "FR": "sections",
@@ -191,6 +194,9 @@ def _chain(
     name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
     book: Notebook,
 ) -> list[Piece]:  # fmt: skip
+    if len(raw) > _MOST_PIECES:
+        raise BadInputError(f"{name} comes in {len(raw)} pieces, more than {_MOST_PIECES}",
+                            f"in {raw[0].where}", "join them where they were drawn")  # fmt: skip
     pieces: list[Piece] = []
     for each in raw:
         points = drop_repeats(each.points, 1e-6)

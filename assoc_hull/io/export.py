@@ -130,9 +130,9 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     >>> form_of("hull.GF"), form_of("sections.dat", "britfair")
     ('gf', 'britfair')
     """
+    name = os.path.basename(file_path(path, "in export")).lower()
     if form is not None:
         return choice(form, "format", tuple(FORMS), "in export")
-    name = os.path.basename(file_path(path, "in export")).lower()
     found = next((each for ending, each in ENDINGS.items() if name.endswith(ending)), None)
     if found is None:
         raise BadInputError(

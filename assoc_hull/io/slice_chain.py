@@ -160,16 +160,20 @@ def nearest_ends(pieces: list[Piece]) -> tuple[float, tuple[int, int], tuple[int
         for end in (0, 1)
         if not piece.closed and piece.ends[end] == "loose"
     ]
-    best: tuple[float, tuple[int, int], tuple[int, int]] | None = None
-    for k, one in enumerate(loose):
-        for other in loose[k + 1 :]:
-            if one[0] == other[0] and len(pieces[one[0]].points) < 4:
-                continue
-            gap = float(np.linalg.norm(_end(pieces[one[0]], one[1]) -
-                                       _end(pieces[other[0]], other[1])))  # fmt: skip
-            if best is None or gap < best[0]:
-                best = gap, one, other
-    return best
+    if len(loose) < 2:
+        return None
+    place = np.array([_end(pieces[i], end) for i, end in loose])
+    owner = np.array([i for i, _ in loose])
+    short = np.array([len(pieces[i].points) < 4 for i, _ in loose])
+    first, second = np.triu_indices(len(loose), 1)
+    apart = (owner[first] != owner[second]) | ~short[first]
+    first, second = first[apart], second[apart]
+    if not len(first):
+        return None
+    step = place[first] - place[second]
+    gaps = np.sqrt((step * step).sum(axis=1))
+    best = int(gaps.argmin())
+    return float(gaps[best]), loose[int(first[best])], loose[int(second[best])]
 
 
 def _join(first: Piece, end: int, second: Piece, other: int) -> Piece:

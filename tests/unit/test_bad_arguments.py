@@ -72,6 +72,7 @@ HULL: dict[str, Given] = {
     "go": {"name": "nowhere"},
     "diff": {"before": "nowhere", "after": None},
     "replay": {"other": None, "skip": False},
+    "export": {"path": "no-such-folder/a.csv", "form": None},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},

@@ -159,6 +159,7 @@ SHEET = "xl/worksheets/sheet1.xml"
     [
         (lambda data: data[: len(data) // 2], "no workbook"),
         (lambda data: b"PK\x03\x04 and no more", "no workbook"),
+        (lambda data: data.replace(b"\x01\x02\x14\x03\x14", b"\x01\x02\x14\x03\x65"), "version"),
         (lambda data: rezipped(data, SHEET, lambda xml: xml[:200]), "no workbook"),
         (lambda data: rezipped(data, SHEET, lambda xml: b""), "no workbook"),
         (lambda data: rezipped(data, "xl/workbook.xml", lambda xml: b"<a/>"), ""),

@@ -119,6 +119,20 @@ def test_gf_without_an_edge_of_the_deck() -> None:
     assert "deck" in slices.report.kinds("assumptions")
 
 
+def test_a_line_in_bits_is_chained_or_refused() -> None:
+    """A section exploded into its chords is one piece again; thousands of bits are refused."""
+
+    def bits(count: int) -> str:
+        step = [f"{k / 100:.2f} {k / 20:.2f}" for k in range(count + 1)]
+        curves = [f"2 {k} 5.0\n{step[k]}\n{step[k + 1]}\n0" for k in range(count)]
+        return "\n".join(["S", "1", *curves, "0 0 0", ""])
+
+    [piece] = read_lines(bits(60)).lines[0].pieces
+    assert len(piece.points) == 61
+    with pytest.raises(BadInputError, match="5000 pieces"):
+        read_lines(bits(5000))
+
+
 def test_a_file_that_cannot_be_written_names_place_and_reason(tmp_path: Path) -> None:
     """A folder, and a folder that is not there."""
     with pytest.raises(BadInputError, match="folder"):
