@@ -123,12 +123,12 @@ def sum_per_curve(batch: SplineBatch, values: FloatArray) -> FloatArray:
     return sums
 
 
-def _ends(batch: SplineBatch) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give the chord and the two end derivatives with respect to u of each segment."""
+def _ends(batch: SplineBatch) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
+    """Give the first knot, the chord and the two end derivatives by u of each segment."""
     first = segment_start(batch)
     length = (batch.knot[first + 1] - batch.knot[first])[:, None]
     chord = batch.xyz[first + 1] - batch.xyz[first]
-    return chord, batch.leave[first] * length, batch.arrive[first + 1] * length
+    return first, chord, batch.leave[first] * length, batch.arrive[first + 1] * length
 
 
 def power(batch: SplineBatch) -> FloatArray:
@@ -160,8 +160,8 @@ def power(batch: SplineBatch) -> FloatArray:
     >>> power(line)[0, :, 0]
     array([0., 2., 0., 0.])
     """
-    chord, leave, arrive = _ends(batch)
-    start = batch.xyz[segment_start(batch)]
+    first, chord, leave, arrive = _ends(batch)
+    start = batch.xyz[first]
     # 3 (chord - leave) + (leave - arrive) is nil to the last bit on a straight segment.
     square = 3.0 * (chord - leave) + (leave - arrive)
     cube = (leave - chord) + (arrive - chord)
@@ -199,8 +199,7 @@ def bernstein(batch: SplineBatch) -> FloatArray:
     >>> bernstein(line)[0, :, 0]
     array([0., 1., 2., 3.])
     """
-    _, leave, arrive = _ends(batch)
-    first = segment_start(batch)
+    first, _, leave, arrive = _ends(batch)
     start, end = batch.xyz[first], batch.xyz[first + 1]
     points = np.stack([start, start + leave / 3.0, end - arrive / 3.0, end], axis=1)
     freeze(points)

@@ -9,12 +9,14 @@ or at several, and everything that can be known of that follows from the functio
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import assoc_hull as ah
+from assoc_hull.geometry.curves import freeze
 from assoc_hull.model.source import LineSource
 
 __all__ = [
@@ -76,12 +78,14 @@ def onto(level: float, at: Floats) -> Floats:
 
 def gradient(of: Callable[[Floats, Floats], Floats], at: Floats) -> Floats:
     """Give the derivatives of a function along x and z, (n, 2)."""
-    x, z, h = at[:, 0], at[:, 1], 1e-6
-    return np.column_stack(
-        [of(x + h, z) - of(x - h, z), of(x, z + h) - of(x, z - h)]
-    ) / (2.0 * h)  # fmt: skip
+    (x, z), h = at.T, 1e-6
+    ahead, back, above, below = np.split(
+        of(np.concatenate([x + h, x - h, x, x]), np.concatenate([z, z, z + h, z - h])), 4
+    )
+    return np.column_stack([ahead - back, above - below]) / (2.0 * h)
 
 
+@cache
 def contour(level: float, step: float = 0.1) -> Floats:
     """Follow the line of equal half-breadth from aft forward, (n, 2) of x and z, m.
 
@@ -99,7 +103,9 @@ def contour(level: float, step: float = 0.1) -> Floats:
         along = np.array([slope[1], -slope[0]]) / np.hypot(*slope)
         points.append(onto(level, (points[-1] + step * along)[None])[0])
     last = zeros(lambda x: of(x, 0.0 * x + DEPTH) - level, 60.0, FORWARD)[-1]
-    return np.array([*points[:-1], [last, DEPTH]])
+    found = np.array([*points[:-1], [last, DEPTH]])
+    freeze(found)
+    return found
 
 
 def stations() -> Floats:

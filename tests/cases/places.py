@@ -66,14 +66,17 @@ def shared_rows(hull: ah.Hull, pair: tuple[str, str]) -> IntArray:
     """Give the shared crossings of a pair of families that lie on no flat, by key."""
     rows, half = hull.state.rows, hull.particulars.breadth / 2.0
     live = rows.alive.data & (rows.sort.data == Sort.CROSSING) & (rows.role.data == Role.SHARED)
+    live &= ~rows.contact.data & ~on_flat(hull.state)
+    live &= (np.abs(rows.xyz.data[:, 1] - half) > 1e-9) & (rows.xyz.data[:, 2] > 1e-9)
+    names = {curve: family(hull, curve) for curve in hull.state.live("curves").tolist()}
+    shared = np.flatnonzero(live)
+    curves = rows.curve.data[shared].tolist()
     found = [
         row
-        for row in np.flatnonzero(live & ~rows.contact.data & ~on_flat(hull.state)).tolist()
-        if tuple(family(hull, int(c)) for c in rows.curve.data[row]) == pair
-        and abs(rows.xyz.data[row, 1] - half) > 1e-9
-        and rows.xyz.data[row, 2] > 1e-9
+        for row, (a, b) in zip(shared.tolist(), curves, strict=True)
+        if (names[a], names[b]) == pair
     ]
-    return np.array(sorted(found, key=lambda row: rows.key.data[row]), np.int64)
+    return np.array(sorted(found, key=rows.key.data.__getitem__), np.int64)
 
 
 def at_ends(hull: ah.Hull, rows: IntArray) -> BoolArray:
