@@ -23,6 +23,33 @@ HELD = {
     "a broken association: a meeting without its crossing",
 }
 """Defects that the text form can hold; the others contradict what it is made of."""
+FILED = (HELD - {"a fold"}) | {
+    "a fold through its points",
+    "a friend that does not read",
+    "a shared crossing with a driver",
+    "a driver of nothing",
+    "an orphan: a point on no curve",
+    "an orphan: a curve through a point that has gone",
+    "an orphan: points on a curve that has gone",
+    "an orphan: a curve of no line",
+    "an orphan: a curve of a line that has gone",
+    "an orphan: a curve its line does not list",
+    "an orphan: lines of a group that has gone",
+    "an orphan: a line of no group",
+    "a missing twin link: a crossing of one curve",
+    "a missing twin link: a crossing of two other curves",
+    "a broken association: crossings without one",
+    "a broken association: driven against it",
+    "a broken association: of no group",
+    "a broken association: declared twice",
+    "a ring",
+    "a role that there is not",
+    "a sort that there is not",
+    "a state that there is not",
+    "a family that there is not",
+    "a key that two points have",
+}
+"""Defects that a hull file can hold: its tables are kept row by row, splines made of the points."""
 REFUSED = {
     "a point out of its plane",
     "two points at one place",
@@ -76,6 +103,23 @@ def test_the_text_form_holds_the_defect(
     *lines, last = told.out.splitlines()
     assert any(line.startswith(f"{defect.kind}: {defect.object}") for line in lines), lines
     assert last == f"{len(lines)} finding" + ("s" if len(lines) > 1 else "")
+
+
+@pytest.mark.parametrize("name", sorted(FILED))
+def test_a_hull_file_holds_the_defect(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It opens, and check exits 1 and names it."""
+    state = sound()
+    defect, file = planted(name, state), tmp_path / "ship.hull"
+    hull = ah.Hull(state)
+    hull.save(file)
+    hull.close()
+    assert main(["check", "--notes", str(file)]) == 1
+    told = capsys.readouterr()
+    assert told.err == ""
+    lines = [line for line in told.out.splitlines() if line.startswith(f"{defect.kind}: ")]
+    assert any(defect.object in line for line in lines), told.out
 
 
 @pytest.mark.parametrize("name", sorted(REFUSED))

@@ -20,6 +20,7 @@ from assoc_hull.edit.topology import unmeet
 from assoc_hull.examples.wigley import wigley
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import resolve
+from assoc_hull.model.change import shape_curves
 from assoc_hull.model.definition import definition, published
 from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.make import Maker, PointSpec
@@ -91,6 +92,14 @@ def fold(state: HullState) -> None:
     leave = spline.leave.copy()
     leave[5] = -leave[5]
     put_object(state, "curves", "spline", curve, attrs.evolve(spline, leave=leave))
+
+
+def fold_through(state: HullState) -> None:
+    """A curve through a point that lies far beyond the next ones: its tangent turns back."""
+    curve = curve_of(state)
+    row, beyond = state.curves.rows.data[curve][[4, 6]].tolist()
+    put(state, "rows", "xyz", row, state.rows.xyz.data[beyond] + [-1.0, 0.0, 0.0])
+    shape_curves(state, np.array([curve]), {})
 
 
 def widen(state: HullState) -> None:
@@ -351,6 +360,7 @@ DEFECTS: dict[str, Defect] = {
     "a curve without a spline": Defect(lose_spline, "not finite", "WL 2.5"),
     "a spline that is not finite": Defect(spoil_spline, "not finite", "WL 2.5"),
     "a fold": Defect(fold, "fold", "WL 2.5"),
+    "a fold through its points": Defect(fold_through, "fold", "WL 2.5"),
     "a gap": Defect(widen, "gap", POINT),
     "a point that is not finite": Defect(spoil_number, "not finite", POINT),
     "a point out of its plane": Defect(lift, "off plane", POINT),
