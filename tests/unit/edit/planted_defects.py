@@ -99,7 +99,7 @@ def fold_through(state: HullState) -> None:
     curve = curve_of(state)
     row, beyond = state.curves.rows.data[curve][[4, 6]].tolist()
     put(state, "rows", "xyz", row, state.rows.xyz.data[beyond] + [-1.0, 0.0, 0.0])
-    shape_curves(state, np.array([curve]), {})
+    shape_curves(state, state.rows.curve.data[row], {})
 
 
 def widen(state: HullState) -> None:
