@@ -1,0 +1,1 @@
+"""Changed and malformed inputs: no traceback, no hang, no half-written file."""
