@@ -7,15 +7,17 @@ small input in the corpus, which the tests replay.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import itertools
 import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
 
-from .harvest import Tally, keep
-from .kinds import KINDS
-from .pool import LIMIT, Item, run_all
+from tests.fuzz.all_kinds import KINDS
+from tests.fuzz.harvest import Tally, keep
+from tests.fuzz.pool import LIMIT, Item, run_all
+from tests.fuzz.trial import Outcome
 
 HEAD = (
     f"{'kind':12}{'inputs':>9}{'refused':>9}{'findings':>9}{'accepted':>9}{'failures':>9}"
@@ -30,16 +32,28 @@ def main(argv: Sequence[str] | None = None) -> int:
     tallies = {name: Tally() for name in names}
     start = time.perf_counter()
     items = _items(names, arguments.seed, arguments.first, arguments.count)
-    for done, (item, outcome) in enumerate(run_all(items, arguments.jobs, arguments.limit), 1):
-        tallies[item.kind.name].add(item, outcome)
-        if done % 1000 == 0:
-            rate = done / (time.perf_counter() - start)
-            print(
-                f"{done} of {arguments.count}, {rate:.0f} per second", file=sys.stderr, flush=True
-            )
+    with contextlib.suppress(KeyboardInterrupt):  # what was tried until then is told
+        for done, found in enumerate(run_all(items, arguments.jobs, arguments.limit), 1):
+            _count(tallies, *found)
+            if done % 1000 == 0:
+                rate = done / (time.perf_counter() - start)
+                _say(f"{done} of {arguments.count}, {rate:.0f} per second")
     print(HEAD, *(tally.line(name) for name, tally in tallies.items()), sep="\n")
     print(f"{time.perf_counter() - start:.0f} s, {arguments.jobs} processes, seed {arguments.seed}")
     return _tell(tallies, kept=arguments.keep)
+
+
+def _count(tallies: dict[str, Tally], item: Item, outcome: Outcome) -> None:
+    """Count an outcome, and tell at once of a fault that is new."""
+    tally = tallies[item.kind.name]
+    known = len(tally.faults)
+    tally.add(item, outcome)
+    if len(tally.faults) > known:
+        _say(f"{item.kind.name} {item.number}: {outcome.fault[:300]}")
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -57,7 +71,12 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
 def _items(names: Sequence[str], seed: int, first: int, count: int) -> Iterator[Item]:
     """Inputs of all kinds in turn, each as often as its weight says."""
     kinds = [KINDS[name] for name in names]
-    order = [kind for turn in range(32) for kind in kinds if turn < kind.weight]
+    order = [
+        kind
+        for turn in range(max(kind.weight for kind in kinds))
+        for kind in kinds
+        if turn < kind.weight
+    ]
     numbers = {kind.name: itertools.count(first) for kind in kinds}
     for kind in itertools.islice(itertools.cycle(order), count):
         yield Item(kind, seed, next(numbers[kind.name]))

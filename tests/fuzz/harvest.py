@@ -12,9 +12,9 @@ from pathlib import Path
 
 import attrs
 
-from .kind import Kind
-from .pool import DEAD, HANG, Item
-from .trial import Outcome, signature, trial
+from tests.fuzz.kind import Kind
+from tests.fuzz.pool import DEAD, HANG, Item
+from tests.fuzz.trial import Outcome, signature, trial
 
 __all__ = ["CORPUS", "Tally", "keep", "small"]
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from random import Random
 
-from .odd import odd_number, odd_word
+from tests.fuzz.odd import odd_number, odd_word
 
 __all__ = ["change_bytes", "change_text"]
 

@@ -18,8 +18,7 @@ from assoc_hull import cli
 from assoc_hull.cli.parser import make_parser
 from assoc_hull.errors import AssocHullError
 from assoc_hull.io.hull_json import read_hull_json
-
-from .kind import TARGET, Kind
+from tests.fuzz.kind import TARGET, Kind
 
 __all__ = ["Outcome", "signature", "trial"]
 
@@ -43,7 +42,7 @@ class Outcome:
     fault : str
         What was wrong; empty if nothing was.
     seconds : float, s
-        How long it took.
+        How long it took, by the clock.
     """
 
     code: int

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from random import Random
 from typing import Any
 
-from .odd import odd_number, odd_text, odd_value
+from tests.fuzz.odd import odd_number, odd_text, odd_value
 
 __all__ = ["change_value"]
 
@@ -52,7 +52,7 @@ def _change(rng: Random, whole: Any, inside: Any, key: Any) -> None:
         case 4:
             _swap(rng, inside, key)
         case 5:
-            inside[key] = _nested(inside[key], rng.choice((1, 2, 50, 3000)))
+            inside[key] = _nested(inside[key], rng.choice((1, 2, 50, 300, 900, 3000)))
         case 6:
             spot = _like(rng, whole, inside[key])
             if spot is not None:
@@ -95,15 +95,9 @@ def _near(rng: Random, value: Any) -> Any:
     if isinstance(value, bool):
         return not value
     if isinstance(value, (int, float)):
-        return rng.choice(
-            (
-                odd_number(rng),
-                -value,
-                2 * value,
-                value + rng.gauss(0.0, 1.0),
-                int(value) if abs(value) < 1e300 else 0,
-            )
-        )
+        if abs(value) > 1e300:
+            return odd_number(rng)
+        return rng.choice((odd_number(rng), -value, 2 * value, value + rng.gauss(0.0, 1.0)))
     if isinstance(value, str):
         return rng.choice((odd_text(rng), value[:-1], value + "x", value.upper(), value * 2))
     if isinstance(value, list) and value:

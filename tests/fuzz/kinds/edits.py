@@ -75,4 +75,4 @@ def beside() -> dict[str, bytes]:
     return {"ship.hull.json": edited_text().encode()}
 
 
-EDITS = Kind("edits", "edits.json", make, commands, beside, weight=24)
+EDITS = Kind("edits", "edits.json", make, commands, beside, weight=30)

@@ -86,5 +86,5 @@ def of_drawing(data: bytes) -> list[list[str]]:
     return [["import", "lines.dxf", "-o", TARGET, *_options(data)]]
 
 
-DIGITISED = Kind("digitised", "lines.csv", make_list, of_list, extra=("report.json",), weight=5)
-DRAWINGS = Kind("dxf", "lines.dxf", make_drawing, of_drawing, extra=("report.json",), weight=5)
+DIGITISED = Kind("digitised", "lines.csv", make_list, of_list, extra=("report.json",), weight=2)
+DRAWINGS = Kind("dxf", "lines.dxf", make_drawing, of_drawing, extra=("report.json",), weight=2)

@@ -65,4 +65,4 @@ def commands(data: bytes) -> list[list[str]]:
     return [["import", "table.csv", "-o", TARGET, *options]]
 
 
-OFFSETS = Kind("offsets", "table.csv", make, commands, extra=("report.json",), weight=32)
+OFFSETS = Kind("offsets", "table.csv", make, commands, extra=("report.json",), weight=40)

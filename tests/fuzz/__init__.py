@@ -1,1 +1,0 @@
-"""Changed and malformed inputs: no traceback, no hang, no half-written file."""

@@ -1,0 +1,16 @@
+"""All kinds of input; another is a module in the folder, and a name in the tuple."""
+
+from __future__ import annotations
+
+from tests.fuzz.kind import Kind
+from tests.fuzz.kinds.edits import EDITS
+from tests.fuzz.kinds.hull_json import HULL_JSON
+from tests.fuzz.kinds.lines import DIGITISED, DRAWINGS
+from tests.fuzz.kinds.meshes import OBJ, STL
+from tests.fuzz.kinds.offsets import OFFSETS
+
+__all__ = ["KINDS"]
+
+KINDS: dict[str, Kind] = {
+    kind.name: kind for kind in (OFFSETS, HULL_JSON, EDITS, DIGITISED, DRAWINGS, STL, OBJ)
+}
