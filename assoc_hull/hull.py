@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.check_hull import Finding
     from assoc_hull.edit.explain import Thing, Why
     from assoc_hull.edit.preview import Preview
+    from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.slice_places import Places
     from assoc_hull.model.verify import Difference
 
@@ -260,6 +261,12 @@ class Hull:
             raise BadInputError("the form is unknown", f"at {path}", f"end the name in {_ENDING}")
         write_hull_json(self.state, path)
 
+    def export(self, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:
+        """Write offsets or sections for other programs; see `assoc_hull.io.export.export`."""
+        from assoc_hull.io.export import export
+
+        return export(self.state, path, form)
+
 
 class Examples:
     """Hulls that come with the package, one method each."""
@@ -334,8 +341,8 @@ def read(
 
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
     (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
-    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF) all but
-    planes and axes.
+    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF, BRITFAIR,
+    DELFTship, GHS) all but planes and axes. Tables of offsets may be CSV or XLSX.
 
     Raises
     ------

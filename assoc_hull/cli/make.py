@@ -53,10 +53,16 @@ def _add_import(commands: Commands) -> None:
         """assoc-hull import offsets.csv -o ship.hull.json
         assoc-hull import hull.stl -o ship.hull.json --scale 59.407 --stations 41
         assoc-hull import hull.stl -o ship.hull.json --report report.json --picture report.pdf
+        assoc-hull import sections.bri -o ship.hull.json
         assoc-hull import offsets.csv -o ship.hull.json --unit mm --draught 8.5
         assoc-hull import offsets.csv -o ship.hull.json --station-zero fp --report report.json""",
     )  # fmt: skip
-    parser.add_argument("file", metavar="FILE", type=Path, help="CSV, TSV, STL, OBJ, PLY or DXF")
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        type=Path,
+        help="CSV, TSV, XLSX, STL, OBJ, PLY, DXF, BRITFAIR (.bri), DELFTship (.txt) or GHS (.gf)",
+    )
     _add_target(parser)
     for name, what in (
         ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),

@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import NoReturn
 
-from assoc_hull.cli import demo, edit, graph, look, make, plot, shell
+from assoc_hull.cli import demo, edit, export, graph, look, make, plot, shell
 from assoc_hull.cli.problems import UsageError
 
 __all__ = ["make_parser"]
@@ -48,7 +48,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
-    for module in (demo, make, look, edit, graph, plot, shell):
+    for module in (demo, make, look, edit, graph, plot, export, shell):
         module.add(commands)
     return parser
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import attrs
+
 from assoc_hull.edit.adopt import AdoptionReport
+from assoc_hull.errors import BadInputError
 from assoc_hull.examples.border import fair_border
 from assoc_hull.examples.contours import centre_profile, end_contours
 from assoc_hull.examples.flats import flat_of_bottom, flat_of_side
+from assoc_hull.io.offset_lines import net_of_lines
 from assoc_hull.io.offset_net import Completion, net_from_offsets
 from assoc_hull.io.offset_table import OffsetTable
 from assoc_hull.model.state import HullState
@@ -18,6 +22,9 @@ def net_from_table(
     table: OffsetTable, tolerances: Tolerances | None = None
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
+
+    A table that these rules do not fit, as of a rising keel, a bulb or a bottom without a flat,
+    is adopted as it stands: its lines, and no profile. The first note tells why.
 
     Parameters
     ----------
@@ -35,9 +42,18 @@ def net_from_table(
     BadInputError
         A table that holds too little for a net.
     """
+    try:
+        completion = _completion(table)
+    except BadInputError as error:
+        state, report = net_of_lines(table, tolerances)
+        note = f"profile, ends and flats are left open: {error.what}"
+        return state, attrs.evolve(report, notes=(note, *report.notes))
+    return net_from_offsets(table, completion, tolerances=tolerances)
+
+
+def _completion(table: OffsetTable) -> Completion:
     stern, stem = end_contours(table)
     profile, kinds = centre_profile(table)
     border = flat_of_side(table).border
     side = fair_border(table, border) if len(border) else None
-    completion = Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)
-    return net_from_offsets(table, completion, tolerances=tolerances)
+    return Completion(profile, kinds, stern, stem, flat_of_bottom(table), side)

@@ -22,7 +22,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.polyline import arc_length, foot_on, resample
 
-__all__ = ["Corner", "CornerRule", "find_corners"]
+__all__ = ["Corner", "CornerRule", "find_corners", "marked_corners", "with_marked"]
 
 
 @attrs.frozen
@@ -296,3 +296,47 @@ def _meet_sides(
     doubt = float(spread / max(abs(slopes[1] - slopes[0]), 1e-6))
     place = ends[1] + np.array([t0, float(np.polyval(sides[0][0], t0))]) @ frame
     return float(np.sqrt((off * off).mean())), t0, place, float(np.rad2deg(turn)), doubt
+
+
+_MARKED = 1e-3
+"""A mark this close (m) to a point of a polyline means the point."""
+
+_ANEW = 0.3
+"""A corner that was found this close (m) along the line to a marked one is the marked one."""
+
+
+def marked_corners(points: FloatArray, marks: FloatArray) -> list[Corner]:
+    """Give the points of a polyline that are marked as corners, whatever they turn by.
+
+    Parameters
+    ----------
+    points : (n, 2), m
+        The polyline.
+    marks : (k, 2), m
+        Places; those at its ends or beside it mean none of its points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.corners import marked_corners
+    >>> bent = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0]])
+    >>> [round(each.turn_deg) for each in marked_corners(bent, np.array([[1.0, 0.0], [0.0, 0.0]]))]
+    [45]
+    """
+    if not len(marks) or len(points) < 3:
+        return []
+    away = np.linalg.norm(points[:, None] - marks, axis=2)
+    at = np.unique(away.argmin(axis=0)[away.min(axis=0) < _MARKED])
+    length, step = arc_length(points), np.diff(points, axis=0)
+    found = []
+    for i in at[(at > 0) & (at < len(points) - 1)].tolist():
+        (a, b), (c, d) = step[i - 1], step[i]
+        turn = float(np.degrees(np.abs(np.arctan2(a * d - b * c, a * c + b * d))))
+        found.append(Corner(float(length[i]), points[i].copy(), turn, 1.0, 0.0))
+    return found
+
+
+def with_marked(found: list[Corner], marked: list[Corner]) -> list[Corner]:
+    """Put marked corners before those that were found elsewhere."""
+    others = [each for each in found if all(abs(each.at - mark.at) > _ANEW for mark in marked)]
+    return [*marked, *others]

@@ -33,6 +33,7 @@ from assoc_hull.io.digitised_sides import one_side
 from assoc_hull.io.digitised_text import parse_lines
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import read_text
+from assoc_hull.io.raw_lines import RawLines
 from assoc_hull.io.slice_chain import enough, join_pieces, nearest_ends
 from assoc_hull.io.slice_order import put_in_order, tell_crossings, tell_joins
 from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
@@ -66,9 +67,10 @@ def read_lines(
     Parameters
     ----------
     path_or_text : str or Path
-        A file, or the text itself: CSV with the columns line, x, y, z (and piece), or DXF. A
-        line is a section, waterline or buttock by its constant coordinate; lines called
-        "profile", "deck edge" and "transom" are boundary curves.
+        A file, or the text itself: CSV with the columns line, x, y, z (and piece), DXF, BRITFAIR,
+        curves or offsets of DELFTship, or a GHS geometry file. A line is a section, waterline
+        or buttock by its constant coordinate; lines called "profile", "deck edge" and "transom"
+        are boundary curves.
     scale : float
         Full scale over the scale of the file.
     unit : {"auto", "m", "mm", "cm", "ft", "in"}
@@ -92,8 +94,10 @@ def read_lines(
         file_path(path_or_text, "in read_lines")
     book = Notebook()
     text, source = read_text(path_or_text, book)
-    raw = parse_lines(text, source, book)
-    factor = _factor(raw, scale, unit, book, source)
+    found = parse_lines(text, source, book)
+    raw = found.pieces
+    factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
+    knuckles = _knuckles(raw, factor)
     raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []
@@ -118,7 +122,30 @@ def read_lines(
     return Slices(
         default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
         book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
+        knuckles=knuckles,
     )  # fmt: skip
+
+
+def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
+    """Give the places marked as knuckles by line, m, to port."""
+    found: dict[str, list[FloatArray]] = {}
+    for each in raw:
+        if len(each.knuckles):
+            places = each.knuckles * factor
+            places[:, 1] = np.abs(places[:, 1])
+            found.setdefault(each.line, []).append(places)
+    return {name: np.concatenate(places) for name, places in found.items()}
+
+
+def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
+    """Give the unit of the form where it has one; another one may not be given."""
+    if found.unit is None or unit == found.unit:
+        return unit
+    if unit != "auto":
+        raise BadInputError(f"the unit {shown(unit)} was given and the form has {found.unit}",
+                            f"at {source}", "leave the unit out")  # fmt: skip
+    book.assume("unit", "the lines", f"{found.unit}, as the form has it")
+    return found.unit
 
 
 def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source: str) -> float:

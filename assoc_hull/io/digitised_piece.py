@@ -27,11 +27,14 @@ class RawPiece:
         In the unit of the file.
     where : str
         Row or entity, for messages.
+    knuckles : (k, 3)
+        Places that the file marks as knuckles, in its unit.
     """
 
     line: str
     points: FloatArray
     where: str
+    knuckles: FloatArray = attrs.field(factory=lambda: np.zeros((0, 3)))
 
 
 def read_number(cell: str, where: str, *, comma: bool = False) -> float:

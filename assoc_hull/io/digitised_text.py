@@ -1,22 +1,29 @@
-"""Digitised lines as text: lists of points in CSV, or the polylines of a DXF drawing."""
+"""Digitised lines as text: lists of points in CSV, a DXF drawing, or a form of another program."""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.io.britfair import is_britfair, parse_britfair
+from assoc_hull.io.delftship import is_delftship, parse_delftship
+from assoc_hull.io.delftship_offsets import is_delftship_offsets, parse_delftship_offsets
 from assoc_hull.io.digitised_dxf import parse_dxf
 from assoc_hull.io.digitised_piece import RawPiece, read_number
+from assoc_hull.io.gf_read import is_gf, parse_gf
 from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.raw_lines import RawLines
 
 __all__ = ["is_digitised", "parse_lines"]
 
 _COLUMNS = ("line", "x", "y", "z")
+
+Parse = Callable[[str, str, Notebook], RawLines]
 
 
 def is_digitised(text: str) -> bool:
@@ -28,42 +35,36 @@ def is_digitised(text: str) -> bool:
     >>> is_digitised("line,x,y,z\nST 1,0,0,0\n"), is_digitised("station,wl_0,wl_1\n")
     (True, False)
     """
-    if re.search(r"^\s*0\s*\r?\n\s*SECTION\s*$", text[:2000], re.MULTILINE):
-        return True
-    first = next((row for row in text.splitlines() if row.strip() and row.lstrip()[0] != "#"), "")
-    names = {
-        word.strip().lower().strip('"') for word in re.split(r"[,;\t]", first.lstrip("\ufeff"))
-    }
-    return set(_COLUMNS) <= names
+    return _parser(text) is not None
 
 
-def parse_lines(text: str, source: str, book: Notebook) -> list[RawPiece]:
+def parse_lines(text: str, source: str, book: Notebook) -> RawLines:
     """Read the pieces of all lines.
 
     Parameters
     ----------
     text : str
         CSV with the columns line, x, y, z and optionally piece, comma-, semicolon- or
-        tab-separated, a blank row beginning another piece; or DXF, the layer of a polyline
-        naming its line.
+        tab-separated, a blank row beginning another piece; DXF, the layer of a polyline
+        naming its line; BRITFAIR; curves or offsets of DELFTship; or a GHS geometry file.
     source : str
         Name of the file, for messages.
     book : Notebook
-        Takes what a drawing holds and polylines do not.
+        Takes what a form holds and polylines do not.
 
     Raises
     ------
     BadInputError
-        Neither form, a cell that is no number, or no points.
+        None of these forms, a cell that is no number, or no points.
     """
-    if not is_digitised(text):
+    parse = _parser(text)
+    if parse is None:
         raise BadInputError(
             "there are no columns line, x, y, z", f"at {source}",
             "give them in the first row, or a DXF file with polylines",
         )  # fmt: skip
-    dxf = "SECTION" in text[:2000] and not text.lstrip().lower().startswith("line")
-    found = parse_dxf(text, source, book) if dxf else _parse_csv(text, source)
-    if not found:
+    found = parse(text, source, book)
+    if not found.pieces:
         told = "".join(f"; {note.what}" for note in book.suspicions)
         raise BadInputError(
             f"there are no points{told}", f"at {source}", "give two or more per line"
@@ -71,7 +72,33 @@ def parse_lines(text: str, source: str, book: Notebook) -> list[RawPiece]:
     return found
 
 
-def _parse_csv(text: str, source: str) -> list[RawPiece]:
+def _parser(text: str) -> Parse | None:
+    """Tell by the content what reads a text; None if it holds no digitised lines."""
+    forms: tuple[tuple[Callable[[str], bool], Parse], ...] = (
+        (_is_csv, _parse_csv), (_is_dxf, _parse_dxf), (is_britfair, parse_britfair),
+        (is_delftship, parse_delftship), (is_delftship_offsets, parse_delftship_offsets),
+        (is_gf, parse_gf),
+    )  # fmt: skip
+    return next((parse for is_form, parse in forms if is_form(text)), None)
+
+
+def _is_dxf(text: str) -> bool:
+    return re.search(r"^\s*0\s*\r?\n\s*SECTION\s*$", text[:2000], re.MULTILINE) is not None
+
+
+def _is_csv(text: str) -> bool:
+    first = next((row for row in text.splitlines() if row.strip() and row.lstrip()[0] != "#"), "")
+    names = {
+        word.strip().lower().strip('"') for word in re.split(r"[,;\t]", first.lstrip("\ufeff"))
+    }
+    return set(_COLUMNS) <= names
+
+
+def _parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
+    return RawLines(parse_dxf(text, source, book))
+
+
+def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:
     rows = text.lstrip("\ufeff").splitlines()
     head = next(i for i, row in enumerate(rows) if row.strip() and row.lstrip()[0] != "#")
     mark = next((each for each in ";\t" if each in rows[head]), ",")
@@ -103,10 +130,12 @@ def _parse_csv(text: str, source: str) -> list[RawPiece]:
         found.setdefault(key, []).append(
             tuple(read_number(cells[i], where, comma=mark != ",") for i in at[1:])
         )
-    return [
-        RawPiece(key[0], np.array(points), f"row {first[key]} of {source}")
-        for key, points in found.items()
-    ]
+    return RawLines(
+        [
+            RawPiece(key[0], np.array(points), f"row {first[key]} of {source}")
+            for key, points in found.items()
+        ]
+    )
 
 
 def _cells(rows: list[str], first: int, mark: str, source: str) -> Iterator[tuple[int, list[str]]]:

@@ -25,16 +25,15 @@ True
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
 from assoc_hull.arguments import shown
 from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.io.whole_file import write_whole
 from assoc_hull.model.definition import definition, fingerprint, published
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
@@ -122,44 +121,7 @@ def write_hull_json(state: HullState, path: str | os.PathLike[str]) -> None:
     BadInputError
         If the file cannot be written, or the hull holds a number that is not finite.
     """
-    target = Path(os.path.realpath(path))
-    data = dumps_hull_json(state).encode()
-    if target.is_dir():
-        raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
-    try:
-        _replace(target, data)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise BadInputError(
-            f"the file cannot be written ({reason})",
-            f"at {target}",
-            "give another place",
-        ) from error
-
-
-def _replace(target: Path, data: bytes) -> None:
-    """Write beside the target, bring it to the disk, then take the target's place."""
-    handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, _mode(target))
-        os.replace(name, target)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(name)
-        raise
-
-
-def _mode(target: Path) -> int:
-    """Give the permissions of the file that is there, or those of a new one."""
-    with contextlib.suppress(OSError):
-        return target.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
+    write_whole(path, dumps_hull_json(state).encode())
 
 
 def read_hull_json(source: str | os.PathLike[str]) -> HullState:

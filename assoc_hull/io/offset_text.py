@@ -25,12 +25,14 @@ import attrs
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.offset_report import Notebook
 
-__all__ = ["Block", "number", "read_text", "split_blocks"]
+__all__ = ["Block", "number", "opens_block", "read_text", "split_blocks"]
 
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
 _BLANKS = frozenset({"", "-", "--", "\N{EN DASH}", "\N{EM DASH}"})
 _OPENING = re.compile(r"(stations?|stn|sta|st|frame|no|x[ _\[(]*(mm?)?[\])]?)\.?", re.IGNORECASE)
 _LARGEST = 1e7
+_ARCHIVE = b"PK\x03\x04"
+"""What a workbook begins with."""
 
 
 @attrs.frozen
@@ -96,6 +98,10 @@ def _read_file(path: str | Path, book: Notebook) -> tuple[str, str]:
         raise BadInputError(
             f"the file cannot be read ({reason})", str(path), "check the path"
         ) from None
+    if raw.startswith(_ARCHIVE):
+        from assoc_hull.io.offset_xlsx import text_of_xlsx
+
+        return text_of_xlsx(raw, str(path), book), str(path)
     try:
         return raw.decode("utf-8-sig"), str(path)
     except UnicodeDecodeError:
@@ -120,11 +126,16 @@ def split_blocks(
     rows = [(k, row) for k, row in rows if any(row)]
     if not rows:
         raise BadInputError("there is no row besides comments", source, "give a table of offsets")
-    starts = [i for i, (_, row) in enumerate(rows) if i == 0 or _OPENING.fullmatch(row[0])]
+    starts = [i for i, (_, row) in enumerate(rows) if i == 0 or opens_block(row[0])]
     ends = [*starts[1:], len(rows)]
     return comments, tuple(
         _block(source, rows[a:b], book) for a, b in zip(starts, ends, strict=True)
     )
+
+
+def opens_block(cell: str) -> bool:
+    """Tell whether a row that begins with this cell is the header of a table."""
+    return _OPENING.fullmatch(cell) is not None
 
 
 def _comment(line: str) -> bool:

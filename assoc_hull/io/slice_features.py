@@ -6,7 +6,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.arcs import Arc, ArcRule
-from assoc_hull.geometry.corners import Corner, CornerRule, find_corners
+from assoc_hull.geometry.corners import (
+    Corner,
+    CornerRule,
+    find_corners,
+    marked_corners,
+    with_marked,
+)
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.knuckle_lines import ChainRule, join_corners
 from assoc_hull.geometry.noise import facet_depth, facet_depths, scatter
@@ -184,8 +190,13 @@ def find_features(
             for line in slices.group(group)
             for piece in line.pieces
         ]
-        seen = [_corners(part, slices.facets, wanted) for _, part in parts]
+        marks = [marked_corners(part.points, _marks(part, slices)) for _, part in parts]
+        seen = [
+            with_marked(_corners(part, slices.facets, wanted), marked)
+            for (_, part), marked in zip(parts, marks, strict=True)
+        ]
         kept, chains = _choose(slices.group(group), [part for _, part in parts], seen, wanted)
+        kept |= {(i, j) for i, marked in enumerate(marks) for j in range(len(marked))}
         found += [
             attrs.evolve(
                 part,
@@ -198,19 +209,26 @@ def find_features(
     for line in slices.boundaries:
         for piece in line.pieces:
             part = _bare(line, piece, slices, wanted)
-            every = _corners(part, slices.facets, wanted) if part.points.shape[1] == 2 else []
-            strong = tuple(each for each in every if each.turn_deg >= wanted.alone_deg)
-            found.append(attrs.evolve(part, corners=strong))
+            plane = part.points.shape[1] == 2
+            every = _corners(part, slices.facets, wanted) if plane else []
+            strong = [each for each in every if each.turn_deg >= wanted.alone_deg]
+            marked = marked_corners(part.points, _marks(part, slices)) if plane else []
+            found.append(attrs.evolve(part, corners=tuple(with_marked(strong, marked))))
     return found, knuckles
+
+
+def _columns(line: SliceLine, piece: Piece) -> list[int]:
+    """Give the coordinates that vary on a piece, which of a boundary curve may be all."""
+    if line.group != "boundary":
+        return plane_columns(line.group)
+    spread = np.ptp(piece.points, axis=0)
+    flat = int(np.argmin(spread))
+    return [axis for axis in range(3) if axis != flat or spread[flat] > 1e-3]
 
 
 def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) -> PieceFeatures:
     """Give a piece in its plane, with its noise."""
-    columns = plane_columns(line.group)
-    if line.group == "boundary":
-        spread = np.ptp(piece.points, axis=0)
-        flat = int(np.argmin(spread))
-        columns = [axis for axis in range(3) if axis != flat or spread[flat] > 1e-3]
+    columns = _columns(line, piece)
     kept = distinct(piece.points[:, columns], 1e-6)
     points = piece.points[kept][:, columns]
     sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
@@ -227,6 +245,12 @@ def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) ->
         least = np.full(len(points), max(3.0 * noise, rules.smooth_least))
         allowed = least
     return PieceFeatures(line, piece, points, noise, np.maximum(allowed, least), sine, slices.depth)
+
+
+def _marks(part: PieceFeatures, slices: Slices) -> FloatArray:
+    """Give the places in its plane where the file marks a knuckle of a piece, (k, 2), m."""
+    places = slices.knuckles.get(part.line.name, np.zeros((0, 3)))
+    return np.asarray(places[:, _columns(part.line, part.piece)])
 
 
 def _corners(part: PieceFeatures, facets: bool, rules: FeatureRules) -> list[Corner]:

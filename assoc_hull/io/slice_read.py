@@ -19,6 +19,9 @@ from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices", "require_file"]
 
+_HEAD = 20_000
+"""So many bytes of a file tell what it holds."""
+
 
 def holds_lines(path: Path) -> bool:
     """Tell whether a file is a mesh, or holds digitised lines, rather than a table of offsets."""
@@ -26,7 +29,7 @@ def holds_lines(path: Path) -> bool:
         return True
     if not path.is_file():
         return False
-    head = path.read_bytes()[:4000]
+    head = path.read_bytes()[:_HEAD]
     return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
 
 
@@ -73,7 +76,7 @@ def read_slices(
     Parameters
     ----------
     path : Path
-        STL, OBJ, PLY (``.gz``), or CSV or DXF with digitised lines.
+        STL, OBJ, PLY (``.gz``), or digitised lines as for `assoc_hull.io.digitised.read_lines`.
     length, breadth, draught : float or None, m
         Particulars; by default from the extent of the hull.
     stations, waterlines, buttocks, scale, unit, axes

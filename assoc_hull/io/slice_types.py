@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 
 from assoc_hull.arguments import not_negative, shown
@@ -149,6 +151,8 @@ class Slices:
         How deep facets of the mesh lie inside the hull, nil for digitised lines.
     gaps : Gaps
         What was joined and what would have been refused.
+    knuckles : mapping of str to (k, 3), m
+        Places of a line that the file marks as knuckles.
     """
 
     name: str
@@ -161,9 +165,10 @@ class Slices:
     high: FloatArray
     depth: float = 0.0
     gaps: Gaps = attrs.field(factory=Gaps)
+    knuckles: Mapping[str, FloatArray] = attrs.field(factory=dict)
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.low, self.high)
+        freeze(self.low, self.high, *self.knuckles.values())
 
     def group(self, name: str) -> tuple[SliceLine, ...]:
         """Give the lines of a group, by place."""

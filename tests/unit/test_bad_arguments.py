@@ -63,6 +63,7 @@ HULL: dict[str, Given] = {
     "dependencies": {"points": False},
     "half_breadth": {"x": 40.0, "z": 2.5},
     "save": {"path": "no-such-folder/a.hull.json"},
+    "export": {"path": "no-such-folder/a.csv", "form": None},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},

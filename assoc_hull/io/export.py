@@ -1,0 +1,172 @@
+"""Writing a hull in the forms of other programs: one file, whole or not at all, and a report.
+
+Examples
+--------
+>>> import tempfile
+>>> from pathlib import Path
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.io.export import export
+>>> with tempfile.TemporaryDirectory() as folder:
+...     report = export(wigley(), Path(folder) / "wigley.bri")
+>>> report.form, report.lines, report.rounding
+('britfair', 19, 5e-06)
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+import attrs
+
+from assoc_hull.arguments import choice, file_path
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.britfair import dumps_britfair
+from assoc_hull.io.delftship import dumps_delftship
+from assoc_hull.io.delftship_offsets import dumps_delftship_offsets
+from assoc_hull.io.export_book import ExportBook, ExportReport
+from assoc_hull.io.gf import FOOT, dumps_gf
+from assoc_hull.io.hull_json import dumps_hull_json
+from assoc_hull.io.line_points import lines_as_points
+from assoc_hull.io.offset_out import csv_text, offsets_of
+from assoc_hull.io.offset_xlsx import xlsx_bytes
+from assoc_hull.io.section_text import sections_of
+from assoc_hull.io.whole_file import write_whole
+from assoc_hull.model.state import HullState
+
+__all__ = ["ENDINGS", "FORMS", "Form", "export", "form_of"]
+
+
+@attrs.frozen
+class Form:
+    """A form a hull can be written in.
+
+    Attributes
+    ----------
+    about : str
+        What it is, in a few words.
+    endings : tuple of str
+        Names of files that mean it.
+    write : callable
+        Gives the bytes of the file and the report.
+    """
+
+    about: str
+    endings: tuple[str, ...]
+    write: Callable[[HullState, ExportBook], bytes]
+    decimals: int
+    scale: float = 1.0
+
+
+def _hull(state: HullState, book: ExportBook) -> bytes:
+    book.lines = len(state.live("lines"))
+    book.curves = len(state.live("curves"))
+    book.points = len(state.live("rows"))
+    return dumps_hull_json(state).encode()
+
+
+def _csv(state: HullState, book: ExportBook) -> bytes:
+    return csv_text(offsets_of(state, book)).encode()
+
+
+def _xlsx(state: HullState, book: ExportBook) -> bytes:
+    return xlsx_bytes(offsets_of(state, book))
+
+
+def _britfair(state: HullState, book: ExportBook) -> bytes:
+    return dumps_britfair(state.particulars.name, sections_of(state, book), book).encode("ascii")
+
+
+def _delftship(state: HullState, book: ExportBook) -> bytes:
+    return dumps_delftship(sections_of(state, book), book).encode("ascii")
+
+
+def _delftship_offsets(state: HullState, book: ExportBook) -> bytes:
+    families = ("sections", "buttocks", "waterlines", "boundary")
+    others = lines_as_points(state, ("diagonals",))
+    if others:
+        what = f"{len(others)} lines are left out"
+        book.leave_out("lines", "diagonals", what, len(others))
+    return dumps_delftship_offsets(lines_as_points(state, families), book).encode("ascii")
+
+
+def _gf(state: HullState, book: ExportBook) -> bytes:
+    ship = state.particulars
+    lines = sections_of(state, book)
+    return dumps_gf(ship.name, ship.length, ship.breadth, lines, book).encode("ascii")
+
+
+FORMS: Mapping[str, Form] = MappingProxyType({
+    "hull": Form("the hull itself as canonical text", (".hull.json",), _hull, 17),
+    "csv": Form("table of offsets", (".csv",), _csv, 4),
+    "xlsx": Form("table of offsets as a workbook", (".xlsx",), _xlsx, 4),
+    "britfair": Form("sections, BRITFAIR", (".bri",), _britfair, 5),
+    "delftship": Form("sections as DELFTship and FREE!ship import them", (".txt",), _delftship, 5),
+    "delftship-offsets": Form(
+        "all lines as DELFTship and FREE!ship list them", (), _delftship_offsets, 4
+    ),
+    "gf": Form("sections, GHS geometry file", (".gf",), _gf, 4, 1.0 / FOOT),
+})  # fmt: skip
+"""The forms by name."""
+
+ENDINGS: Mapping[str, str] = MappingProxyType(
+    {ending: name for name, form in FORMS.items() for ending in form.endings}
+)
+"""The form that the ending of a file means."""
+
+
+def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
+    """Tell in which form a file is to be written: the one asked for, else by its ending.
+
+    Raises
+    ------
+    BadInputError
+        Neither says one.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.export import form_of
+    >>> form_of("hull.GF"), form_of("sections.dat", "britfair")
+    ('gf', 'britfair')
+    """
+    name = os.path.basename(file_path(path, "in export")).lower()
+    if form is not None:
+        return choice(form, "format", tuple(FORMS), "in export")
+    found = next((each for ending, each in ENDINGS.items() if name.endswith(ending)), None)
+    if found is None:
+        raise BadInputError(
+            "the ending of the name tells no form", f"at {os.fspath(path)}",
+            f"end it in {', '.join(ENDINGS)}, or choose the format: {', '.join(FORMS)}",
+        )  # fmt: skip
+    return found
+
+
+def export(state: HullState, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:
+    """Write a hull in a form.
+
+    Parameters
+    ----------
+    state : HullState
+        The hull.
+    path : path
+        The file; what was there is replaced by the whole of it, or stays.
+    form : str or None
+        One of `FORMS`; by the ending of the file if None.
+
+    Returns
+    -------
+    ExportReport
+        How much was written, how it was rounded, and what the form cannot hold.
+
+    Raises
+    ------
+    BadInputError, MissingExtraError
+        A form that is not known or cannot hold this hull, or a file that cannot be written.
+    """
+    name = form_of(path, form)
+    chosen = FORMS[name]
+    book = ExportBook(chosen.decimals, chosen.scale)
+    write_whole(path, chosen.write(state, book))
+    report = book.report(os.fspath(path), name)
+    return attrs.evolve(report, rounding=0.0) if name == "hull" else report

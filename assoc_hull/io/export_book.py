@@ -1,0 +1,140 @@
+"""What is written down while a hull is exported: counts, rounding, what was left out.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.io.export_book import ExportBook
+>>> book = ExportBook(decimals=1)
+>>> book.rows(np.array([[1.26, -0.01]])), round(book.largest, 3)
+([['1.3', '0.0']], 0.04)
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.offset_report import Note
+
+__all__ = ["ExportBook", "ExportReport"]
+
+
+@attrs.frozen
+class ExportReport:
+    """What an export wrote, and what the form cannot hold.
+
+    Attributes
+    ----------
+    path : str
+        The file.
+    form : str
+        As in `assoc_hull.io.export.FORMS`.
+    lines, curves, points : int
+        What was written; a line may come in several curves.
+    rounding : float, m
+        Half a unit of the last digit written.
+    largest : float, m
+        The largest difference between a number and what was written for it.
+    chord : float, m
+        How far the straight line between two points written may leave the curve; nil for tables
+        and hull files, which say nothing of it.
+    left_out : tuple of Note
+        What is in the hull and not in the file.
+    mended : tuple of Note
+        What the form has otherwise than the hull: names, joined curves.
+    """
+
+    path: str
+    form: str
+    lines: int
+    curves: int
+    points: int
+    rounding: float
+    largest: float
+    chord: float
+    left_out: tuple[Note, ...]
+    mended: tuple[Note, ...]
+
+
+@attrs.define
+class ExportBook:
+    """Takes down what is written.
+
+    Attributes
+    ----------
+    decimals : int
+        Digits after the point.
+    scale : float
+        Units of the file in a metre.
+    """
+
+    decimals: int
+    scale: float = 1.0
+    lines: int = 0
+    curves: int = 0
+    points: int = 0
+    largest: float = 0.0
+    chord: float = 0.0
+    left_out: list[Note] = attrs.field(factory=list)
+    mended: list[Note] = attrs.field(factory=list)
+
+    def rows(self, values: FloatArray) -> list[list[str]]:
+        """Write numbers, (n, k), m, in the unit of the file; a number that is nan is blank.
+
+        Raises
+        ------
+        BadInputError
+            A number is infinite.
+        """
+        if np.isinf(values).any():
+            raise BadInputError("a number is not finite", "in the export", "verify the hull")
+        scaled = values * self.scale
+        near = np.round(scaled, self.decimals) + 0.0
+        off = np.abs(near - scaled)[np.isfinite(scaled)]
+        self.largest = max(self.largest, float(off.max(initial=0.0)) / self.scale)
+        return [
+            ["" if math.isnan(x) else f"{x:.{self.decimals}f}" for x in row]
+            for row in near.tolist()
+        ]
+
+    def leave_out(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
+        """Note what the form does not hold."""
+        self.left_out.append(Note(kind, where, what, amount))
+
+    def mend(self, kind: str, where: str, what: str, amount: float | None = None) -> None:
+        """Note what was written otherwise than the hull has it."""
+        self.mended.append(Note(kind, where, what, amount))
+
+    def name(self, name: str, allowed: str, most: int, default: str) -> str:
+        """Give a name in the characters a form allows, and note where it is another one.
+
+        Parameters
+        ----------
+        name : str
+            The name.
+        allowed : str
+            A class of characters of a regular expression, without brackets.
+        most : int
+            Its greatest length.
+        default : str
+            What is written if nothing of the name is left.
+        """
+        plain = " ".join(re.sub(f"[^{allowed}]", " ", name).split())
+        kept = plain if " " in allowed else plain.replace(" ", "")
+        kept = kept[:most].strip() or default
+        if kept != name:
+            self.mend("name", "the ship", f"{name!r} is written as {kept!r}")
+        return kept
+
+    def report(self, path: str, form: str) -> ExportReport:
+        """Give what was noted."""
+        rounding = 0.5 * 10.0**-self.decimals / self.scale
+        return ExportReport(
+            path, form, self.lines, self.curves, self.points, rounding, self.largest, self.chord,
+            tuple(self.left_out), tuple(self.mended),
+        )  # fmt: skip

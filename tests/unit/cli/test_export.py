@@ -1,0 +1,112 @@
+"""The command `export`: what it writes, what it says, and what `import` makes of it."""
+
+from pathlib import Path
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.cli import main
+from assoc_hull.cli.export import _FORMS
+from assoc_hull.io.export import FORMS
+from tests.unit.cli.conftest import Json
+
+
+def test_the_command_knows_every_form() -> None:
+    """The list that starts without loading the writers is theirs."""
+    assert tuple(FORMS) == _FORMS
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "lines"),
+    [
+        ("a.csv", "csv", 21), ("a.xlsx", "xlsx", 21), ("a.bri", "britfair", 19),
+        ("a.txt", "delftship", 19), ("a.gf", "gf", 19), ("a.hull.json", "hull", 31),
+    ],
+)  # fmt: skip
+def test_the_ending_chooses_the_form(
+    hull: Path, facts: Json, tmp_path: Path, name: str, form: str, lines: int
+) -> None:
+    """The report tells form, lines, largest rounding and what was left out."""
+    found = facts("export", hull, "-o", tmp_path / name)["export"]
+    assert (found["form"], found["lines"]) == (form, lines)
+    assert found["largest"] <= max(found["rounding"], 1e-12) * (1 + 1e-6)
+    assert found["path"] == str(tmp_path / name)
+    assert {note["kind"] for note in found["left_out"]} <= {
+        "boundary", "lines", "end", "tangents"
+    }  # fmt: skip
+    assert (tmp_path / name).stat().st_size > 500
+
+
+def test_the_format_may_be_chosen(hull: Path, facts: Json, tmp_path: Path) -> None:
+    """`--format` counts before the ending, and words say what was written."""
+    out = tmp_path / "a.txt"
+    assert (
+        facts("export", hull, "-o", out, "--format", "delftship-offsets")["export"]["form"]
+        == "delftship-offsets"
+    )
+    assert out.read_text().startswith("Station")
+
+
+def test_words_say_what_is_not_in_the_file(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without --json a person reads the same."""
+    assert main(["export", str(hull), "-o", str(tmp_path / "a.bri")]) == 0
+    text = capsys.readouterr().out
+    assert "19 lines in 19 curves" in text
+    assert "mm at most" in text
+    assert "left out (5)" in text
+    assert "waterlines: 10 lines are left out" in text
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.bri", "a.gf"])
+def test_what_was_exported_is_imported(hull: Path, facts: Json, tmp_path: Path, name: str) -> None:
+    """`import` tells the form by the content and makes a hull in which `check` finds nothing."""
+    facts("export", hull, "-o", tmp_path / name)
+    (tmp_path / name).rename(tmp_path / "sent")
+    facts("import", tmp_path / "sent", "-o", tmp_path / "back.hull.json")
+    assert facts("check", tmp_path / "back.hull.json")["findings"] == []
+    assert len(ah.open(tmp_path / "back.hull.json").groups["sections"].lines) == 19
+
+
+@pytest.mark.parametrize(
+    ("arguments", "holds"),
+    [
+        (["-o", "a.dat"], ".bri"),
+        (["-o", "a.csv", "--format", "iges"], "'iges'"),
+        (["-o", "none/a.csv"], "there is no folder none"),
+        (["-o", "."], "."),
+        ([], "-o"),
+    ],
+)
+def test_wrong_arguments_are_one_line(
+    hull: Path,
+    arguments: list[str],
+    holds: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """An unknown form or place ends with exit code 2, one line, and no file."""
+    monkeypatch.chdir(hull.parent)
+    assert main(["export", str(hull), *arguments]) == 2
+    told = capsys.readouterr()
+    assert holds in told.err
+    assert told.err.count("\n") == 1
+    assert [path.name for path in hull.parent.iterdir()] == [hull.name]
+
+
+def test_an_export_that_fails_leaves_the_old_file(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The disk is full: one line, the old file as it was, nothing beside it."""
+    out = tmp_path / "a.csv"
+    out.write_text("old")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("assoc_hull.io.whole_file.os.replace", full)
+    assert main(["export", str(hull), "-o", str(out)]) == 2
+    assert "No space left on device" in capsys.readouterr().err
+    assert out.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", hull.name]
