@@ -51,6 +51,9 @@ Kind = TypeVar("Kind")
 _LARGEST = 1e6
 """No coordinate of a ship exceeds this (m); beyond, sums of squares lose all meaning."""
 
+_LONGEST = 200
+"""A value nested in many ways is shown by so many letters."""
+
 _CALL = "in the call"
 _FAILS = (TypeError, ValueError, OverflowError)
 
@@ -64,7 +67,8 @@ def shown(value: object) -> str:
     >>> shown(list(range(100)))
     '[0, 1, 2, 3, 4, 5, ...]'
     """
-    return " ".join(reprlib.repr(value).split())
+    text = " ".join(reprlib.repr(value).split())
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + " ..."
 
 
 def shown_name(value: object) -> str:

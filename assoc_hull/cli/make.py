@@ -45,7 +45,7 @@ def _add_example(commands: Commands) -> None:
         commands, "example", "write a hull that ships with the program", _example,
         "assoc-hull example series60-070 -o ship.hull",
     )  # fmt: skip
-    parser.add_argument("name", metavar="NAME", choices=_EXAMPLES, help=", ".join(_EXAMPLES))
+    parser.add_argument("name", metavar="NAME", choices=tuple(_EXAMPLES), help=", ".join(_EXAMPLES))
     _add_target(parser)
     add_json(parser)
 

@@ -6,7 +6,19 @@ import argparse
 import sys
 from typing import NoReturn
 
-from assoc_hull.cli import demo, edit, export, graph, history, look, make, plot, replay, why
+from assoc_hull.cli import (
+    demo,
+    edit,
+    export,
+    graph,
+    history,
+    look,
+    make,
+    plot,
+    replay,
+    shell,
+    why,
+)
 from assoc_hull.cli.problems import UsageError
 
 __all__ = ["make_parser"]
@@ -48,7 +60,8 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
-    for module in (demo, make, look, edit, history, replay, why, graph, plot, export):
+    modules = (demo, make, look, edit, history, replay, why, graph, plot, export, shell)
+    for module in modules:
         module.add(commands)
     return parser
 

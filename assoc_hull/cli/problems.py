@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import traceback
 from collections.abc import Collection
 from pathlib import Path
@@ -13,6 +14,9 @@ from assoc_hull.errors import AssocHullError, BadInputError
 __all__ = ["InFileError", "UsageError", "check_hull_target", "check_target", "explain"]
 
 _DEBUG = "ASSOC_HULL_DEBUG"
+
+_WORD = 240
+"""A word longer than this is shown by both its ends: whoever is to read it knows the middle."""
 
 
 class UsageError(AssocHullError):
@@ -37,6 +41,16 @@ def explain(error: Exception) -> str:
     """
     if os.environ.get(_DEBUG):
         traceback.print_exception(error)
+    return re.sub(rf"\S{{{_WORD + 1},}}", _ends, _explained(error))
+
+
+def _ends(word: re.Match[str]) -> str:
+    """Show both ends of a word that is too long to be read."""
+    half = _WORD // 2
+    return f"{word[0][:half]} ... {word[0][-half:]}"
+
+
+def _explained(error: Exception) -> str:
     if isinstance(error, AssocHullError):
         return str(error)
     if isinstance(error, OSError):

@@ -21,6 +21,9 @@ _WIDENS = 0.15
 """The flat widens upward by at least this (m) from one waterline to the next, so that every
 plane passes its border cleanly."""
 
+_PINNED = 1e-6
+"""Freedom (m) of the border where the flat reaches the last station of the table."""
+
 _CLEAR = 0.05
 """Part of the interval between two stations that the border keeps clear of either."""
 
@@ -71,7 +74,7 @@ def _bounds(table: OffsetTable, flat: list[int], sign: float) -> tuple[FloatArra
         outside = int(np.clip(inside + sign, 0, len(table.x) - 1))
         first, last = sorted((float(table.x[inside]), float(table.x[outside])))
         clear = _CLEAR * (last - first)
-        low[i], high[i] = first + clear, last - clear
+        low[i], high[i] = first + clear, max(last - clear, first + _PINNED)
     return low, high
 
 

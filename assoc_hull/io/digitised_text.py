@@ -103,6 +103,12 @@ def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:
     head = next(i for i, row in enumerate(rows) if row.strip() and row.lstrip()[0] != "#")
     mark = next((each for each in ";\t" if each in rows[head]), ",")
     names = [word.strip().lower().strip('"') for word in rows[head].split(mark)]
+    for name in _COLUMNS:
+        if name not in names:
+            raise BadInputError(
+                f"the separator is {mark!r}, and there is no column {name}",
+                f"row {head + 1} of {source}", "separate all columns in one way",
+            )  # fmt: skip
     at = [names.index(name) for name in _COLUMNS]
     piece_at = names.index("piece") if "piece" in names else -1
     found: dict[tuple[str, str, int], list[tuple[float, ...]]] = {}

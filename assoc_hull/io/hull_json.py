@@ -31,18 +31,21 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
+from assoc_hull.arguments import shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.io.whole_file import write_whole
 from assoc_hull.model.definition import definition, fingerprint, published
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
 
-__all__ = ["SCHEMA", "dumps_hull_json", "read_hull_json", "write_hull_json"]
+__all__ = ["FORMAT", "SCHEMA", "dumps_hull_json", "read_hull_json", "write_hull_json"]
 
 SCHEMA = 1
 """Version of the form that is written and read."""
 
-_FORMAT = "assoc-hull"
+FORMAT = "assoc-hull"
+"""What the document says it is."""
+
 _KEYS = ("format", "schema", "fingerprint", "definition", "published")
 _AGAIN = "take the file from where it was written, or write it anew"
 
@@ -56,7 +59,7 @@ def dumps_hull_json(state: HullState) -> str:
         If the hull holds a number that is not finite, or a name that is no text.
     """
     document = {
-        "format": _FORMAT,
+        "format": FORMAT,
         "schema": SCHEMA,
         "fingerprint": fingerprint(state),
         "definition": definition(state),
@@ -209,14 +212,14 @@ def _not_finite(text: str) -> NoReturn:
 
 def _check_head(document: dict[str, Any], name: str) -> None:
     """Check format, version and the keys of the top level."""
-    if document.get("format") != _FORMAT:
+    if document.get("format") != FORMAT:
         raise BadInputError(
-            f"'format' is {document.get('format')!r}, not {_FORMAT!r}", f"in {name}", _AGAIN
+            f"'format' is {shown(document.get('format'))}, not {FORMAT!r}", f"in {name}", _AGAIN
         )
     schema = document.get("schema")
     if type(schema) is not int or schema != SCHEMA:
         raise BadInputError(
-            f"'schema' is {schema!r}, and this version reads {SCHEMA}",
+            f"'schema' is {shown(schema)}, and this version reads {SCHEMA}",
             f"in {name}",
             "open it with the version of assoc-hull that wrote it",
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import io
+import logging
 from pathlib import Path
 
 import attrs
@@ -23,6 +24,9 @@ __all__ = [
 
 MESH_ENDINGS = (".stl", ".obj", ".ply")
 _MOST_BYTES = 2_000_000_000
+
+# Without a handler, what trimesh logs of a file it cannot read would go to standard error.
+logging.getLogger("trimesh").addHandler(logging.NullHandler())
 
 
 @attrs.frozen(eq=False)

@@ -163,6 +163,12 @@ def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
 def _tell_proportions(mesh: Triangles, book: Notebook) -> None:
     """Tell of a hull that no ship is like: a unit or scale that differs between the axes."""
     half, (length, _, depth) = float(mesh.xyz[:, 1].max()), np.ptp(mesh.xyz, axis=0).tolist()
+    flat = [name for name, size in zip("xyz", (length, half, depth), strict=True) if not size > 0.0]
+    if flat:
+        raise BadInputError(
+            f"the mesh is flat: it has no extent along {' and '.join(flat)}", f"in {_WHERE}",
+            "export the whole hull, or give axes=, as '+x+y+z'",
+        )  # fmt: skip
     ratios = {"L/B": 0.5 * length / half, "L/D": length / depth, "B/D": 2.0 * half / depth}
     odd = [
         f"{name} is {ratio:.3g}"

@@ -33,6 +33,9 @@ from assoc_hull.io.offset_units import Scale, column_scale
 
 __all__ = ["build_table"]
 
+_SIZES = (1e-3, 1e6)
+"""Between these (m) lie length, breadth and height of every hull; beyond, a unit is wrong."""
+
 
 def build_table(
     sheet: Sheet,
@@ -61,7 +64,7 @@ def build_table(
     ------
     BadInputError
         A half-breadth above B/2, stations whose place is unknown, buttocks that fit no
-        station, waterlines in draughts without a draught.
+        station, waterlines in draughts without a draught, a hull of an impossible size.
     """
     rounding = _rounding(sheet, hints, scale, book)
     half_breadth = sheet.offsets * scale.y
@@ -91,8 +94,23 @@ def build_table(
         rounding=rounding,
         station=sheet.stations[order].copy(),
     )
+    _refuse_size(table, sheet.block.source)
     _examine(table, sheet, scale, order, book)
     return table
+
+
+def _refuse_size(table: OffsetTable, source: str) -> None:
+    least, most = _SIZES
+    size = {
+        "stations": float(table.x[-1] - table.x[0]), "half-breadths": table.breadth / 2.0,
+        "waterlines": float(table.z[-1] - table.z[0]),
+    }  # fmt: skip
+    for name, found in size.items():
+        if not least <= found <= most:
+            raise BadInputError(
+                f"the {name} cover {found:.4g} m", source,
+                "correct the numbers or the unit: a hull measures between 1 mm and 1000 km",
+            )  # fmt: skip
 
 
 def _height(sheet: Sheet, column: Column, scale: Scale) -> float:

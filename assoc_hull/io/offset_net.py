@@ -135,11 +135,14 @@ class _Flats:
 
 def _border_kinds(side: FloatArray) -> list[int]:
     """Let a border be smooth, if as such it passes every level once on either side."""
-    smooth = [int(PointKind.SMOOTH)] * len(side)
-    levels = np.linspace(side[:, 2].min() + 0.1, side[:, 2].max() - 0.02, 40)
+    smooth, knuckles = ([int(kind)] * len(side) for kind in (PointKind.SMOOTH, PointKind.KNUCKLE))
+    low, high = float(side[:, 2].min()) + 0.1, float(side[:, 2].max()) - 0.02
+    if low >= high:  # too low a flat to tell
+        return knuckles
+    levels = np.linspace(low, high, 40)
     met = meet_planes(loft(CurveData.single(side, smooth)), np.eye(3)[2], levels)
     once = np.bincount(met.plane, minlength=len(levels)) == 2
-    return smooth if once.all() else [int(PointKind.KNUCKLE)] * len(side)
+    return smooth if once.all() else knuckles
 
 
 def _boundaries(table: OffsetTable, completion: Completion, flats: _Flats) -> list[LineSource]:

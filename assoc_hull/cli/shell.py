@@ -1,0 +1,68 @@
+"""Commands for the shell and for other programs: completion, and the form of a hull file."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.cli.arguments import Commands, add_command
+from assoc_hull.cli.problems import check_target
+
+__all__ = ["add"]
+
+_SHELLS = ("bash", "zsh", "fish")
+
+
+def add(commands: Commands) -> None:
+    """Add ``completion`` and ``schema``."""
+    completion = add_command(
+        commands, "completion", "print a script that lets the shell complete commands", _complete,
+        """assoc-hull completion bash > ~/.local/share/bash-completion/completions/assoc-hull
+        assoc-hull completion zsh > ~/.zfunc/_assoc-hull
+        assoc-hull completion fish > ~/.config/fish/completions/assoc-hull.fish""",
+    )  # fmt: skip
+    completion.add_argument("shell", metavar="SHELL", choices=_SHELLS, help=", ".join(_SHELLS))
+    schema = add_command(
+        commands, "schema", "print the JSON Schema of .hull.json files", _schema,
+        """assoc-hull schema
+        assoc-hull schema -o hull_json.schema.json""",
+    )  # fmt: skip
+    schema.add_argument("-o", "--out", type=Path, metavar="FILE", help="a .json file to write to")
+
+
+def _complete(arguments: argparse.Namespace) -> int:
+    import shtab
+
+    from assoc_hull.cli.parser import make_parser  # it is made of this module, among others
+
+    parser = make_parser()
+    for action in _actions(parser):
+        if action.type is Path:
+            folder = action.metavar == "DIR"
+            action.complete = shtab.DIRECTORY if folder else shtab.FILE  # type: ignore[attr-defined]
+    print(shtab.complete(parser, arguments.shell))
+    return 0
+
+
+def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """Give every argument of a parser and of its commands."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            choices: dict[str, Any] = action.choices
+            for each in choices.values():
+                yield from _actions(each)
+        else:
+            yield action
+
+
+def _schema(arguments: argparse.Namespace) -> int:
+    from assoc_hull.io.hull_schema import dumps_hull_schema
+
+    if arguments.out is None:
+        print(dumps_hull_schema(), end="")
+        return 0
+    check_target(arguments.out, (".json",))
+    arguments.out.write_text(dumps_hull_schema(), "utf-8")
+    return 0

@@ -1,0 +1,20 @@
+"""All kinds of input; another is a module in the folder, and a name in the tuple."""
+
+from __future__ import annotations
+
+from tests.fuzz.kind import Kind
+from tests.fuzz.kinds.edits import EDITS
+from tests.fuzz.kinds.exports import BRITFAIR, DELFTSHIP, GF, XLSX
+from tests.fuzz.kinds.hull_json import HULL_JSON
+from tests.fuzz.kinds.lines import DIGITISED, DRAWINGS
+from tests.fuzz.kinds.meshes import OBJ, STL
+from tests.fuzz.kinds.offsets import OFFSETS
+
+__all__ = ["KINDS"]
+
+_TABLES = (OFFSETS, XLSX)
+_LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, GF)
+
+KINDS: dict[str, Kind] = {
+    kind.name: kind for kind in (*_TABLES, HULL_JSON, EDITS, *_LINES, STL, OBJ)
+}

@@ -1,0 +1,101 @@
+"""Texts and workbooks as other programs take them: BRITFAIR, DELFTship, GHS, XLSX."""
+
+from __future__ import annotations
+
+import functools
+import io
+import tempfile
+import zipfile
+import zlib
+from pathlib import Path
+from random import Random
+
+from assoc_hull.io.export import export
+from assoc_hull.io.hull_json import read_hull_json
+from tests.fuzz.kind import TARGET, Kind
+from tests.fuzz.kinds.hulls import plain_text
+from tests.fuzz.text import change_bytes, change_text
+
+__all__ = ["BRITFAIR", "DELFTSHIP", "GF", "XLSX"]
+
+OPTIONS: tuple[list[str], ...] = ([], ["--tolerance", "0.1"], ["--draught", "5"], ["--unit", "m"])
+TABLE_OPTIONS: tuple[list[str], ...] = ([], ["--length", "100"], ["--station-zero", "ap"])
+
+
+@functools.cache
+def exported(name: str, form: str) -> bytes:
+    """A small hull in a form."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        export(read_hull_json(plain_text()), path, form)
+        return path.read_bytes()
+
+
+def _text(rng: Random, name: str, *forms: str) -> bytes:
+    return change_text(rng, exported(name, rng.choice(forms)).decode("latin-1"))
+
+
+def make_britfair(rng: Random) -> bytes:
+    """A changed BRITFAIR text."""
+    return _text(rng, "ship.bri", "britfair")
+
+
+def make_delftship(rng: Random) -> bytes:
+    """A changed text for DELFTship, of curves or of offsets."""
+    return _text(rng, "ship.txt", "delftship", "delftship-offsets")
+
+
+def make_gf(rng: Random) -> bytes:
+    """A changed geometry file."""
+    return _text(rng, "ship.gf", "gf")
+
+
+def make_xlsx(rng: Random) -> bytes:
+    """A workbook of which one part is changed, or its bytes."""
+    data = exported("ship.xlsx", "xlsx")
+    if rng.random() < 0.2:
+        return change_bytes(rng, data)
+    parts = {each: zipfile.ZipFile(io.BytesIO(data)).read(each) for each in _names(data)}
+    sheets = [name for name in parts if "sheet" in name or "shared" in name]
+    name = rng.choice(sheets if rng.random() < 0.8 else list(parts))
+    # A part is one long line: a line per element is what the changes are made for.
+    parts[name] = change_text(rng, parts[name].decode("utf-8").replace("><", ">\n<"))
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as book:
+        for each, content in parts.items():
+            book.writestr(zipfile.ZipInfo(each), content)
+    return out.getvalue()
+
+
+def _names(data: bytes) -> list[str]:
+    return zipfile.ZipFile(io.BytesIO(data)).namelist()
+
+
+def _import(name: str, data: bytes, options: tuple[list[str], ...]) -> list[list[str]]:
+    return [["import", name, "-o", TARGET, *options[zlib.crc32(data) % len(options)]]]
+
+
+def of_britfair(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.bri", data, OPTIONS)
+
+
+def of_delftship(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.txt", data, OPTIONS)
+
+
+def of_gf(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.gf", data, OPTIONS)
+
+
+def of_xlsx(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("ship.xlsx", data, TABLE_OPTIONS)
+
+
+BRITFAIR = Kind("britfair", "ship.bri", make_britfair, of_britfair, weight=2)
+DELFTSHIP = Kind("delftship", "ship.txt", make_delftship, of_delftship, weight=2)
+GF = Kind("gf", "ship.gf", make_gf, of_gf, weight=2)
+XLSX = Kind("xlsx", "ship.xlsx", make_xlsx, of_xlsx, weight=2)
