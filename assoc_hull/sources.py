@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assoc_hull.arguments import file_path, not_negative
+from assoc_hull.arguments import file_path, flag, not_negative
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 
@@ -63,7 +63,7 @@ class Examples:
 examples = Examples()
 
 
-def open(path: str | os.PathLike[str], *, wait: float = 0.0) -> Hull:
+def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = False) -> Hull:
     """Open a hull that was saved; nothing is computed.
 
     Parameters
@@ -73,6 +73,9 @@ def open(path: str | os.PathLike[str], *, wait: float = 0.0) -> Hull:
         ``.hull.json``: edits are in memory until they are saved.
     wait : float, s
         How long to wait while another process writes to the hull file, now and at each edit.
+    damaged : bool
+        Open a hull file also if its tables contradict one another: ``check`` then says how,
+        and nothing else can be relied upon.
 
     Raises
     ------
@@ -83,7 +86,11 @@ def open(path: str | os.PathLike[str], *, wait: float = 0.0) -> Hull:
 
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
         file_path(path, "in open")
-    return Hull(open_document(path, not_negative(wait, "wait", "in open")))
+    return Hull(
+        open_document(
+            path, not_negative(wait, "wait", "in open"), damaged=flag(damaged, "damaged", "in open")
+        )
+    )
 
 
 def read(

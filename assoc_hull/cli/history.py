@@ -73,10 +73,10 @@ def _open(arguments: argparse.Namespace) -> Hull:
 
 def _turn(arguments: argparse.Namespace) -> int:
     hull = _open(arguments)
-    before = [report.name for report in hull.history]
+    before = [step.name for step in hull.document.history]
     with progress(arguments.act):
         getattr(hull, arguments.act)(arguments.count)
-    after = [report.name for report in hull.history]
+    after = [step.name for step in hull.document.history]
     names = after[len(before) :] if len(after) > len(before) else before[len(after) :][::-1]
     word = "made again" if arguments.act == "redo" else "taken back"
     facts = {arguments.act: names, "fingerprint": hull.fingerprint, "steps": len(after)}
@@ -143,10 +143,10 @@ def _go(arguments: argparse.Namespace) -> int:
         hull.go(arguments.name)
     left = sorted(set(hull.labels) - known)
     facts = {
-        "at": arguments.name, "steps": len(hull.history), "fingerprint": hull.fingerprint,
+        "at": arguments.name, "steps": len(hull.document.history), "fingerprint": hull.fingerprint,
         "left": left,
     }  # fmt: skip
-    told = [f"at {arguments.name!r}, after {len(hull.history)} edits"]
+    told = [f"at {arguments.name!r}, after {len(hull.document.history)} edits"]
     told += [f"what was left is on {name!r}" for name in left]
     emit(arguments, facts, "\n".join(told))
     return 0

@@ -48,7 +48,7 @@ def _info(arguments: argparse.Namespace) -> int:
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    hull = open_hull(arguments.hull)
+    hull = open_hull(arguments.hull, damaged=True)
     with progress("checking"):
         found = hull.check(notes=arguments.notes)
     wrong = sum(each.kind != _NOTE for each in found)

@@ -19,6 +19,7 @@ from assoc_hull.arguments import shown, shown_name, text
 from assoc_hull.edit.keeper import Keeper, Label
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
+from assoc_hull.model.copy import copy_of, put_back
 from assoc_hull.model.index import Index, build_index
 from assoc_hull.model.state import HullState
 
@@ -237,21 +238,21 @@ class Document:
     def _run(
         self, moves: list[tuple[Step, bool]], branch: Label | None, leaves: bool = False
     ) -> list[Step]:
-        """Run steps backward or forward, and keep that; if that fails, run them back again."""
-        before = list(self.history), list(self.undone)
+        """Run steps backward or forward, and keep that; if it fails, all is as it was."""
+        before, steps = (list(self.history), list(self.undone)), [step for step, _ in moves]
         with self._writing():
-            for step, forward in moves:
-                self._turn(step, forward)
-            if leaves:
-                self.undone.clear()
-            steps = [step for step, _ in moves]
+            was = None if self.keeper is None else copy_of(self.state)
             try:
+                for step, forward in moves:
+                    self._turn(step, forward)
+                if leaves:
+                    self.undone.clear()
                 if self.keeper is not None:
                     self.keeper.move(self.head, self.tip, steps, branch)
             except BaseException:
-                for step, forward in reversed(moves):
-                    self._turn(step, not forward)
-                    self._revise(step, -2)
+                if was is not None:
+                    put_back(self.state, was)
+                    self.refresh()
                 self.history[:], self.undone[:] = before
                 raise
         self._name(branch)

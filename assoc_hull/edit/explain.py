@@ -29,6 +29,7 @@ _FOLLOWED = "followed"
 _CUT_OFF = "evaluated again, and came out with the same bits: nothing was told to its readers"
 _BLOCKED = "not evaluated: something it is made from has failed"
 _FAILED = "could not be made: it keeps its last good shape"
+_GONE = "an object that is not there"
 
 
 def why(document: Document, node: int) -> Why:
@@ -37,20 +38,20 @@ def why(document: Document, node: int) -> Why:
     Parameters
     ----------
     document : Document
-    The hull with its history.
+        The hull with its history.
     node : int
-    Twice the row of a point, or twice the number of a curve and one.
+        Twice the row of a point, or twice the number of a curve and one.
 
     Returns
     -------
     Why
-    The last committed edit that changed or evaluated the node, and the causes back to
-    what the designer set. A watched crossing has no value of its own: its causes are
-    its curves.
+        The last committed edit that changed or evaluated the node, and the causes back to
+        what the designer set. A watched crossing has no value of its own: its causes are
+        its curves.
 
     Examples
     --------
-    from assoc_hull.edit.document import Document
+    >>> from assoc_hull.edit.document import Document
     >>> from assoc_hull.edit.explain import why
     >>> from assoc_hull.examples.wigley import wigley
     >>> print(why(Document(wigley()), 0))
@@ -133,13 +134,16 @@ def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: i
 
 def _key(state: HullState, node: int) -> str:
     table = state.curves if node & 1 else state.rows
-    return str(table.key.data[node >> 1])
+    return str(table.key.data[node >> 1]) if node >> 1 < table.count else _GONE
 
 
 def _name(book: AddressBook, node: int) -> str:
+    table = book.state.curves if node & 1 else book.state.rows
+    if node >> 1 >= table.count:
+        return _GONE
     if node & 1:
         return book.curve_name(node >> 1)
-    if not book.state.rows.alive.data[node >> 1]:
+    if not table.alive.data[node >> 1]:
         return _key(book.state, node)
     return book.address(node >> 1)
 
@@ -150,7 +154,7 @@ def _still(state: HullState, node: int) -> str:
 
 def _state(state: HullState, node: int) -> State:
     table = state.curves if node & 1 else state.rows
-    return State(int(table.state.data[node >> 1]))
+    return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
 
 
 class _Teller:

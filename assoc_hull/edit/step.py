@@ -9,6 +9,7 @@ import attrs
 
 from assoc_hull.edit.record import Script
 from assoc_hull.edit.report import EditReport
+from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.node import Readers, distinct
 from assoc_hull.model.change import Change, run_change
@@ -36,11 +37,19 @@ class Rerun:
 
     def back(self) -> None:
         """Take it back."""
-        run_change(self.state, self.change, forward=False)
+        self._run(forward=False)
 
     def forth(self) -> None:
         """Make it again."""
-        run_change(self.state, self.change, forward=True)
+        self._run(forward=True)
+
+    def _run(self, *, forward: bool) -> None:
+        try:
+            run_change(self.state, self.change, forward=forward)
+        except (ValueError, TypeError, LookupError, ArithmeticError, AttributeError) as error:
+            what = f"the change of a step does not fit the hull ({type(error).__name__}: {error})"
+            remedy = "take the hull from a copy; it is as it was"
+            raise DamagedFileError(what, "in the history", remedy) from error
 
 
 @attrs.frozen(eq=False)

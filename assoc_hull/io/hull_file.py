@@ -29,6 +29,7 @@ from __future__ import annotations
 
 import contextlib
 import getpass
+import operator
 import os
 import sqlite3
 import weakref
@@ -45,6 +46,7 @@ from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_sound import require_sound
 from assoc_hull.io.hull_file_steps import (
     body_of,
     read_labels,
@@ -253,9 +255,10 @@ class HullFile:
         """
         database = self.database
         with speaking_of(self.path, self.wait):
-            head, tip, serial = self._one("SELECT head, tip, serial FROM hull")
+            head, tip, serial = map(operator.index, self._one("SELECT head, tip, serial FROM hull"))
             new = steps_of(database, len(document.steps), self.load)
             labels = read_labels(database)
+        _require_whole(document, new, labels, (head, tip))
         document.steps |= {step.number: step for step in new}
         document.labels = {label.name: label for label in labels}
         self._known, self.serial = len(document.steps), serial
@@ -308,6 +311,25 @@ class HullFile:
         return found
 
 
+def _require_whole(
+    document: Document, new: Sequence[Step], labels: Sequence[Label], stand: tuple[int, int]
+) -> None:
+    """Refuse a history whose steps are not numbered on, or that is named where it is not."""
+    known = len(document.steps)
+    for number, step in enumerate(new, start=known + 1):
+        if step.number != number or not 0 <= step.parent < number:
+            raise ValueError(f"step {step.number} stands after step {number - 1}")
+    most = known + len(new)
+    if not all(0 <= number <= most for number in (*stand, *(each.step for each in labels))):
+        raise ValueError(f"there is a name for a step beyond the {most} that there are")
+    steps = {**document.steps, **{step.number: step for step in new}}
+    way = stand[1]
+    while way > stand[0]:
+        way = steps[way].parent
+    if way != stand[0]:
+        raise ValueError(f"step {stand[0]} is not on the way to step {stand[1]}")
+
+
 def _identity(path: Path) -> tuple[int, int]:
     """Tell a file from another one of the same name."""
     try:
@@ -317,7 +339,7 @@ def _identity(path: Path) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def open_hull_file(path: Path, wait: float = 0.0) -> Document:
+def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> Document:
     """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
 
     Parameters
@@ -326,6 +348,8 @@ def open_hull_file(path: Path, wait: float = 0.0) -> Document:
         The file.
     wait : float, s
         How long to wait while another process writes, now and at each edit.
+    damaged : bool
+        Open it also if its tables contradict one another, to be looked at by a check.
 
     Returns
     -------
@@ -347,6 +371,8 @@ def open_hull_file(path: Path, wait: float = 0.0) -> Document:
             document.stand(*file.follow(document))
             document.start = str(file.recorded(0))
             file.require_print()
+            if not damaged:
+                require_sound(state)
             database.execute("ROLLBACK")
     except BaseException:
         database.close()

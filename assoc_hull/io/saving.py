@@ -104,12 +104,14 @@ def save(
     return Saved(Path(path), written=True)
 
 
-def open_document(path: str | os.PathLike[str], wait: float = 0.0) -> Document:
+def open_document(
+    path: str | os.PathLike[str], wait: float = 0.0, *, damaged: bool = False
+) -> Document:
     """Open a hull file, or read the canonical text; see `assoc_hull.hull.open`."""
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
         file = Path(path)
         if is_hull_file(file) or not (_is_text(file) or file.name.endswith(".json")):
-            return open_hull_file(file, wait)
+            return open_hull_file(file, wait, damaged=damaged)
     return Document(read_hull_json(path), author=user())
 
 

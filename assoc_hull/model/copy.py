@@ -15,17 +15,22 @@ from __future__ import annotations
 from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
 from assoc_hull.model.state import HullState
 
-__all__ = ["copy_of"]
+__all__ = ["copy_of", "put_back"]
 
 
 def copy_of(state: HullState) -> HullState:
     """Copy the tables of a hull; row numbers stay, values that never change are shared."""
     found = HullState(state.particulars, state.tolerances)
+    put_back(found, state)
+    return found
+
+
+def put_back(found: HullState, state: HullState) -> None:
+    """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
     for name in ("groups", "lines", "curves", "rows", "settings"):
         _copy(getattr(state, name), getattr(found, name))
     found.settings.births.data[0] = dict(state.births)
     found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)
-    return found
 
 
 def _copy(given: Table, found: Table) -> None:

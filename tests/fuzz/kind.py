@@ -40,6 +40,9 @@ class Kind:
         Gives the other files that the commands need.
     extra : tuple of str
         Files besides `TARGET` that a command may write.
+    rewrites : tuple of str
+        Commands that may change the input itself: it must be whole when they end with 0, and
+        is never changed when they do not.
     weight : int
         Its share of the inputs when all kinds are run.
     """
@@ -50,6 +53,7 @@ class Kind:
     commands: Callable[[bytes], Commands]
     beside: Callable[[], Mapping[str, bytes]] = _nothing
     extra: tuple[str, ...] = ()
+    rewrites: tuple[str, ...] = ()
     weight: int = 1
 
 

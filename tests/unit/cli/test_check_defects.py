@@ -73,7 +73,7 @@ def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Opened:
     """Let the command open these tables, as a file holds them that stores them row by row."""
 
     def give(state: HullState) -> Path:
-        monkeypatch.setattr(look, "open_hull", lambda _: ah.Hull(state))
+        monkeypatch.setattr(look, "open_hull", lambda _, damaged: ah.Hull(state))
         return tmp_path / "ship.hull.json"
 
     return give
