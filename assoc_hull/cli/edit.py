@@ -67,9 +67,10 @@ def _edit(arguments: argparse.Namespace) -> int:
     except RefusedEditError as error:
         return _refused(arguments, error)
     causes = {each: hull.why(each) for each in arguments.why}
+    facts, text = _told(hull, report, causes, None if arguments.dry_run else target)
     if not arguments.dry_run:
-        hull.save(target)
-    _tell(arguments, hull, report, causes, None if arguments.dry_run else target)
+        hull.save(target)  # last: what cannot be told leaves no file
+    emit(arguments, facts, text)
     return 0
 
 
@@ -114,13 +115,10 @@ def _refused(arguments: argparse.Namespace, error: RefusedEditError) -> int:
     return 1
 
 
-def _tell(
-    arguments: argparse.Namespace,
-    hull: Hull,
-    report: EditReport,
-    causes: dict[str, Why],
-    saved: Path | None,
-) -> None:
+def _told(
+    hull: Hull, report: EditReport, causes: dict[str, Why], saved: Path | None
+) -> tuple[dict[str, Any], str]:
+    """Give what an edit did, as facts and in words."""
     facts = {
         "refused": False, "edit": report.name,
         "report": report, "inflections": report.inflections, "why": causes,
@@ -128,7 +126,7 @@ def _tell(
     }  # fmt: skip
     written = "nothing written" if saved is None else f"written: {saved}"
     told = [f"why {name}\n{cause}" for name, cause in causes.items()]
-    emit(arguments, facts, "\n".join([report.name, edit_words(hull, report), *told, written]))
+    return facts, "\n".join([report.name, edit_words(hull, report), *told, written])
 
 
 def _read(path: Path) -> Changes:
