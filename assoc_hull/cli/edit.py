@@ -90,14 +90,16 @@ def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> in
     hull = open_hull(arguments.hull, wait=arguments.wait)
     if apart:
         hull.detach()
+    for each in arguments.why:
+        hull.find(each)  # before anything is edited
     with progress("updating"), _values_of(str(arguments.edits)), hull.edit(name) as edit:
         _modify_all(edit, changes, arguments.edits)
     assert edit.report is not None, "an edit without an error has a report"
     causes = {each: hull.why(each) for each in arguments.why}
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)
     facts = _facts(edit.report, causes, hull.fingerprint, target)
     told = [edit_words(hull, edit.report), *why_words(causes), f"written: {target}"]
+    if apart or hull.path is None:
+        hull.save(target, replace=arguments.replace)  # last: what cannot be told leaves no file
     emit(arguments, facts, "\n".join([name, *told]))
     return 0
 

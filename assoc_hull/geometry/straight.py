@@ -258,6 +258,8 @@ def _bends(t: FloatArray, u: FloatArray, noise: float) -> bool:
     if len(t) < 6:
         return False
     middle, half = 0.5 * (t[0] + t[-1]), 0.5 * (t[-1] - t[0])
+    if half <= 0.0:  # they come back to where they began
+        return True
     quadratic = np.polyfit((t - middle) / half, u, 2)
     spread = max(noise, float(np.std(np.polyval(quadratic, (t - middle) / half) - u)))
     return bool(abs(quadratic[0]) > 4.0 * 3.4 * spread / np.sqrt(len(t)))

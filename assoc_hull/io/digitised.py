@@ -28,7 +28,7 @@ from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import drop_repeats
-from assoc_hull.io.digitised_piece import RawPiece
+from assoc_hull.io.digitised_piece import RawPiece, refuse_retraced
 from assoc_hull.io.digitised_sides import one_side
 from assoc_hull.io.digitised_text import parse_lines
 from assoc_hull.io.offset_report import Notebook
@@ -101,6 +101,8 @@ def read_lines(
     raw = found.pieces
     factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
     knuckles = _knuckles(raw, factor)
+    for each in raw:
+        refuse_retraced(each)
     raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
     every = np.concatenate([each.points for each in raw])
     joins: list[Join] = []

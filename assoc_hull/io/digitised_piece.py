@@ -9,10 +9,13 @@ from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["RawPiece", "read_number"]
+__all__ = ["RawPiece", "read_number", "refuse_retraced"]
 
 _LARGEST = 1e9
 """No coordinate exceeds this in any unit."""
+
+_VISITS = 3
+"""A polyline that comes to one place more often than this goes over itself again and again."""
 
 
 @attrs.frozen(eq=False)
@@ -70,3 +73,28 @@ def read_number(cell: str, where: str, *, comma: bool = False) -> float:
     if abs(value) > _LARGEST:
         raise BadInputError(f"{shown(cell)} is too large for a ship", where, "correct the cell")
     return value
+
+
+def refuse_retraced(piece: RawPiece) -> None:
+    """Refuse a polyline that runs over its own points again and again.
+
+    Raises
+    ------
+    BadInputError
+        It does: rows of the file were written many times.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.io.digitised_piece import RawPiece, refuse_retraced
+    >>> refuse_retraced(RawPiece("WL 1", np.array([[0.0, 0, 1], [5, 2, 1], [9, 0, 1]]), "row 2"))
+    """
+    apart = np.append(True, (np.diff(piece.points, axis=0) != 0.0).any(axis=1))
+    places, counts = np.unique(piece.points[apart], axis=0, return_counts=True)
+    most = int(np.argmax(counts))
+    if counts[most] > _VISITS:
+        x, y, z = places[most].tolist()
+        raise BadInputError(
+            f"{piece.line} comes to ({x:.4g}, {y:.4g}, {z:.4g}) {counts[most]} times",
+            f"in {piece.where}", "take out the rows that were written again",
+        )  # fmt: skip

@@ -94,6 +94,8 @@ def _truth(value: object) -> None:
 
 
 def _real(value: object) -> None:
+    if type(value) is float and -_LARGEST <= value <= _LARGEST:
+        return  # at once: a hull has many thousands of these
     if type(value) is not float and type(value) is not int:
         raise WrongError(f"{shown(value)} is no number")
     try:
@@ -159,15 +161,17 @@ def or_none(inner: Form) -> Form:
 
 def listed(inner: Form, least: int = 0, most: int | None = None) -> Form:
     """Give the form of a list of so many items."""
+    each = inner.check
 
     def check(value: object) -> None:
         _long(value, least, most)
-        for index, item in enumerate(cast("list[object]", value)):
-            try:  # not through `_within`: a hull has lists of many thousands of numbers
-                inner.check(item)
-            except WrongError as wrong:
-                wrong.path.append(f"[{index}]")
-                raise
+        index = 0
+        try:
+            for index, item in enumerate(cast("list[object]", value)):  # noqa: B007
+                each(item)
+        except WrongError as wrong:
+            wrong.path.append(f"[{index}]")
+            raise
 
     schema: Schema = {"type": "array", "items": inner.schema}
     if least:
@@ -187,22 +191,19 @@ def _long(value: object, least: int, most: int | None) -> None:
         raise WrongError(f"the list holds {len(value)} items, not {wanted}")
 
 
-def _within(inner: Form, value: object, step: str) -> None:
-    """Check a part, and say on the way out where it stands."""
-    try:
-        inner.check(value)
-    except WrongError as wrong:
-        wrong.path.append(step)
-        raise
-
-
 def tuple_of(*inner: Form) -> Form:
     """Give the form of a list with a form for each of its items."""
+    checks = [each.check for each in inner]
 
     def check(value: object) -> None:
-        _long(value, len(inner), len(inner))
-        for index, (item, each) in enumerate(zip(cast("list[object]", value), inner, strict=True)):
-            _within(each, item, f"[{index}]")
+        _long(value, len(checks), len(checks))
+        index = 0
+        try:
+            for index, item in enumerate(cast("list[object]", value)):
+                checks[index](item)
+        except WrongError as wrong:
+            wrong.path.append(f"[{index}]")
+            raise
 
     parts = [each.schema for each in inner]
     size = {"minItems": len(inner), "maxItems": len(inner)}
@@ -217,7 +218,11 @@ def mapped(inner: Form) -> Form:
             raise WrongError(f"{shown(value)} is no mapping")
         for key, item in value.items():
             _text(key)
-            _within(inner, item, f"[{shown(key)}]")
+            try:
+                inner.check(item)
+            except WrongError as wrong:
+                wrong.path.append(f"[{shown(key)}]")
+                raise
 
     return Form(check, {"type": "object", "additionalProperties": inner.schema})
 
@@ -225,6 +230,7 @@ def mapped(inner: Form) -> Form:
 def record(required: Mapping[str, Form], optional: Mapping[str, Form] | None = None) -> Form:
     """Give the form of a mapping with given keys."""
     known = {**required, **(optional or {})}
+    checks = {key: each.check for key, each in known.items()}
 
     def check(value: object) -> None:
         if not isinstance(value, dict):
@@ -235,8 +241,13 @@ def record(required: Mapping[str, Form], optional: Mapping[str, Form] | None = N
         for key in required:
             if key not in value:
                 raise WrongError(f"the key {key!r} is missing")
-        for key, item in value.items():
-            _within(known[key], item, f".{key}")
+        key = ""
+        try:
+            for key, item in value.items():
+                checks[key](item)
+        except WrongError as wrong:
+            wrong.path.append(f".{key}")
+            raise
 
     schema: Schema = {
         "type": "object",

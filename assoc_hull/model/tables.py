@@ -14,6 +14,7 @@ Examples
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -34,6 +35,8 @@ __all__ = ["make_tables"]
 Record = Mapping[str, Any]
 
 _NIL = [0.0, 0.0, 0.0]
+_UNIT = 1e-9
+"""A unit normal is this near to 1 long."""
 _STATES = words(State)
 
 
@@ -109,6 +112,9 @@ def _put_lines(state: HullState, journal: Journal, lines: list[Record], keys: Ke
     for line, name in zip(lines, names, strict=True):
         if ("normal" in line) != ("offset" in line):
             raise wrong("a plane needs both a normal and an offset", f"at the line {line['key']!r}")
+        length = math.hypot(*line.get("normal", (1.0,)))
+        if abs(length - 1.0) > _UNIT:
+            raise wrong(f"the normal is {length:.6g} long, not 1", f"at the line {line['key']!r}")
         if names.count(name) > 1:
             raise wrong(f"two lines of {name[0]} have the name {name[1]!r}", "in the lines")
     boundary = words(BoundaryKind)
