@@ -21,6 +21,8 @@ _ROOTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _NODES, _WEIGHTS = 0.5 + 0.5 * _ROOTS, 0.5 * _WEIGHTS
 _AGREEMENT = 1e-12  # of the length of the segment
 _HALVINGS = 40  # parts of 1e-12 of a segment
+_SLOW = 0.05  # of the greatest speed: where it all but vanishes, rules agree by chance
+_NEAR = np.concatenate([[0.0], *([-step, step] for step in 0.5 ** np.arange(1, 31))])
 
 
 def segment_length(batch: SplineBatch) -> FloatArray:
@@ -145,28 +147,42 @@ def _before(batch: SplineBatch) -> FloatArray:
 
 def _gauss(slopes: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Integrate the speed over the parts [low, high] of segments, (p,)."""
+    integral: FloatArray = (_speed(slopes, low, high) * _WEIGHTS).sum(axis=1) * (high - low)
+    return integral
+
+
+def _speed(slopes: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Give the speed at the nodes of the rule on the parts [low, high], (p, 8)."""
     u = low[:, None] + (high - low)[:, None] * _NODES
     squared = np.zeros_like(u)
     for axis in range(3):
         constant, linear, square = (slopes[:, row, axis, None] for row in range(3))
         speed = (square * u + linear) * u + constant
         squared += speed * speed
-    integral: FloatArray = (np.sqrt(squared) * _WEIGHTS).sum(axis=1) * (high - low)
-    return integral
+    found: FloatArray = np.sqrt(squared)
+    return found
 
 
 def _adaptive(slopes: FloatArray, until: FloatArray) -> FloatArray:
     """Give the lengths of segments from u = 0 to `until`, (p,)."""
     begin = np.zeros(len(until))
-    whole = _gauss(slopes, begin, until)
+    speed = _speed(slopes, begin, until)
+    whole = (speed * _WEIGHTS).sum(axis=1) * until
     halves = _gauss(slopes, begin, 0.5 * until) + _gauss(slopes, 0.5 * until, until)
-    hard = np.flatnonzero(~(np.abs(halves - whole) <= _AGREEMENT * halves))
+    agree = np.abs(halves - whole) <= _AGREEMENT * halves
+    hard = np.flatnonzero(~agree | (speed.min(axis=1) < _SLOW * speed.max(axis=1)))
     if len(hard):
-        edge = np.minimum(_slowest(slopes[hard]), until[hard, None])
+        edge = _graded(_slowest(slopes[hard]), until[hard])
         item = np.repeat(np.arange(len(hard)), edge.shape[1] - 1)
         low, high = edge[:, :-1].ravel(), edge[:, 1:].ravel()
         halves[hard] = _halved(slopes[hard], item, low, high, _AGREEMENT * halves[hard])
     return halves
+
+
+def _graded(slowest: FloatArray, until: FloatArray) -> FloatArray:
+    """Give where to cut segments: at those places, and ever closer to them, (p, k)."""
+    near = (slowest[:, :, None] + _NEAR).reshape(len(until), -1)
+    return np.asarray(np.sort(np.clip(near, 0.0, until[:, None]), axis=1))
 
 
 def _slowest(slopes: FloatArray) -> FloatArray:
