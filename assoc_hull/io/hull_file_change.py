@@ -25,7 +25,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import Change
 from assoc_hull.model.places import PlacesOn
@@ -46,8 +46,8 @@ def pack_change(change: Change) -> bytes:
     arrays["moved.bits"] = change.moved[1].T
     for name, (rows, bits) in change.bits.items():
         arrays |= {f"{name}.rows": _short(rows), f"{name}.bits": bits.T}
-    for title, places in (("before", change.before), ("after", change.after)):
-        arrays |= _pack_places(title, places)
+    arrays |= _pack_places("before", change.before, change.before.at)
+    arrays |= _pack_places("after", change.after, _against(change.before, change.after))
     for when, shapes in enumerate(change.kept):
         for curve, spline in shapes.items():
             arrays |= {f"kept.{when}.{curve}.{part}": getattr(spline, part) for part in _SHAPE}
@@ -80,19 +80,42 @@ def _long(numbers: NDArray[Any]) -> IntArray:
     return numbers.astype(np.int64)
 
 
-def _pack_places(title: str, places: PlacesOn) -> Arrays:
+def _against(before: PlacesOn, after: PlacesOn) -> FloatArray:
+    """Give places as the exclusive or with where the same crossing lay on the curve before.
+
+    A line that is added or taken away changes what many curves list, and where nothing of that
+    lies. Crossings that were not there before stand as they are. Twice, it takes itself back.
+    """
+    found = after.at.copy()
+    keys = [_keys(places) for places in (before, after)]
+    _, old, new = np.intersect1d(keys[0][:, 0], keys[1][:, 0], return_indices=True)
+    old, new = keys[0][old, 1], keys[1][new, 1]
+    found[new] = (before.at[old].view(np.int64) ^ found[new].view(np.int64)).view(np.float64)
+    return found
+
+
+def _keys(places: PlacesOn) -> IntArray:
+    """Give a number for each crossing on a curve, and where it stands, (k, 2)."""
+    actual = np.flatnonzero(places.row >= 0)
+    curve = places.curve[places.owner[actual]]
+    return np.column_stack([(curve << 32) + places.row[actual], actual])
+
+
+def _pack_places(title: str, places: PlacesOn, at: FloatArray) -> Arrays:
     if not len(places.curve):
         return {}
     whole = {f"{title}.{name}": _short(getattr(places, name)) for name in _PLACES}
-    return {**whole, f"{title}.at": places.at}
+    bits = np.frombuffer(at.tobytes(), np.uint8).reshape(len(at), 32)
+    return {**whole, f"{title}.at": bits.T}
 
 
 def _unpack_places(title: str, arrays: Arrays) -> PlacesOn:
     if f"{title}.curve" not in arrays:
         arrays = {f"{title}.{name}": np.zeros(0, np.int32) for name in _PLACES}
-        arrays[f"{title}.at"] = np.zeros((0, 4))
+        arrays[f"{title}.at"] = np.zeros((32, 0), np.uint8)
     curve, count, line, sign, row = (_long(arrays[f"{title}.{name}"]) for name in _PLACES)
-    return PlacesOn(curve, count, line, sign, row, arrays[f"{title}.at"].astype(np.float64))
+    at = np.frombuffer(arrays[f"{title}.at"].T.tobytes(), "<f8").astype(np.float64).reshape(-1, 4)
+    return PlacesOn(curve, count, line, sign, row, at)
 
 
 def unpack_change(data: bytes) -> Change:
@@ -104,6 +127,7 @@ def unpack_change(data: bytes) -> Change:
         They hold no change.
     """
     arrays, facts = unpack(data)
+    before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
     objects = {
         name: (
             np.array(rows, np.int64),
@@ -118,8 +142,8 @@ def unpack_change(data: bytes) -> Change:
         objects,
         {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
         (_long(arrays["moved"]), np.ascontiguousarray(arrays["moved.bits"].T)),
-        _unpack_places("before", arrays),
-        _unpack_places("after", arrays),
+        before,
+        attrs.evolve(after, at=_against(before, after)),
         _long(arrays["lofted"]),
         (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
     )
