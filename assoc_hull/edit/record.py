@@ -33,6 +33,8 @@ __all__ = ["ANY_FUNCTION", "Recording", "Script", "recorded", "said"]
 ANY_FUNCTION = "<a function>"
 """Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
 
+_DEEPEST = 8
+
 P = ParamSpec("P")
 T = TypeVar("T")
 
@@ -103,8 +105,10 @@ def recorded(method: Callable[Concatenate[R, P], T]) -> Callable[Concatenate[R, 
     return asked
 
 
-def said(value: object) -> Any:
+def said(value: object, depth: int = 0) -> Any:
     """Give a value as JSON can say it, and as the same argument accepts it."""
+    if depth > _DEEPEST:
+        return ANY_FUNCTION  # no argument is nested so deeply: it will be refused
     if isinstance(value, Point):
         return address(value.tables, value.number, value.side) if value.alive else value.id
     if isinstance(value, Crossing):
@@ -114,7 +118,7 @@ def said(value: object) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     if isinstance(value, list | tuple):
-        return [said(each) for each in value]
+        return [said(each, depth + 1) for each in value]
     if getattr(value, "document", None) is not None:
         return None  # the hull itself
     if isinstance(value, str | int | float | bool | None):
