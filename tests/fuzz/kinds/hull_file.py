@@ -139,8 +139,12 @@ def _change_blob(rng: Random, database: sqlite3.Connection) -> None:
     """Change what a step holds, inside its packing."""
     column = rng.choice(("change", "trace"))
     number = rng.randrange(1, 5)
-    (data,) = database.execute(f"SELECT {column} FROM steps WHERE number = {number}").fetchone()
-    arrays, facts = unpack(data)
+    row = database.execute(f"SELECT {column} FROM steps WHERE number = {number}").fetchone()
+    data = row[0] if row else None
+    try:
+        arrays, facts = unpack(data)
+    except (ValueError, TypeError):  # it was changed already
+        return
     if rng.random() < 0.5 and facts is not None:
         facts = change_value(rng, facts)
     else:
