@@ -140,7 +140,7 @@ def _change_blob(rng: Random, database: sqlite3.Connection) -> None:
     column = rng.choice(("change", "trace"))
     number = rng.randrange(1, 5)
     row = database.execute(f"SELECT {column} FROM steps WHERE number = {number}").fetchone()
-    data = row[0] if row else None
+    data = row[0] if row else b""
     try:
         arrays, facts = unpack(data)
     except (ValueError, TypeError):  # it was changed already
