@@ -20,11 +20,11 @@ def add(commands: Commands) -> None:
     """Add ``export``."""
     parser = add_command(
         commands, "export", "write offsets or sections for other programs", _export,
-        """assoc-hull export ship.hull.json -o offsets.csv
-        assoc-hull export ship.hull.json -o offsets.xlsx
-        assoc-hull export ship.hull.json -o ship.bri
-        assoc-hull export ship.hull.json -o ship.gf --json
-        assoc-hull export ship.hull.json -o ship.txt --format delftship-offsets""",
+        """assoc-hull export ship.hull -o offsets.csv
+        assoc-hull export ship.hull -o offsets.xlsx
+        assoc-hull export ship.hull -o ship.bri
+        assoc-hull export ship.hull -o ship.gf --json
+        assoc-hull export ship.hull -o ship.txt --format delftship-offsets""",
     )  # fmt: skip
     add_hull(parser)
     parser.add_argument(

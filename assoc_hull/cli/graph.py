@@ -22,9 +22,9 @@ def add(commands: Commands) -> None:
     """Add ``graph``."""
     parser = add_command(
         commands, "graph", "write objects and links as a graph", _graph,
-        """assoc-hull graph ship.hull.json --format dot --around "WL 0.5 x ST 7" --hops 2
-        assoc-hull graph ship.hull.json --only one-way --around "WL 0.5" --hops 2 --format mermaid
-        assoc-hull graph ship.hull.json --format graphml -o ship.graphml""",
+        """assoc-hull graph ship.hull --format dot --around "WL 0.5 x ST 7" --hops 2
+        assoc-hull graph ship.hull --only one-way --around "WL 0.5" --hops 2 --format mermaid
+        assoc-hull graph ship.hull --format graphml -o ship.graphml""",
     )  # fmt: skip
     add_hull(parser)
     form = parser.add_mutually_exclusive_group()

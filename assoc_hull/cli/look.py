@@ -18,18 +18,18 @@ def add(commands: Commands) -> None:
     """Add ``info``, ``check`` and ``verify``."""
     info = add_command(
         commands, "info", "tell what a hull holds", _info,
-        """assoc-hull info ship.hull.json
-        assoc-hull info ship.hull.json --json""",
+        """assoc-hull info ship.hull
+        assoc-hull info ship.hull --json""",
     )  # fmt: skip
     check = add_command(
         commands, "check", "tell what is wrong with a hull; exit 1 if anything is", _check,
-        """assoc-hull check ship.hull.json
-        assoc-hull check ship.hull.json --notes --json""",
+        """assoc-hull check ship.hull
+        assoc-hull check ship.hull --notes --json""",
     )  # fmt: skip
     check.add_argument("--notes", action="store_true", help="tell also what is only worth knowing")
     verify = add_command(
         commands, "verify", "rebuild a hull from its definition and compare; exit 1 if it differs",
-        _verify, "assoc-hull verify ship.hull.json\nassoc-hull verify ship.hull.json --json",
+        _verify, "assoc-hull verify ship.hull\nassoc-hull verify ship.hull --json",
     )  # fmt: skip
     verify.add_argument(
         "--relative", type=float, default=0.0, metavar="PART",

@@ -55,17 +55,18 @@ def _add_import(commands: Commands) -> None:
         commands, "import", "make a hull from offsets, a mesh or digitised lines", _import,
         """assoc-hull import offsets.csv -o ship.hull
         assoc-hull import ship.hull.json -o ship.hull
-        assoc-hull import hull.stl -o ship.hull.json --scale 59.407 --stations 41
-        assoc-hull import hull.stl -o ship.hull.json --report report.json --picture report.pdf
-        assoc-hull import sections.bri -o ship.hull.json
-        assoc-hull import offsets.csv -o ship.hull.json --unit mm --draught 8.5
-        assoc-hull import offsets.csv -o ship.hull.json --station-zero fp --report report.json""",
+        assoc-hull import hull.stl -o ship.hull --scale 59.407 --stations 41
+        assoc-hull import hull.stl -o ship.hull --report report.json --picture report.pdf
+        assoc-hull import sections.bri -o ship.hull
+        assoc-hull import offsets.csv -o ship.hull --unit mm --draught 8.5
+        assoc-hull import offsets.csv -o ship.hull --station-zero fp --report report.json""",
     )  # fmt: skip
     parser.add_argument(
         "file",
         metavar="FILE",
         type=Path,
-        help="CSV, TSV, XLSX, STL, OBJ, PLY, DXF, BRITFAIR (.bri), DELFTship (.txt) or GHS (.gf)",
+        help="CSV, TSV, XLSX, STL, OBJ, PLY, DXF, BRITFAIR (.bri), DELFTship (.txt), GHS (.gf), "
+        "or a saved hull (.hull, .hull.json)",
     )
     _add_target(parser)
     for name, what in (

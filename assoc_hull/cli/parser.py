@@ -27,12 +27,13 @@ _ABOUT = "Associative ship hull forms: lines that follow one another when one is
 _EXAMPLES = """
 examples:
   assoc-hull demo --out demo
-  assoc-hull example series60-070 -o ship.hull.json
-  assoc-hull edit ship.hull.json edits.json -o fairer.hull.json --why "BTK 0.44"
-  assoc-hull check fairer.hull.json --json
-  assoc-hull plot fairer.hull.json -o lines.pdf
+  assoc-hull example series60-070 -o ship.hull
+  assoc-hull edit ship.hull edits.json --why "BTK 0.44"
+  assoc-hull undo ship.hull
+  assoc-hull check ship.hull --json
+  assoc-hull plot ship.hull -o lines.pdf
 
-exit codes: 0 done; 1 findings (check, verify, a refused edit); 2 bad input or usage
+exit codes: 0 done; 1 findings (check, verify, an edit refused or not made); 2 bad input or usage
 """
 
 

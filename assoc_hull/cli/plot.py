@@ -17,8 +17,8 @@ def add(commands: Commands) -> None:
     """Add ``plot``."""
     parser = add_command(
         commands, "plot", "draw the lines plan, or lines with their curvature combs", _plot,
-        """assoc-hull plot ship.hull.json -o lines.pdf --paper A1
-        assoc-hull plot ship.hull.json -o combs.svg --combs "WL 0.5" "BTK 0.44\"""",
+        """assoc-hull plot ship.hull -o lines.pdf --paper A1
+        assoc-hull plot ship.hull -o combs.svg --combs "WL 0.5" "BTK 0.44\"""",
     )  # fmt: skip
     add_hull(parser)
     parser.add_argument(

@@ -17,9 +17,9 @@ def add(commands: Commands) -> None:
     """Add ``why``."""
     parser = add_command(
         commands, "why", "tell through what the last edit reached an object", _why,
-        """assoc-hull why ship.hull.json "BTK 0.44"
-        assoc-hull why ship.hull.json "WL 0.5 x ST 16" --tree
-        assoc-hull why ship.hull.json "WL 0.5" --json""",
+        """assoc-hull why ship.hull "BTK 0.44"
+        assoc-hull why ship.hull "WL 0.5 x ST 16" --tree
+        assoc-hull why ship.hull "WL 0.5" --json""",
     )  # fmt: skip
     add_hull(parser)
     parser.add_argument(

@@ -1,7 +1,9 @@
 """Every command says what it is for and shows how it is called."""
 
 import argparse
+import re
 import shlex
+from pathlib import Path
 
 import pytest
 
@@ -16,7 +18,15 @@ def commands() -> dict[str, argparse.ArgumentParser]:
     return dict(found.choices)
 
 
-COMMANDS = commands()
+def sections() -> dict[str, str]:
+    """What `docs/cli.md` says under the heading of each command."""
+    page = Path(__file__).resolve().parents[3] / "docs" / "cli.md"
+    parts = re.split(r"^(##+) (.*)$", page.read_text("utf-8"), flags=re.MULTILINE)
+    titled = zip(parts[1::3], parts[2::3], parts[3::3], strict=True)
+    return {title: text for level, title, text in titled if level == "###"}
+
+
+COMMANDS, SECTIONS = commands(), sections()
 
 
 def examples(parser: argparse.ArgumentParser) -> list[str]:
@@ -54,3 +64,25 @@ def test_the_program_lists_its_commands_and_exit_codes() -> None:
     assert "exit codes: 0 done; 1 findings" in text
     for line in examples(parser):
         assert callable(parser.parse_args(shlex.split(line)[1:]).run)
+
+
+def test_the_page_describes_the_commands_and_no_others() -> None:
+    """`docs/cli.md` has a heading for each, and a link to it in its list."""
+    assert sorted(SECTIONS) == sorted(COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_page_names_every_argument_of_a_command(name: str) -> None:
+    """In its first line, the usage; below it stand examples that can be run."""
+    usage, *shown = SECTIONS[name].split("\n    assoc-hull ")[1:]
+    told = set(re.findall(r"[-\w.]+", usage))
+    missing = [
+        each.dest
+        for each in COMMANDS[name]._actions
+        if each.dest != "help" and not told & set(each.option_strings or [str(each.metavar)])
+    ]
+    assert missing == []
+    assert shown
+    for line in shown:
+        words = shlex.split(line.split("\n")[0].partition(" > ")[0])
+        assert callable(make_parser().parse_args(words).run)
