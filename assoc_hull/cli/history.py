@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, add_wait
@@ -13,7 +14,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.sources import open as open_hull
 
-__all__ = ["add"]
+__all__ = ["add", "open_with_history"]
 
 
 def add(commands: Commands) -> None:
@@ -61,11 +62,21 @@ def _add_common(parser: argparse.ArgumentParser, *, writes: bool) -> None:
 
 
 def _open(arguments: argparse.Namespace) -> Hull:
-    """Open a hull file; the text form holds no history."""
-    hull = open_hull(arguments.hull, wait=getattr(arguments, "wait", 0.0))
+    return open_with_history(arguments.hull, wait=getattr(arguments, "wait", 0.0))
+
+
+def open_with_history(path: Path, wait: float = 0.0) -> Hull:
+    """Open a hull file.
+
+    Raises
+    ------
+    BadInputError
+        It is text, which holds no history.
+    """
+    hull = open_hull(path, wait=wait)
     if hull.path is None:
         raise BadInputError(
-            "this is text, and holds no history", f"at {arguments.hull}",
+            "this is text, and holds no history", f"at {path}",
             "make a hull file of it: assoc-hull import SHIP.hull.json -o SHIP.hull",
         )  # fmt: skip
     return hull

@@ -194,6 +194,9 @@ def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
     if given:
         where = f"with {arguments.file}, which is a hull already"
         raise BadInputError(f"--{given[0]} cannot be given", where, "leave it out")
+    if arguments.out.exists() and arguments.out.samefile(arguments.file):
+        what = "it would be written over itself"
+        raise BadInputError(what, f"at {arguments.out}", "give another name after -o")
     hull = open_hull(arguments.file)
     hull.detach()
     return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"

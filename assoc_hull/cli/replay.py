@@ -13,6 +13,7 @@ from assoc_hull.cli.arguments import (
     add_replace,
     add_wait,
 )
+from assoc_hull.cli.history import open_with_history
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_hull_target, check_target
 from assoc_hull.sources import open as open_hull
@@ -47,7 +48,7 @@ def _replay(arguments: argparse.Namespace) -> int:
     check_target(target, HULL_ENDINGS)
     if apart:
         check_hull_target(target, replace=arguments.replace)
-    source = open_hull(arguments.source)
+    source = open_with_history(arguments.source)
     hull = open_hull(arguments.hull, wait=arguments.wait)
     if apart:
         hull.detach()

@@ -115,6 +115,7 @@ class Document:
         self.undone.clear()
         self.history.append(step)
         self.steps[step.number] = step
+        self._agree()
         if len(self.history) > _HELD:
             self.history[-1 - _HELD].release()
 
@@ -224,7 +225,8 @@ class Document:
         with self._writing():
             if self.keeper is not None:
                 self.keeper.label(label)
-        self.labels[name] = label
+            self.labels[name] = label
+            self._agree()
         return label
 
     @contextlib.contextmanager
@@ -255,7 +257,8 @@ class Document:
                     self.refresh()
                 self.history[:], self.undone[:] = before
                 raise
-        self._name(branch)
+            self._name(branch)
+            self._agree()
         return steps
 
     def _turn(self, step: Step, forward: bool) -> None:
@@ -279,6 +282,11 @@ class Document:
         while f"branch {number}" in self.labels:
             number += 1
         return Label(f"branch {number}", tip, True, self.author, _now())
+
+    def _agree(self) -> None:
+        """Tell the keeper that memory holds what it keeps."""
+        if self.keeper is not None:
+            self.keeper.agree(len(self.steps))
 
     def _name(self, label: Label | None) -> None:
         if label is not None:

@@ -55,5 +55,8 @@ class Keeper(Protocol):
     def label(self, label: Label) -> None:
         """Keep a name."""
 
+    def agree(self, steps: int) -> None:
+        """Take note that what was kept last is in memory as well, where there are so many steps."""
+
     def end(self) -> None:
         """Give the right to write back; what was not kept by now is not kept."""

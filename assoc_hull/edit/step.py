@@ -99,6 +99,8 @@ class Step:
         That of the hull after the step; empty where it has not been taken.
     load : callable or None
         Gives the body; the step then need not hold it.
+    tell : callable or None
+        Gives the report alone, which is a small part of the body.
     """
 
     name: str
@@ -108,6 +110,7 @@ class Step:
     script: Script = attrs.field(factory=Script)
     fingerprint: str = ""
     load: Callable[[], StepBody] | None = None
+    tell: Callable[[], EditReport] | None = None
     _body: StepBody | None = None
 
     @property
@@ -130,6 +133,8 @@ class Step:
     @property
     def report(self) -> EditReport:
         """The report."""
+        if self._body is None and self.tell is not None:
+            return self.tell()
         return self.body.report
 
     @property

@@ -11,7 +11,7 @@ Examples
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.edit.session import Edit
 >>> from assoc_hull.examples.wigley import wigley
->>> from assoc_hull.io.hull_file import open_hull_file
+>>> from assoc_hull.io.hull_file_open import open_hull_file
 >>> from assoc_hull.io.hull_file_write import save_hull_file
 >>> with TemporaryDirectory() as folder:
 ...     document = Document(wigley())
@@ -28,12 +28,12 @@ Examples
 from __future__ import annotations
 
 import contextlib
-import getpass
 import operator
 import os
 import sqlite3
 import weakref
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -41,15 +41,17 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.keeper import Label
+from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Rerun, Step, StepBody
 from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file_connect import connect, speaking_of
-from assoc_hull.io.hull_file_sound import require_sound
+from assoc_hull.io.hull_file_sound import require_whole
 from assoc_hull.io.hull_file_steps import (
     body_of,
     read_labels,
+    report_from,
     steps_of,
     write_labels,
     write_step,
@@ -57,7 +59,6 @@ from assoc_hull.io.hull_file_steps import (
 from assoc_hull.io.hull_file_tables import (
     put_rows,
     read_revisions,
-    read_state,
     write_births,
     write_settings,
 )
@@ -65,19 +66,11 @@ from assoc_hull.model.change import Change, change_of
 from assoc_hull.model.definition import fingerprint
 from assoc_hull.model.state import HullState
 
-__all__ = ["HullFile", "open_hull_file", "user"]
+__all__ = ["ODD", "HullFile"]
 
 _COPY = "take it from a copy; what is in memory is as it was"
-_ODD = (ValueError, TypeError, LookupError, ArithmeticError, AttributeError)
+ODD = (ValueError, TypeError, LookupError, ArithmeticError, AttributeError)
 """What reading rows may come upon that were never written."""
-
-
-def user() -> str:
-    """Give the name of who is at work, as the system knows it; empty if it does not."""
-    try:
-        return getpass.getuser()
-    except (OSError, KeyError, ImportError):
-        return ""
 
 
 class HullFile:
@@ -125,8 +118,7 @@ class HullFile:
             Another process writes; it has written; the file may only be read, is closed, or
             has been replaced by another.
         """
-        if not self._open:
-            raise HullFileError(str(self.path), "it is closed", "open it again")
+        self._require_open()
         if _identity(self.path) != self._place:
             remedy = "save the hull under another name, so that nothing is lost"
             raise HullFileError(str(self.path), "it was removed or replaced", remedy)
@@ -138,6 +130,10 @@ class HullFile:
         except BaseException:
             self.end()
             raise
+
+    def _require_open(self) -> None:
+        if not self._open:
+            raise HullFileError(str(self.path), "it is closed", "open it again")
 
     def _refuse_stale(self) -> None:
         if self._one("SELECT serial FROM hull")[0] != self.serial:
@@ -163,18 +159,14 @@ class HullFile:
             write_step(self.database, step, change)
             self._label(branch)
             self.database.execute("COMMIT")
-        self.serial += 1
-        self._known = step.number
         self.keep(step, change)
 
     def keep(self, step: Step, change: Change) -> None:
         """Let a step hold no more of its journal than its change, and that only for a while."""
-        body, step.load = step.body, self._loader(step.number)
+        body, number = step.body, step.number
+        step.load, step.tell = partial(self.load, number), partial(self.tell, number)
         rerun = Rerun(self.state, change)
         step.replace(StepBody(rerun, body.cause, body.changed, body.moved, body.seeds, body.report))
-
-    def _loader(self, number: int) -> Callable[[], StepBody]:
-        return lambda: self.load(number)
 
     def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
         """Write the rows that steps changed when they were run, and where the hull is now."""
@@ -189,7 +181,6 @@ class HullFile:
                 raise DamagedFileError(what, f"in {self.path}", _COPY)
             self._label(branch)
             self.database.execute("COMMIT")
-        self.serial += 1
 
     def label(self, label: Label) -> None:
         """Write a name."""
@@ -197,7 +188,15 @@ class HullFile:
             self._label(label)
             self.database.execute("UPDATE hull SET serial = serial + 1")
             self.database.execute("COMMIT")
+
+    def agree(self, steps: int) -> None:
+        """Take note that what was kept last is in memory as well, where there are so many steps.
+
+        Were this process interrupted before, the file would be ahead of it, and the next edit
+        be told so.
+        """
         self.serial += 1
+        self._known = steps
 
     def _label(self, label: Label | None) -> None:
         if label is not None:
@@ -237,13 +236,36 @@ class HullFile:
         DamagedFileError
             It is not as it was written.
         """
-        with speaking_of(self.path):
-            row = self._one("SELECT * FROM steps WHERE number = ?", number)
-        try:
+        row = self._read("SELECT * FROM steps WHERE number = ?", number)
+        with _step_of(self.path, number):
             return body_of(row, self.state)
-        except _ODD as error:
-            what = f"step {number} cannot be read ({error})"
-            raise DamagedFileError(what, f"in {self.path}", _COPY) from error
+
+    def tell(self, number: int) -> EditReport:
+        """Read the report of a step; whether the rest of it is whole is not looked at.
+
+        Raises
+        ------
+        DamagedFileError
+            It cannot be read.
+        """
+        (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
+        with _step_of(self.path, number):
+            return report_from(text)
+
+    def _read(self, sql: str, number: int) -> Any:
+        with self._reader() as database:
+            return database.execute(sql, (number,)).fetchone() or ()
+
+    @contextlib.contextmanager
+    def _reader(self) -> Iterator[sqlite3.Connection]:
+        """Give the database; where the file has been let go of, it is opened for that long."""
+        with speaking_of(self.path, self.wait):
+            database = self.database if self._open else connect(self.path, self.wait)
+            try:
+                yield database
+            finally:
+                if not self._open:
+                    database.close()
 
     def follow(self, document: Document) -> tuple[int, int]:
         """Tell a document of steps and names it does not know; give where the file stands.
@@ -256,9 +278,9 @@ class HullFile:
         database = self.database
         with speaking_of(self.path, self.wait):
             head, tip, serial = map(operator.index, self._one("SELECT head, tip, serial FROM hull"))
-            new = steps_of(database, len(document.steps), self.load)
+            new = steps_of(database, len(document.steps), self.load, self.tell)
             labels = read_labels(database)
-        _require_whole(document, new, labels, (head, tip))
+        require_whole(document, new, labels, (head, tip))
         document.steps |= {step.number: step for step in new}
         document.labels = {label.name: label for label in labels}
         self._known, self.serial = len(document.steps), serial
@@ -271,16 +293,18 @@ class HullFile:
             if number in changes:
                 self.keep(step, changes[number])
             else:
-                step.load = self._loader(number)
+                step.load, step.tell = partial(self.load, number), partial(self.tell, number)
 
     def copy_to(self, database: sqlite3.Connection) -> None:
         """Copy the whole file into another database."""
+        self._require_open()
         with speaking_of(self.path, self.wait):
             self._refuse_stale()
             self.database.backup(database)
 
     def refresh(self, document: Document) -> None:
         """Bring a document to the state in the file, by the steps that lead there."""
+        self._require_open()
         with speaking_of(self.path, self.wait):
             self.database.execute("BEGIN")
         try:
@@ -298,36 +322,16 @@ class HullFile:
 
     def damages(self) -> list[str]:
         """Look through the whole file for what is not as it was written; one line each."""
-        found: list[str] = []
-        with speaking_of(self.path):
-            told = self.database.execute("PRAGMA integrity_check(20)").fetchall()
-            found += [str(line) for (line,) in told if line != "ok"]
-            numbers = self.database.execute("SELECT number FROM steps ORDER BY number").fetchall()
+        with self._reader() as database:
+            told = database.execute("PRAGMA integrity_check(20)").fetchall()
+            numbers = database.execute("SELECT number FROM steps ORDER BY number").fetchall()
+        found = [str(line) for (line,) in told if line != "ok"]
         for (number,) in numbers:
             try:
                 self.load(number)
             except DamagedFileError as error:
                 found.append(error.what)
         return found
-
-
-def _require_whole(
-    document: Document, new: Sequence[Step], labels: Sequence[Label], stand: tuple[int, int]
-) -> None:
-    """Refuse a history whose steps are not numbered on, or that is named where it is not."""
-    known = len(document.steps)
-    for number, step in enumerate(new, start=known + 1):
-        if step.number != number or not 0 <= step.parent < number:
-            raise ValueError(f"step {step.number} stands after step {number - 1}")
-    most = known + len(new)
-    if not all(0 <= number <= most for number in (*stand, *(each.step for each in labels))):
-        raise ValueError(f"there is a name for a step beyond the {most} that there are")
-    steps = {**document.steps, **{step.number: step for step in new}}
-    way = stand[1]
-    while way > stand[0]:
-        way = steps[way].parent
-    if way != stand[0]:
-        raise ValueError(f"step {stand[0]} is not on the way to step {stand[1]}")
 
 
 def _identity(path: Path) -> tuple[int, int]:
@@ -339,55 +343,11 @@ def _identity(path: Path) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> Document:
-    """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    wait : float, s
-        How long to wait while another process writes, now and at each edit.
-    damaged : bool
-        Open it also if its tables contradict one another, to be looked at by a check.
-
-    Returns
-    -------
-    Document
-        With its history; each edit is in the file before it counts as committed.
-
-    Raises
-    ------
-    BadInputError, DamagedFileError, FileBusyError, HullFileError
-        See `assoc_hull.io.hull_file_connect.connect`.
-    """
-    database = connect(path, wait)
-    try:
-        with speaking_of(path, wait), _reading(path):
-            database.execute("BEGIN")
-            state = read_state(database)
-            file = HullFile(path, database, state, wait)
-            document = Document(state, keeper=file, author=user())
-            document.stand(*file.follow(document))
-            document.start = str(file.recorded(0))
-            file.require_print()
-            if not damaged:
-                require_sound(state)
-            database.execute("ROLLBACK")
-    except BaseException:
-        database.close()
-        raise
-    return document
-
-
 @contextlib.contextmanager
-def _reading(path: Path) -> Iterator[None]:
-    """Say that a file is damaged where it holds what no hull file holds."""
+def _step_of(path: Path, number: int) -> Iterator[None]:
+    """Say that a step cannot be read where its row is not what was written."""
     try:
-        with np.errstate(all="ignore"):
-            yield
-    except _ODD as error:
-        if isinstance(error, DamagedFileError):
-            raise
-        what = " ".join(f"it is damaged ({type(error).__name__}: {error})".split())
-        raise DamagedFileError(what, f"at {path}", "take it from a copy") from error
+        yield
+    except ODD as error:
+        what = " ".join(f"step {number} cannot be read ({error})".split())
+        raise DamagedFileError(what, f"in {path}", _COPY) from error

@@ -106,16 +106,26 @@ def _pack_places(title: str, places: PlacesOn, at: FloatArray) -> Arrays:
         return {}
     whole = {f"{title}.{name}": _short(getattr(places, name)) for name in _PLACES}
     bits = np.frombuffer(at.tobytes(), np.uint8).reshape(len(at), 32)
-    return {**whole, f"{title}.at": bits.T}
+    return {**whole, f"{title}.bits": bits.T}
 
 
 def _unpack_places(title: str, arrays: Arrays) -> PlacesOn:
     if f"{title}.curve" not in arrays:
         arrays = {f"{title}.{name}": np.zeros(0, np.int32) for name in _PLACES}
-        arrays[f"{title}.at"] = np.zeros((32, 0), np.uint8)
+        arrays[f"{title}.bits"] = np.zeros((32, 0), np.uint8)
     curve, count, line, sign, row = (_long(arrays[f"{title}.{name}"]) for name in _PLACES)
-    at = np.frombuffer(arrays[f"{title}.at"].T.tobytes(), "<f8").astype(np.float64).reshape(-1, 4)
-    return PlacesOn(curve, count, line, sign, row, at)
+    if f"{title}.at" in arrays:  # as early files of versions 1 and 2 hold it
+        at = arrays[f"{title}.at"]
+    else:
+        at = np.frombuffer(arrays[f"{title}.bits"].T.tobytes(), "<f8").reshape(-1, 4)
+    return PlacesOn(curve, count, line, sign, row, at.astype(np.float64))
+
+
+def _both_places(arrays: Arrays) -> tuple[PlacesOn, PlacesOn]:
+    """Give the places on curves that list other crossings, before and after."""
+    before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
+    plain = "after.at" in arrays or not len(before.curve)
+    return before, after if plain else attrs.evolve(after, at=_against(before, after))
 
 
 def unpack_change(data: bytes) -> Change:
@@ -127,7 +137,7 @@ def unpack_change(data: bytes) -> Change:
         They hold no change.
     """
     arrays, facts = unpack(data)
-    before, after = _unpack_places("before", arrays), _unpack_places("after", arrays)
+    before, after = _both_places(arrays)
     objects = {
         name: (
             np.array(rows, np.int64),
@@ -143,7 +153,7 @@ def unpack_change(data: bytes) -> Change:
         {(a, b): (int(old), int(new)) for a, b, old, new in facts["births"]},
         (_long(arrays["moved"]), np.ascontiguousarray(arrays["moved.bits"].T)),
         before,
-        attrs.evolve(after, at=_against(before, after)),
+        after,
         _long(arrays["lofted"]),
         (_kept(arrays, facts, 0), _kept(arrays, facts, 1)),
     )

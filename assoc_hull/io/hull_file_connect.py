@@ -64,6 +64,8 @@ def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
         what, remedy = "it cannot be opened", "check the folder, name and permissions"
     elif name.startswith("SQLITE_IOERR"):
         what, remedy = f"input or output failed ({error})", "the file is as it was; check the disk"
+    elif isinstance(error, sqlite3.ProgrammingError | sqlite3.InterfaceError):
+        what, remedy = f"it cannot be used ({error})", "open it again"
     else:
         what = " ".join(f"it is damaged ({error})".split())
         return DamagedFileError(what, f"at {path}", _COPY)
@@ -138,7 +140,7 @@ def _set_up(database: sqlite3.Connection, path: Path) -> None:
         if not writable(path):
             what = f"it has version {version} of the hull file, and may only be read"
             raise BadInputError(what, f"at {path}", "copy it to where it can be brought up to date")
-        migrate(database, version)
+        migrate(database)
 
 
 def _look(path: Path) -> None:

@@ -12,16 +12,19 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.keeper import Label
+from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort, State
 from assoc_hull.model.state import HullState
 
-__all__ = ["require_sound"]
+__all__ = ["require_sound", "require_whole"]
 
 _REFERENCES = (
     ("rows", "curve", "curves"), ("rows", "reader", "curves"), ("rows", "driver", "curves"),
@@ -142,3 +145,28 @@ def _settings(state: HullState) -> Iterator[str]:
                            strict=True):  # fmt: skip
         if not 0 < birth <= state.births.get((key[pair[0]], key[pair[1]]), 0):
             yield f"{key[pair[0]]!r} and {key[pair[1]]!r} bore fewer crossings than they have"
+
+
+def require_whole(
+    document: Document, new: Sequence[Step], labels: Sequence[Label], stand: tuple[int, int]
+) -> None:
+    """Refuse a history whose steps are not numbered on, or that is named where it is not.
+
+    Raises
+    ------
+    ValueError
+        With the first thing that is wrong.
+    """
+    known = len(document.steps)
+    for number, step in enumerate(new, start=known + 1):
+        if step.number != number or not 0 <= step.parent < number:
+            raise ValueError(f"step {step.number} stands after step {number - 1}")
+    most = known + len(new)
+    if not all(0 <= number <= most for number in (*stand, *(each.step for each in labels))):
+        raise ValueError(f"there is a name for a step beyond the {most} that there are")
+    steps = {**document.steps, **{step.number: step for step in new}}
+    way = stand[1]
+    while way > stand[0]:
+        way = steps[way].parent
+    if way != stand[0]:
+        raise ValueError(f"step {stand[0]} is not on the way to step {stand[1]}")

@@ -14,6 +14,7 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import attrs
@@ -120,7 +121,10 @@ def report_from(text: str) -> EditReport:
 
 
 def steps_of(
-    database: sqlite3.Connection, after: int, load: Callable[[int], StepBody]
+    database: sqlite3.Connection,
+    after: int,
+    load: Callable[[int], StepBody],
+    tell: Callable[[int], EditReport],
 ) -> list[Step]:
     """Give the steps beyond a number, without their bodies.
 
@@ -130,13 +134,9 @@ def steps_of(
         The file.
     after : int
         Number of the last step that is known.
-    load : callable
-        Takes the number of a step and gives its body.
+    load, tell : callable
+        Take the number of a step, and give its body and its report.
     """
-
-    def loader(number: int) -> Callable[[], StepBody]:
-        return lambda: load(number)
-
     rows = database.execute(
         "SELECT number, parent, name, structural, script, fingerprint FROM steps WHERE number > ? "
         "ORDER BY number", (after,),
@@ -144,7 +144,7 @@ def steps_of(
     return [
         Step(
             name, bool(structural), number, parent, script_from(script), fingerprint,
-            loader(number),
+            partial(load, number), partial(tell, number),
         )
         for number, parent, name, structural, script, fingerprint in rows
     ]  # fmt: skip

@@ -30,8 +30,9 @@ import attrs
 from assoc_hull.arguments import file_path
 from assoc_hull.edit.document import Document
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.hull_file import HullFile, open_hull_file, user
+from assoc_hull.io.hull_file import HullFile
 from assoc_hull.io.hull_file_connect import is_hull_file
+from assoc_hull.io.hull_file_open import open_hull_file, user
 from assoc_hull.io.hull_file_write import save_hull_file
 from assoc_hull.io.hull_json import read_hull_json, write_hull_json
 from assoc_hull.model.verify import Difference
@@ -94,7 +95,7 @@ def save(
         write_hull_json(document.state, path)
         return Saved(Path(path), written=True)
     if there is not None and there == Path(os.path.realpath(path)):
-        return Saved(there, written=False)
+        return Saved(there, written=False)  # also where it may be replaced: by itself
     if not name.endswith(FILE_ENDING):
         remedy = f"end the name in {FILE_ENDING} or {TEXT_ENDING}; other forms are exported"
         raise BadInputError("the form is unknown", f"at {name}", remedy)
@@ -109,7 +110,7 @@ def open_document(
 ) -> Document:
     """Open a hull file, or read the canonical text; see `assoc_hull.hull.open`."""
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
-        file = Path(path)
+        file = Path(os.path.realpath(path))
         if is_hull_file(file) or not (_is_text(file) or file.name.endswith(".json")):
             return open_hull_file(file, wait, damaged=damaged)
     return Document(read_hull_json(path), author=user())

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from assoc_hull.errors import BadInputError
 
-__all__ = ["mode_for", "write_whole"]
+__all__ = ["mode_for", "take_place", "write_whole"]
 
 
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
@@ -58,8 +58,7 @@ def _replace(target: Path, data: bytes) -> None:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(name, mode_for(target))
-        os.replace(name, target)
+        take_place(name, target)
     except BaseException:
         with contextlib.suppress(OSError):
             os.unlink(name)
@@ -73,3 +72,15 @@ def mode_for(target: Path) -> int:
     mask = os.umask(0)
     os.umask(mask)
     return 0o666 & ~mask
+
+
+def take_place(name: str, target: Path) -> None:
+    """Let a finished file take the place and permissions of another, for good."""
+    os.chmod(name, mode_for(target))
+    os.replace(name, target)
+    with contextlib.suppress(OSError):  # some systems know no such thing as a folder on the disk
+        folder = os.open(target.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)

@@ -23,6 +23,7 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import attrs
+import numpy as np
 
 from assoc_hull.arguments import shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
@@ -78,16 +79,14 @@ class AddressBook:
                 found[name].append(line)
         return dict(found)
 
-    @cached_property
-    def crossings(self) -> dict[tuple[int, int], dict[int, int]]:
-        """Live crossings: for each pair of lines, row by number of birth."""
-        found: defaultdict[tuple[int, int], dict[int, int]] = defaultdict(dict)
+    def crossings(self, one: int, other: int) -> dict[int, int]:
+        """Give the live crossings of two lines, the first of lower rank: row by birth."""
         table, line = self.state.rows, self.state.curves.line.data
-        for row in self.state.live("rows").tolist():
-            a, b = table.curve.data[row].tolist()
-            if b >= 0:
-                found[int(line[a]), int(line[b])][int(table.birth.data[row])] = row
-        return dict(found)
+        a, b = (np.flatnonzero(line == each) for each in (one, other))
+        curve = table.curve.data
+        found = np.isin(curve[:, 0], a) & np.isin(curve[:, 1], b) & table.alive.data
+        rows = np.flatnonzero(found)
+        return dict(zip(table.birth.data[rows].tolist(), rows.tolist(), strict=True))
 
     @cached_property
     def keys(self) -> dict[str, Place]:
@@ -197,7 +196,7 @@ class AddressBook:
         if one is None or other is None:
             return None
         for side, pair in enumerate([(one.line, other.line), (other.line, one.line)]):
-            rows = self.crossings.get(pair, {})
+            rows = self.crossings(*pair)
             if birth is None and len(rows) == 1:
                 return self._row_place(next(iter(rows.values())), side)
             if (birth or 1) in rows:

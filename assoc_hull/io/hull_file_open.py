@@ -1,0 +1,99 @@
+"""Opening a hull file: its tables and its history, and whether they are what was written.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.io.hull_file_open import open_hull_file
+>>> from assoc_hull.io.hull_file_write import save_hull_file
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     again = open_hull_file(Path(folder) / "ship.hull")
+...     print(again.state.particulars.name)
+...     again.keeper.close()
+...     document.keeper.close()
+Wigley
+"""
+
+from __future__ import annotations
+
+import contextlib
+import getpass
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.errors import DamagedFileError
+from assoc_hull.io.hull_file import ODD, HullFile
+from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_sound import require_sound
+from assoc_hull.io.hull_file_tables import read_state
+
+__all__ = ["open_hull_file", "user"]
+
+
+def user() -> str:
+    """Give the name of who is at work, as the system knows it; empty if it does not."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        return ""
+
+
+def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> Document:
+    """Open a hull file; nothing is computed but splines, and the fingerprint must agree.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    wait : float, s
+        How long to wait while another process writes, now and at each edit.
+    damaged : bool
+        Open it also if its tables contradict one another, to be looked at by a check.
+
+    Returns
+    -------
+    Document
+        With its history; each edit is in the file before it counts as committed.
+
+    Raises
+    ------
+    BadInputError, DamagedFileError, FileBusyError, HullFileError
+        See `assoc_hull.io.hull_file_connect.connect`.
+    """
+    database = connect(path, wait)
+    try:
+        with speaking_of(path, wait), _reading(path):
+            database.execute("BEGIN")
+            state = read_state(database)
+            file = HullFile(path, database, state, wait)
+            document = Document(state, keeper=file, author=user())
+            document.stand(*file.follow(document))
+            document.start = str(file.recorded(0))
+            file.require_print()
+            if not damaged:
+                require_sound(state)
+            database.execute("ROLLBACK")
+    except BaseException:
+        database.close()
+        raise
+    return document
+
+
+@contextlib.contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Say that a file is damaged where it holds what no hull file holds."""
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except ODD as error:
+        if isinstance(error, DamagedFileError):
+            raise
+        what = " ".join(f"it is damaged ({type(error).__name__}: {error})".split())
+        raise DamagedFileError(what, f"at {path}", "take it from a copy") from error
