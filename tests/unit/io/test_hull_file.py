@@ -246,3 +246,89 @@ def test_the_edits_of_one_hull_are_made_again_on_another(hull: ah.Hull, file: Pa
     assert "function" in found[2].why
     hull.undo()
     assert other.fingerprint == hull.fingerprint
+
+
+def test_file_text_file_keeps_the_fingerprint(hull: ah.Hull, file: Path, tmp_path: Path) -> None:
+    """After edits of structure, and through the text both ways: the text keeps its bytes, too."""
+    with hull.edit("structure") as edit:
+        edit.add_line("waterlines", 2.8, "extra")
+        edit.remove_line("ST 3")
+    with hull.edit("points") as edit:
+        edit.insert("WL 3.75", (20.0, 2.0, 3.75))
+        edit.set_end("WL 3.75", "start", tangent=(1.0, 0.2, 0.0))
+        edit.rename(POINT, "bilge")
+    one, other = tmp_path / "one.hull.json", tmp_path / "other.hull.json"
+    hull.save(one)
+    again = ah.open(one)
+    again.save(tmp_path / "again.hull")
+    ah.open(tmp_path / "again.hull").save(other)
+    assert ah.open(tmp_path / "again.hull").fingerprint == hull.fingerprint
+    assert one.read_bytes() == other.read_bytes()
+
+
+def test_an_edit_after_opening_has_the_bits_of_one_without(hull: ah.Hull, file: Path) -> None:
+    """Where a hull was closed and opened in between makes no difference to what comes."""
+    shift(hull, "one")
+    again = ah.examples.wigley()
+    shift(again, "one")
+    hull.close()
+    hull = ah.open(file)
+    for each in (hull, again):
+        shift(each, "two", OTHER, 0.02)
+        with each.edit("pull", gaps="report") as edit:
+            edit.pull(POINT, 0.03, (20.0, 5.0))
+        with each.edit("line") as edit:
+            edit.add_line("sections", 42.0)
+    assert hull.fingerprint == again.fingerprint
+
+
+def test_a_closed_hull_is_read_and_not_edited(hull: ah.Hull, file: Path) -> None:
+    """Reports, causes and a rebuild are there; edits, undo and refresh say that it is closed."""
+    shift(hull, "one")
+    hull.close()
+    again = ah.open(file)
+    again.close()
+    assert [each.name for each in again.history] == ["one"]
+    assert again.why("ST 7").edit == "one"
+    assert again.verify() == ()
+    for act in (again.undo, again.refresh, lambda: shift(again, "two")):
+        with pytest.raises(HullFileError, match="it is closed"):
+            act()
+    assert ah.open(file).fingerprint == again.fingerprint
+
+
+def test_a_path_is_the_same_wherever_one_stands(
+    hull: ah.Hull, file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file opened by a relative name is edited from another folder, and is its own place."""
+    monkeypatch.chdir(tmp_path)
+    again = ah.open("ship.hull")
+    assert again.path == hull.path == file
+    assert not again.save("ship.hull").written
+    assert not again.save("ship.hull", replace=True).written
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    shift(again, "from elsewhere")
+    assert [each.name for each in ah.open(file).history] == ["from elsewhere"]
+
+
+def test_an_interrupt_leaves_no_two_truths(
+    hull: ah.Hull, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After the commit, before memory knows: the file is ahead, the next edit is told so."""
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = hull.fingerprint
+    with monkeypatch.context() as patch:
+        patch.setattr(type(hull.document.keeper), "keep", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            shift(hull, "cut short")
+    assert (hull.fingerprint, len(hull.history)) == (before, 0)
+    with pytest.raises(StaleHullError, match="cut short"):
+        shift(hull, "next")
+    hull.refresh()
+    assert [each.name for each in hull.history] == ["cut short"]
+    assert hull.fingerprint == ah.open(file).fingerprint != before
+    shift(hull, "next")
