@@ -54,3 +54,4 @@ class Dragging:
     def forget(self) -> None:
         """Let go of the history."""
         self.document.history.clear()
+        self.document.steps.clear()
