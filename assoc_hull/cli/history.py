@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json, add_wait
 from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.words import edit_words
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
@@ -29,9 +31,12 @@ def add(commands: Commands) -> None:
         turn.set_defaults(act=name)
     history = add_command(
         commands, "history", "list the edits, checkpoints and branches", _history,
-        "assoc-hull history ship.hull\nassoc-hull history ship.hull --json",
+        "assoc-hull history ship.hull\nassoc-hull history ship.hull --step 3 --json",
     )  # fmt: skip
     _add_common(history, writes=False)
+    history.add_argument(
+        "--step", metavar="N", type=int, help="tell one edit in full: what was asked for, and done"
+    )
     check = add_command(
         commands, "checkpoint", "name the present state", _checkpoint,
         'assoc-hull checkpoint ship.hull "before the bulb"',
@@ -97,6 +102,8 @@ def _turn(arguments: argparse.Namespace) -> int:
 
 def _history(arguments: argparse.Namespace) -> int:
     hull = _open(arguments)
+    if arguments.step is not None:
+        return _one_step(arguments, hull)
     done, undone = hull.history, hull.undone[::-1]
     names: dict[int, list[str]] = {label.step: [] for label in hull.labels.values()}
     for label in hull.labels.values():
@@ -110,6 +117,27 @@ def _history(arguments: argparse.Namespace) -> int:
     lines += _lines(undone, names, "-")
     lines += [f"branch or checkpoint elsewhere: {name}" for each in names.values() for name in each]
     emit(arguments, facts, "\n".join(lines))
+    return 0
+
+
+def _one_step(arguments: argparse.Namespace, hull: Hull) -> int:
+    steps = hull.document.steps
+    if arguments.step not in steps:
+        what = f"step {arguments.step} was asked, and there are {len(steps)}"
+        raise BadInputError(what, f"in {arguments.hull}", "see: assoc-hull history HULL")
+    step = steps[arguments.step]
+    report, script = step.report, step.script
+    facts = _facts(report) | {
+        "parent": step.parent, "policy": script.policy, "gaps": script.gaps,
+        "edits": script.edits, "report": report, "fingerprint": step.fingerprint,
+    }  # fmt: skip
+    asked = [f"  {json.dumps(each, ensure_ascii=False)}" for each in script.edits]
+    told = [
+        f"{report.number}  {report.time}  {report.author}  {report.name}",
+        *(asked or ["  (what was asked for is not known)"]),
+        edit_words(hull, report),
+    ]
+    emit(arguments, facts, "\n".join(told))
     return 0
 
 

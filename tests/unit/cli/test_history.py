@@ -151,6 +151,24 @@ def test_edits_are_made_again_on_a_sister(twice: Path, tmp_path: Path, facts: Js
     assert len(found["edits"]) == 2
 
 
+def test_one_step_is_told_in_full(
+    twice: Path, edits: Edits, facts: Json, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What was asked for can be asked again as it stands there; the report is that of the edit."""
+    found = facts("history", twice, "--step", "2")
+    assert found["edits"] == [{"op": "move", "point": POINT, "y": 3.21}]
+    assert (found["name"], found["parent"]) == ("fuller still", 1)
+    assert found["report"]["relofted"] == list(ah.open(twice).history[1].relofted)
+    facts("undo", twice)
+    assert facts("edit", twice, edits(found["edits"]))["fingerprint"] == found["fingerprint"]
+    assert main(["history", str(twice), "--step", "2"]) == 0
+    told = capsys.readouterr().out
+    assert '{"op": "move", "point": "WL 2.5 x ST 7", "y": 3.21}' in told
+    assert "curves re-lofted" in told
+    assert main(["history", str(twice), "--step", "9"]) == 2
+    assert "step 9 was asked, and there are 3" in capsys.readouterr().err
+
+
 def test_why_is_answered_from_the_file(twice: Path, facts: Json) -> None:
     """In another process than the edit: which edit, and through what."""
     found = facts("why", twice, "ST 7")
