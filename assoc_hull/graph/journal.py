@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
 
-__all__ = ["Journal", "Net", "Picked"]
+__all__ = ["Journal", "Net", "Picked", "same_value"]
 
 
 @attrs.frozen(eq=False)
@@ -140,7 +140,7 @@ class _ListEntry:
             self.column.data[index] = value
 
     def idle(self) -> bool:
-        return all(_equal(old, new) for old, new in zip(self.old, self.new, strict=True))
+        return all(same_value(old, new) for old, new in zip(self.old, self.new, strict=True))
 
 
 @attrs.frozen(eq=False)
@@ -159,10 +159,10 @@ class _GrowEntry:
         return self.old == self.new
 
 
-def _equal(old: object, new: object) -> bool:
+def same_value(old: object, new: object) -> bool:
     """Tell whether two values of a list column are the same, arrays by what they hold."""
     if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
-        return np.array_equal(old, new)
+        return np.arraysame_value(old, new)
     return old is new or bool(old == new)
 
 

@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch
-from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.journal import Journal, same_value
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.family import State
 from assoc_hull.model.places import PlacesOn, Then, places_of, put_places_of
@@ -145,7 +145,9 @@ def change_of(state: HullState, journal: Journal) -> Change:
                 bits[name] = net.rows[odd], found[odd]
         else:
             chosen = [
-                i for i, (a, b) in enumerate(zip(net.old, net.new, strict=True)) if not _same(a, b)
+                i
+                for i, (a, b) in enumerate(zip(net.old, net.new, strict=True))
+                if not same_value(a, b)
             ]
             if chosen:
                 objects[name] = (
@@ -169,12 +171,6 @@ def _differ(old: NDArray[Any], new: NDArray[Any]) -> NDArray[np.bool_]:
     """Tell for each row whether a bit differs."""
     found: NDArray[np.bool_] = (_bytes(old) != _bytes(new)).any(axis=1)
     return found
-
-
-def _same(old: object, new: object) -> bool:
-    if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
-        return np.array_equal(old, new)
-    return old is new or bool(old == new)
 
 
 def _births(journal: Journal, columns: dict[str, Any]) -> Births:
