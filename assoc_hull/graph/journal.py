@@ -162,7 +162,7 @@ class _GrowEntry:
 def same_value(old: object, new: object) -> bool:
     """Tell whether two values of a list column are the same, arrays by what they hold."""
     if isinstance(old, np.ndarray) and isinstance(new, np.ndarray):
-        return np.arraysame_value(old, new)
+        return np.array_equal(old, new)
     return old is new or bool(old == new)
 
 
