@@ -18,6 +18,7 @@ from assoc_hull.edit.explain import Why
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.hull import Hull
 from assoc_hull.sources import examples
+from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.plot.drawing import Drawing
@@ -78,7 +79,9 @@ class Demo:
         start = time.perf_counter()
         with self._phase("adopt"):
             hull = self._adopt()
-        first = hull.fingerprint
+        first, ship = hull.fingerprint, self._file("ship.hull")
+        with self._phase("save"):
+            hull.save(ship, replace=True)
         with self._phase("draw before"):
             before = self._lines_plan(hull, "before")
         with self._phase("edit"):
@@ -87,10 +90,11 @@ class Demo:
             sound = self._check(hull)
         with self._phase("draw after"):
             self._compare(before, self._lines_plan(hull, "after"))
-        with self._phase("save"):
-            self._save(hull)
+        with self._phase("open again"):
+            hull = self._again(hull, ship)
         with self._phase("undo"):
             same = self._undo(hull, first)
+        hull.close()
         self.facts["seconds"]["total"] = time.perf_counter() - start
         self._times()
         return sound and same
@@ -169,8 +173,18 @@ class Demo:
         with progress("drawing the body plan"):
             before_after(before, after, self._file("body-plan-before-after.png"))
 
-    def _save(self, hull: Hull) -> None:
+    def _again(self, hull: Hull, ship: Path) -> Hull:
+        """Let go of the hull, and take it from its file as another process would."""
+        last = hull.fingerprint
         hull.save(self._file("after.hull.json"))
+        hull.close()
+        hull = open_hull(ship)
+        names = [report.name for report in hull.history]
+        self.say(f"\n7. {ship.name}, closed and opened again")
+        self.say(f"  every edit   {len(names)} steps, each on the disk before it counted as made")
+        self.say("  fingerprint  " + ("the same" if hull.fingerprint == last else "NOT THE SAME"))
+        self.facts["history"] = names
+        return hull
 
     def _file(self, name: str) -> Path:
         path = self.folder / name
@@ -183,7 +197,7 @@ class Demo:
         back = hull.fingerprint
         hull.save(self._file("before.hull.json"))
         self.facts["fingerprint"] = {"start": first, "edited": last, "undone": back}
-        self.say("\n7. All edits undone")
+        self.say("\n8. All edits undone")
         for title, value in self.facts["fingerprint"].items():
             self.say(f"  {title:12} {value}")
         self.say("  the hull is as it was, to the last bit" if back == first else "  NOT THE SAME")

@@ -16,6 +16,7 @@ NAMES = [
     "lines-after.png",
     "lines-before.pdf",
     "lines-before.png",
+    "ship.hull",
 ]
 
 
@@ -39,6 +40,12 @@ def test_the_demo_ends_where_it_began(tmp_path: Path, capsys: pytest.CaptureFixt
     assert all(path.stat().st_size > 10_000 for path in folder.iterdir())
     assert ah.open(folder / "before.hull.json").fingerprint == prints["start"]
     assert ah.open(folder / "after.hull.json").fingerprint == prints["edited"]
+    ship = ah.open(folder / "ship.hull")
+    assert ship.fingerprint == prints["start"]
+    assert [report.name for report in ship.undone[::-1]] == facts["history"]
+    ship.redo(len(ship.undone))
+    assert ship.fingerprint == prints["edited"]
+    ship.close()
 
 
 def _chain_ends_at_the_edit(cause: dict[str, object]) -> None:
@@ -62,8 +69,9 @@ def test_the_demo_tells_what_it_does(tmp_path: Path, monkeypatch: pytest.MonkeyP
         "2. drag WL 0.5 x ST 16 by 5 mm",
         "why WL 0.42 followed",
         "0 findings",
+        "ship.hull, closed and opened again",
         "the hull is as it was, to the last bit",
         "pip install 'assoc-hull[plot]'",
     ):
         assert part in text
-    assert sorted(path.name for path in tmp_path.iterdir()) == NAMES[:2]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [*NAMES[:2], NAMES[-1]]
