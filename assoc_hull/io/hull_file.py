@@ -64,6 +64,7 @@ from assoc_hull.io.hull_file_tables import (
 )
 from assoc_hull.model.change import Change, change_of
 from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.prints import Printer, is_shape
 from assoc_hull.model.state import HullState
 
 __all__ = ["ODD", "HullFile"]
@@ -95,6 +96,8 @@ class HullFile:
         self.serial = 0
         self._known = 0
         self._place = _identity(path)
+        self._known_printer: Printer | None = None
+        self._agreed = False
         self._open = True
         weakref.finalize(self, database.close)  # the last one to close tidies the log away
 
@@ -124,6 +127,7 @@ class HullFile:
             raise HullFileError(str(self.path), "it was removed or replaced", remedy)
         with speaking_of(self.path, self.wait):
             self.database.execute("BEGIN IMMEDIATE")
+        self._agreed = False
         try:
             with speaking_of(self.path):
                 self._refuse_stale()
@@ -144,6 +148,8 @@ class HullFile:
 
     def end(self) -> None:
         """Give the right to write back."""
+        if not self._agreed:
+            self._known_printer = None  # the tables are, or will be, what they were before
         if self._open and self.database.in_transaction:
             self.database.execute("ROLLBACK")
 
@@ -155,6 +161,7 @@ class HullFile:
             raise TypeError("a step that was just made holds its journal")
         with speaking_of(self.path):
             self._put(change, step.rows, step.curves)
+            self._look_anew(change)
             step.fingerprint = self._sign(step.number, step.number)
             write_step(self.database, step, change)
             self._label(branch)
@@ -175,6 +182,7 @@ class HullFile:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
                 self._put(journal.change, step.rows, step.curves)
+                self._look_anew(journal.change)
             found = self._sign(head, tip)
             if found != self.recorded(head):
                 what = f"the hull after step {head} is not as it was when that was committed"
@@ -197,6 +205,7 @@ class HullFile:
         """
         self.serial += 1
         self._known = steps
+        self._agreed = True
 
     def _label(self, label: Label | None) -> None:
         if label is not None:
@@ -215,12 +224,24 @@ class HullFile:
 
     def _sign(self, head: int, tip: int) -> str:
         """Write the present fingerprint, and where in the history the hull is."""
-        found = fingerprint(self.state)
+        found = self._printer.take()
         self.database.execute(
             "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, serial = serial + 1",
             (found, head, tip),
         )
         return found
+
+    def _look_anew(self, change: Change) -> None:
+        """Forget what is known of the structure of the hull, if a change has changed it."""
+        if not is_shape(change):
+            self._known_printer = None
+
+    @property
+    def _printer(self) -> Printer:
+        """Takes the fingerprint; made anew when the structure of the hull has changed."""
+        if self._known_printer is None:
+            self._known_printer = Printer(self.state)
+        return self._known_printer
 
     def recorded(self, head: int) -> object:
         """Give the fingerprint that was written for the state after a step."""
@@ -305,6 +326,7 @@ class HullFile:
     def refresh(self, document: Document) -> None:
         """Bring a document to the state in the file, by the steps that lead there."""
         self._require_open()
+        self._known_printer = None
         with speaking_of(self.path, self.wait):
             self.database.execute("BEGIN")
         try:

@@ -30,6 +30,7 @@ __all__ = [
     "curve_columns",
     "line_columns",
     "meet_columns",
+    "meet_turn",
     "places",
     "point_columns",
     "retired",
@@ -129,10 +130,8 @@ def meet_columns(state: HullState, order: Places) -> dict[str, Column]:
     ``parameter`` (m) and ``xyz`` (m) are derived.
     """
     parts = [state.curves.meets.data[curve] for curve in order.curves.tolist()]
-    owner = np.repeat(np.arange(len(parts)), [len(part.line) for part in parts])
     whole, reals = np.zeros(0, np.int64), np.zeros(0)
-    line = order.line[np.concatenate([whole, *(part.line for part in parts)])]
-    turn = np.lexsort((line, owner))
+    owner, line, turn = meet_turn(state, order)
     return {
         "owner": owner,
         "line": line[turn],
@@ -141,6 +140,14 @@ def meet_columns(state: HullState, order: Places) -> dict[str, Column]:
         "parameter": np.concatenate([reals, *(part.parameter for part in parts)])[turn],
         "xyz": np.concatenate([reals.reshape(0, 3), *(part.xyz for part in parts)])[turn],
     }
+
+
+def meet_turn(state: HullState, order: Places) -> tuple[IntArray, IntArray, IntArray]:
+    """Give owner and line of the meetings as the curves list them, and the canonical order."""
+    parts = [state.curves.meets.data[curve].line for curve in order.curves.tolist()]
+    owner: IntArray = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    line: IntArray = order.line[np.concatenate([np.zeros(0, np.int64), *parts])]
+    return owner, line, np.lexsort((line, owner))
 
 
 def point_columns(state: HullState, order: Places) -> dict[str, Column]:

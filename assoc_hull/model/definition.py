@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from enum import IntEnum
 from typing import Any
 
@@ -47,7 +47,14 @@ from assoc_hull.model.canonical import (
 from assoc_hull.model.family import BoundaryKind, Role, Sort, State
 from assoc_hull.model.state import HullState
 
-__all__ = ["definition", "fingerprint", "published", "words"]
+__all__ = [
+    "column_bytes",
+    "definition",
+    "fingerprint",
+    "fingerprint_parts",
+    "published",
+    "words",
+]
 
 Record = dict[str, Any]
 
@@ -286,8 +293,26 @@ def fingerprint(state: HullState) -> str:
     themselves are hashed: -0.0 and 0.0 are two numbers here, as they are to the update.
     Revisions, history, causes, times, row numbers and the order of creation play no part.
     """
-    order = places(state)
     digest = hashlib.sha256()
+    for _, part in fingerprint_parts(state, places(state)):
+        digest.update(part)
+    return digest.hexdigest()
+
+
+def fingerprint_parts(
+    state: HullState, order: Places, leave: Collection[str] = ()
+) -> Iterator[tuple[str, bytes]]:
+    """Give what a fingerprint is taken of, part by part, each column with its name.
+
+    Columns that are to be left stand without their bytes.
+    """
+    for each in (state.particulars, state.tolerances):
+        fields = _plain(each)
+        texts = [value for value in fields.values() if isinstance(value, str)]
+        numbers = [value for value in fields.values() if not isinstance(value, str)]
+        head = column_bytes(",".join(fields), texts)
+        yield "", head + column_bytes("", np.array(numbers, np.float64))
+    yield "", json.dumps(_settings(state, order)).encode()
     tables = {
         "line": line_columns(state, order),
         "curve": curve_columns(state, order),
@@ -296,16 +321,10 @@ def fingerprint(state: HullState) -> str:
         "value": value_columns(state, order),
         "spline": spline_columns(state, order),
     }
-    for part in (state.particulars, state.tolerances):
-        fields = _plain(part)
-        texts = [value for value in fields.values() if isinstance(value, str)]
-        numbers = [value for value in fields.values() if not isinstance(value, str)]
-        digest.update(_bytes(",".join(fields), texts) + _bytes("", np.array(numbers, np.float64)))
-    digest.update(json.dumps(_settings(state, order)).encode())
     for title, columns in tables.items():
-        for name, column in columns.items():
-            digest.update(_bytes(f"{title}.{name}", column))
-    return digest.hexdigest()
+        for column, values in columns.items():
+            name = f"{title}.{column}"
+            yield name, b"" if name in leave else column_bytes(name, values)
 
 
 def _settings(state: HullState, order: Places) -> list[object]:
@@ -316,7 +335,7 @@ def _settings(state: HullState, order: Places) -> list[object]:
     return [names, _links(state), _births(state), retired(state)]
 
 
-def _bytes(name: str, column: Column) -> bytes:
+def column_bytes(name: str, column: Column) -> bytes:
     """Serialise a column so that no two differ in meaning and agree in bytes."""
     if isinstance(column, list):
         return f"{name}:text:".encode() + json.dumps(column).encode()

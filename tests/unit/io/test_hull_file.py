@@ -147,6 +147,30 @@ def test_the_second_writer_is_told_that_the_file_has_moved_on(hull: ah.Hull, fil
     assert (hull.fingerprint, len(hull.undone)) == (before, 2)
 
 
+def line_and_fold(hull: ah.Hull, position: float) -> None:
+    """An edit that is refused after it has changed the structure."""
+    with hull.edit("refused") as edit:
+        edit.add_line("waterlines", position)
+        edit.move(POINT, y=-50.0)
+
+
+def test_two_writers_change_the_structure_in_turns(hull: ah.Hull, file: Path) -> None:
+    """Refused edits and undone ones between; what the file says is what a reader finds."""
+    second = ah.open(file)
+    for number, writer in enumerate((hull, second, hull, second)):
+        writer.refresh()
+        shift(writer, "shape", by=0.002)
+        with writer.edit("line") as edit:
+            edit.add_line("waterlines", 2.6 + 0.1 * number)
+        with pytest.raises(ah.AssocHullError):
+            line_and_fold(writer, 2.65 + 0.1 * number)
+        shift(writer, "shape", OTHER, 0.002)
+        writer.undo(2)
+        writer.redo()
+        shift(writer, "shape", OTHER, 0.001)
+        assert ah.open(file).fingerprint == writer.fingerprint
+
+
 def test_a_writer_waits_for_another_one_as_long_as_asked(hull: ah.Hull, file: Path) -> None:
     """At once without a wait; a reader is never in the way."""
     second = ah.open(file)
