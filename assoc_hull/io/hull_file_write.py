@@ -31,7 +31,7 @@ from assoc_hull.errors import BadInputError, HullFileError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file import HullFile
 from assoc_hull.io.hull_file_connect import connect, speaking_of
-from assoc_hull.io.hull_file_place import log_of
+from assoc_hull.io.hull_file_place import is_open_here, log_of
 from assoc_hull.io.hull_file_schema import create
 from assoc_hull.io.hull_file_steps import write_labels, write_step
 from assoc_hull.io.hull_file_tables import write_state
@@ -87,6 +87,9 @@ def _require_free(target: Path, *, replace: bool) -> None:
     if os.path.lexists(target) and not replace:
         what, remedy = "there is a file of this name", "choose another name, or ask to replace it"
         raise BadInputError(what, f"at {target}", remedy)
+    if is_open_here(target):
+        remedy = "close it first, or give another name"
+        raise BadInputError("this hull file is open in this process", f"at {target}", remedy)
     log = log_of(target)
     if os.path.lexists(log):
         what = "the log of another hull file lies beside it, with edits that may be nowhere else"

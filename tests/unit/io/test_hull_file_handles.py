@@ -157,6 +157,15 @@ def test_a_process_knows_what_it_has_open(file: Path) -> None:
     assert not is_open_here(file)
 
 
+def test_a_file_that_is_open_here_is_not_written_over(file: Path) -> None:
+    """Its edits would go on in a file that has no name."""
+    hull = ah.open(file)
+    with pytest.raises(BadInputError, match="open in this process"):
+        ah.examples.wigley(stations=7, waterlines=5).save(file, replace=True)
+    shift(hull, "two")
+    assert names(ah.open(file)) == ["one", "two"]
+
+
 def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
     """An edit that nobody would ever see is refused, and all others are in the file."""
     hull = ah.open(file)
