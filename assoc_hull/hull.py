@@ -354,7 +354,7 @@ class Hull:
         detach(self.document)
 
     def close(self) -> None:
-        """Let go of the hull file; it can be read on, and not be edited."""
+        """Let go of the hull file; the hull can be read on, and not be edited, nor its history."""
         from assoc_hull.io.saving import close
 
         close(self.document)

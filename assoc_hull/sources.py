@@ -110,6 +110,7 @@ def read(
 ) -> Hull:
     """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
 
+    The hull lives in memory, also one that was saved, with its history; `open` edits the file.
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
     (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
     options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF, BRITFAIR,
@@ -122,6 +123,7 @@ def read(
     """
     from assoc_hull.examples.completion import net_from_table
     from assoc_hull.io.offsets import read_offsets
+    from assoc_hull.io.saving import holds_hull
     from assoc_hull.io.slice_read import holds_lines, read_slices
 
     file = Path(file_path(path, "in read"))
@@ -130,14 +132,17 @@ def read(
         "unit": unit, "axes": axes, "tolerance": tolerance, "join": join,
     }  # fmt: skip
     options = {name: value for name, value in named.items() if value is not None}
+    if holds_hull(file):
+        _refuse_options(options, file)
+        hull = open(file)
+        hull.detach()
+        return hull
     if holds_lines(file):
         state, made = read_slices(file, length=length, breadth=breadth, draught=draught, **options)
         hull = Hull(state)
         hull.adoption = made.adoption
         return hull
     _refuse_options(options, file)
-    if file.is_file() and file.read_bytes()[:200].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{":
-        return open(file)
     table, _ = read_offsets(file, length=length, breadth=breadth, draught=draught)
     state, report = net_from_table(table)
     hull = Hull(state)

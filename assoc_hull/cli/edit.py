@@ -21,7 +21,7 @@ from assoc_hull.cli.arguments import (
 )
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.preview_words import preview_words
-from assoc_hull.cli.problems import InFileError, check_hull_target, check_target
+from assoc_hull.cli.problems import InFileError, check_hull_target, check_target, is_apart
 from assoc_hull.cli.why import why_words
 from assoc_hull.cli.words import edit_words
 from assoc_hull.edit.cause import Why
@@ -83,7 +83,7 @@ def _edit(arguments: argparse.Namespace) -> int:
 def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
     """Edit the hull and write it."""
     target: Path = arguments.out or arguments.hull
-    apart = arguments.out is not None and arguments.out != arguments.hull
+    apart = is_apart(arguments.out, arguments.hull)
     check_target(target, HULL_ENDINGS)
     if apart:
         check_hull_target(target, replace=arguments.replace)

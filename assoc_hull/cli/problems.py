@@ -11,7 +11,14 @@ from pathlib import Path
 from assoc_hull.cli.arguments import FILE_ENDING, HULL_ENDINGS
 from assoc_hull.errors import AssocHullError, BadInputError
 
-__all__ = ["InFileError", "UsageError", "check_hull_target", "check_target", "explain"]
+__all__ = [
+    "InFileError",
+    "UsageError",
+    "check_hull_target",
+    "check_target",
+    "explain",
+    "is_apart",
+]
 
 _DEBUG = "ASSOC_HULL_DEBUG"
 
@@ -119,3 +126,17 @@ def check_hull_target(path: Path, *, replace: bool) -> None:
     if path.name.endswith(FILE_ENDING) and path.exists() and not replace:
         what, remedy = "there is a file of this name", "choose another name, or say --replace"
         raise BadInputError(what, f"at {path}", remedy)
+
+
+def is_apart(out: Path | None, hull: Path) -> bool:
+    """Tell whether a hull is written elsewhere than it is read from, however both are named.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from assoc_hull.cli.problems import is_apart
+    >>> is_apart(Path("new.hull"), Path("ship.hull")), is_apart(Path("ship.hull").absolute(),
+    ...     Path("ship.hull"))
+    (True, False)
+    """
+    return out is not None and os.path.realpath(out) != os.path.realpath(hull)

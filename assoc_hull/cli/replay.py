@@ -15,7 +15,7 @@ from assoc_hull.cli.arguments import (
 )
 from assoc_hull.cli.history import open_with_history
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import check_hull_target, check_target
+from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -44,7 +44,7 @@ def add(commands: Commands) -> None:
 
 def _replay(arguments: argparse.Namespace) -> int:
     target: Path = arguments.out or arguments.hull
-    apart = arguments.out is not None and arguments.out != arguments.hull
+    apart = is_apart(arguments.out, arguments.hull)
     check_target(target, HULL_ENDINGS)
     if apart:
         check_hull_target(target, replace=arguments.replace)

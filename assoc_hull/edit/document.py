@@ -154,7 +154,7 @@ class Document:
         UnknownNameError, BadInputError
             No such name; an edit is open.
         """
-        self._closed("go")
+        self.require_ended("go")
         return self.go_to(self.labelled(name))
 
     def labelled(self, name: object) -> int:
@@ -190,7 +190,7 @@ class Document:
 
     def follow(self, head: int, tip: int) -> None:
         """Bring the tables to where somebody else has brought the hull, and keep nothing."""
-        self._closed("refresh")
+        self.require_ended("refresh")
         for step, forward in self._moves(head):
             self._turn(step, forward)
         self.stand(head, tip)
@@ -218,7 +218,7 @@ class Document:
         NameTakenError, BadInputError
             The name is in use; an edit is open; it is no name.
         """
-        self._closed("checkpoint")
+        self.require_ended("checkpoint")
         if text(name, "the name", "in checkpoint") in self.labels:
             raise NameTakenError("checkpoint or branch", name)
         label = Label(name, self.head, author=self.author, time=_now())
@@ -237,26 +237,33 @@ class Document:
         finally:
             self.end()
 
+    @contextlib.contextmanager
+    def unharmed(self) -> Iterator[None]:
+        """Bring tables and history back to what they were, if what is done meanwhile fails."""
+        was = None if self.keeper is None else copy_of(self.state)  # in memory nothing fails
+        before = list(self.history), list(self.undone)
+        try:
+            yield
+        except BaseException:
+            if was is not None:
+                put_back(self.state, was)
+                self.refresh()
+            self.history[:], self.undone[:] = before
+            raise
+
     def _run(
         self, moves: list[tuple[Step, bool]], branch: Label | None, leaves: bool = False
     ) -> list[Step]:
         """Run steps backward or forward, and keep that; if it fails, all is as it was."""
-        before, steps = (list(self.history), list(self.undone)), [step for step, _ in moves]
+        steps = [step for step, _ in moves]
         with self._writing():
-            was = None if self.keeper is None else copy_of(self.state)
-            try:
+            with self.unharmed():
                 for step, forward in moves:
                     self._turn(step, forward)
                 if leaves:
                     self.undone.clear()
                 if self.keeper is not None:
                     self.keeper.move(self.head, self.tip, steps, branch)
-            except BaseException:
-                if was is not None:
-                    put_back(self.state, was)
-                    self.refresh()
-                self.history[:], self.undone[:] = before
-                raise
             self._name(branch)
             self._agree()
         return steps
@@ -292,12 +299,19 @@ class Document:
         if label is not None:
             self.labels[label.name] = label
 
-    def _closed(self, act: str) -> None:
+    def require_ended(self, act: str) -> None:
+        """Refuse while an edit is open.
+
+        Raises
+        ------
+        BadInputError
+            One is.
+        """
         if self.writer is not None:
             raise BadInputError("an edit is open", f"in {act}", "end it first")
 
     def _enough(self, steps: list[Step], count: int, act: str) -> None:
-        self._closed(act)
+        self.require_ended(act)
         try:
             wanted = operator.index(count)
         except TypeError:

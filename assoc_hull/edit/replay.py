@@ -73,7 +73,7 @@ def replay(
         One for each edit that was tried.
     """
     found: list[Replayed] = []
-    for step in steps:
+    for step in tuple(steps):  # on the same hull, the history grows meanwhile
         found.append(_again(document, step))
         if found[-1].report is None and not skip:
             break

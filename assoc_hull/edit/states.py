@@ -22,7 +22,6 @@ from collections.abc import Iterator
 from assoc_hull.edit.compare import Comparison, compare
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.step import Step
-from assoc_hull.errors import BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 
@@ -58,8 +57,7 @@ def walking(document: Document) -> Iterator[Walk]:
     BadInputError
         An edit is open.
     """
-    if document.writer is not None:
-        raise BadInputError("an edit is open", "in the history", "end it first")
+    document.require_ended("the history")
     walk = Walk(document)
     try:
         yield walk

@@ -29,7 +29,6 @@ from __future__ import annotations
 
 import contextlib
 import operator
-import os
 import sqlite3
 import weakref
 from collections.abc import Iterator, Mapping, Sequence
@@ -47,6 +46,7 @@ from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_place import Connection, Place
 from assoc_hull.io.hull_file_sound import require_whole
 from assoc_hull.io.hull_file_steps import (
     body_of,
@@ -80,8 +80,8 @@ class HullFile:
     Parameters
     ----------
     path : Path
-        The file.
-    database : sqlite3.Connection
+        The file, without links.
+    database : Connection
         The open database.
     state : HullState
         The tables of the document, as the file holds them.
@@ -89,13 +89,11 @@ class HullFile:
         How long to wait for another writer.
     """
 
-    def __init__(
-        self, path: Path, database: sqlite3.Connection, state: HullState, wait: float
-    ) -> None:
+    def __init__(self, path: Path, database: Connection, state: HullState, wait: float) -> None:
         self.path, self.database, self.state, self.wait = path, database, state, wait
         self.serial = 0
         self._known = 0
-        self._place = _identity(path)
+        self._place = Place(path)
         self._known_printer: Printer | None = None
         self._agreed = False
         self._open = True
@@ -121,15 +119,11 @@ class HullFile:
             Another process writes; it has written; the file may only be read, is closed, or
             has been replaced by another.
         """
-        self._require_open()
-        if _identity(self.path) != self._place:
-            remedy = "save the hull under another name, so that nothing is lost"
-            raise HullFileError(str(self.path), "it was removed or replaced", remedy)
-        with speaking_of(self.path, self.wait):
-            self.database.execute("BEGIN IMMEDIATE")
+        self._enter("BEGIN IMMEDIATE")
         self._agreed = False
         try:
             with speaking_of(self.path):
+                self._place.require_log()
                 self._refuse_stale()
         except BaseException:
             self.end()
@@ -138,6 +132,13 @@ class HullFile:
     def _require_open(self) -> None:
         if not self._open:
             raise HullFileError(str(self.path), "it is closed", "open it again")
+
+    def _enter(self, how: str) -> None:
+        """Begin a transaction of the database, if this still is the file that was opened."""
+        self._require_open()
+        self._place.require_file()
+        with speaking_of(self.path, self.wait):
+            self.database.execute(how)
 
     def _refuse_stale(self) -> None:
         if self._one("SELECT serial FROM hull")[0] != self.serial:
@@ -320,18 +321,27 @@ class HullFile:
         """Copy the whole file into another database."""
         self._require_open()
         with speaking_of(self.path, self.wait):
-            self._refuse_stale()
-            self.database.backup(database)
+            self.database.execute("BEGIN")
+            try:
+                self._refuse_stale()
+                self.database.backup(database)
+            finally:
+                self.end()
 
     def refresh(self, document: Document) -> None:
-        """Bring a document to the state in the file, by the steps that lead there."""
-        self._require_open()
+        """Bring a document to the state in the file; if that fails, it is as it was."""
+        self._enter("BEGIN")
         self._known_printer = None
-        with speaking_of(self.path, self.wait):
-            self.database.execute("BEGIN")
+        known = self.serial, self._known
         try:
-            document.follow(*self.follow(document))
-            document.keep_revisions(*read_revisions(self.database))
+            self._place.require_log()
+            with document.unharmed():
+                document.follow(*self.follow(document))
+                document.keep_revisions(*read_revisions(self.database))
+                self.require_print()
+        except BaseException:
+            self.serial, self._known = known
+            raise
         finally:
             self.end()
 
@@ -354,15 +364,6 @@ class HullFile:
             except DamagedFileError as error:
                 found.append(error.what)
         return found
-
-
-def _identity(path: Path) -> tuple[int, int]:
-    """Tell a file from another one of the same name."""
-    try:
-        found = os.stat(path)
-    except OSError:
-        return (0, 0)
-    return found.st_dev, found.st_ino
 
 
 @contextlib.contextmanager

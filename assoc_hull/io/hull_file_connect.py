@@ -18,6 +18,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from assoc_hull.errors import BadInputError, DamagedFileError, FileBusyError, HullFileError
+from assoc_hull.io.hull_file_place import Connection, is_open_here, log_of
 from assoc_hull.io.hull_file_schema import APPLICATION, SCHEMA, migrate
 
 __all__ = ["connect", "is_hull_file", "speaking_of", "writable"]
@@ -28,6 +29,8 @@ _COPY = "take it from a copy, and look after the disk"
 
 def is_hull_file(path: Path) -> bool:
     """Tell whether a file begins as a database does."""
+    if is_open_here(path):
+        return True
     with contextlib.suppress(OSError), path.open("rb") as file:
         return file.read(len(_MAGIC)) == _MAGIC
     return False
@@ -54,6 +57,8 @@ def speaking_of(path: Path, waited: float = 0.0) -> Iterator[None]:
 
 def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:
     name = getattr(error, "sqlite_errorname", "") or ""
+    if isinstance(error, sqlite3.ProgrammingError) and "closed" in str(error):
+        return HullFileError(str(path), "it is closed", "open it again")
     if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
         return FileBusyError(str(path), waited)
     if name.startswith("SQLITE_FULL"):
@@ -82,7 +87,7 @@ def _may(path: Path, mode: int) -> bool:
     return os.access(path, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
-def connect(path: Path, wait: float) -> sqlite3.Connection:
+def connect(path: Path, wait: float) -> Connection:
     """Open the database in a hull file, of this version of the schema or brought to it.
 
     Parameters
@@ -102,9 +107,11 @@ def connect(path: Path, wait: float) -> sqlite3.Connection:
     _look(path)
     with speaking_of(path, wait):
         database = sqlite3.connect(
-            _address(path), uri=True, timeout=wait, isolation_level=None, check_same_thread=False
-        )
+            _address(path), uri=True, timeout=wait, isolation_level=None, check_same_thread=False,
+            factory=Connection,
+        )  # fmt: skip
     try:
+        database.know(path)
         with speaking_of(path, wait):
             _set_up(database, path)
     except BaseException:
@@ -118,8 +125,7 @@ def _address(path: Path) -> str:
     name = f"file:{quote(str(path.absolute()))}"
     if writable(path):
         return f"{name}?mode=rw"
-    log = path.with_name(f"{path.name}-wal")
-    if log.exists() or _may(path.parent, os.W_OK | os.X_OK):
+    if log_of(path).exists() or _may(path.parent, os.W_OK | os.X_OK):
         return f"{name}?mode=ro"
     return f"{name}?mode=ro&immutable=1"  # nobody can write a log in that folder
 
@@ -145,6 +151,8 @@ def _set_up(database: sqlite3.Connection, path: Path) -> None:
 
 def _look(path: Path) -> None:
     """Look at a file before the database does, which would say less."""
+    if is_open_here(path):
+        return
     if path.is_dir():
         raise BadInputError("this is a folder", f"at {path}", "give the name of a hull file")
     try:
@@ -159,6 +167,6 @@ def _look(path: Path) -> None:
         raise BadInputError(what, f"at {path}", "give a hull file, made by save or assoc-hull")
     page = int.from_bytes(head[16:18], "big")
     whole = (65536 if page == 1 else page) * int.from_bytes(head[28:32], "big")
-    if size < whole and not path.with_name(f"{path.name}-wal").exists():
+    if size < whole and not log_of(path).exists():
         what = f"it is cut off: it has {size} of {whole} bytes"
         raise DamagedFileError(what, f"at {path}", _COPY)

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import contextlib
 import getpass
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -67,6 +68,7 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
     BadInputError, DamagedFileError, FileBusyError, HullFileError
         See `assoc_hull.io.hull_file_connect.connect`.
     """
+    path = Path(os.path.realpath(path))
     database = connect(path, wait)
     try:
         with speaking_of(path, wait), _reading(path):

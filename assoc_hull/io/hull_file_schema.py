@@ -25,7 +25,7 @@ __all__ = ["APPLICATION", "MIGRATIONS", "SCHEMA", "TABLES", "create", "migrate"]
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 2
+SCHEMA = 3
 
 TABLES = """
 CREATE TABLE hull (
@@ -73,6 +73,10 @@ CREATE TABLE associations (
 CREATE TABLE births (
     a TEXT NOT NULL, b TEXT NOT NULL, count INTEGER NOT NULL, PRIMARY KEY (a, b)
 ) WITHOUT ROWID;
+CREATE TABLE gone (
+    kind TEXT NOT NULL, number INTEGER NOT NULL, revision INTEGER NOT NULL,
+    PRIMARY KEY (kind, number)
+) WITHOUT ROWID;
 CREATE TABLE labels (
     name TEXT PRIMARY KEY, step INTEGER NOT NULL, branch INTEGER NOT NULL,
     author TEXT NOT NULL DEFAULT '', time TEXT NOT NULL DEFAULT ''
@@ -94,7 +98,15 @@ def _sign_labels(database: sqlite3.Connection) -> None:
         database.execute(f"ALTER TABLE labels ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
 
 
-MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels}
+def _remember_gone(database: sqlite3.Connection) -> None:
+    """From 2 to 3: revisions of rows that undoing took out; those of older ones are lost."""
+    database.execute(
+        "CREATE TABLE gone (kind TEXT NOT NULL, number INTEGER NOT NULL, "
+        "revision INTEGER NOT NULL, PRIMARY KEY (kind, number)) WITHOUT ROWID"
+    )
+
+
+MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels, 2: _remember_gone}
 """By version: what brings a file of it to the next one."""
 
 

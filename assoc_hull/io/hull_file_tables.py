@@ -54,6 +54,9 @@ _REALS = {
 """Columns of points that may be left out, holding the fill value, and their names in the file."""
 
 _PAIRS = ("curve", "kind", "reader", "anchor")
+_NAMES = {"rows": "points"}
+"""Tables that the file calls otherwise."""
+
 _WHOLES = ("alive", "sort", "role", "override", "driver", "contact", "sign", "birth", "state")
 
 
@@ -72,6 +75,9 @@ def write_state(
     write_births(database, dict(state.births))
     for table in ("groups", "lines", "curves", "rows"):
         put_rows(database, state, table, np.arange(getattr(state, table).count))
+    for table, known in (("rows", state.revision_row), ("curves", state.revision_curve)):
+        count = getattr(state, table).count
+        _write_gone(database, state, table, [i for i in sorted(known) if i >= count])
 
 
 def write_settings(database: sqlite3.Connection, state: HullState) -> None:
@@ -96,7 +102,7 @@ def write_births(database: sqlite3.Connection, counts: dict[tuple[str, str], int
 
 def put_rows(database: sqlite3.Connection, state: HullState, table: str, numbers: IntArray) -> None:
     """Write rows of a table as they are now; those that it no longer has are taken out."""
-    name, count = "points" if table == "rows" else table, getattr(state, table).count
+    name, count = _NAMES.get(table, table), getattr(state, table).count
     live = numbers[numbers < count]
     if len(live):
         rows = list(_GIVE[table](state, live))
@@ -104,6 +110,16 @@ def put_rows(database: sqlite3.Connection, state: HullState, table: str, numbers
         database.executemany(f"INSERT OR REPLACE INTO {name} VALUES ({marks})", rows)
     if len(live) < len(numbers):
         database.execute(f"DELETE FROM {name} WHERE number >= ?", (count,))
+        _write_gone(database, state, table, numbers[numbers >= count].tolist())
+
+
+def _write_gone(
+    database: sqlite3.Connection, state: HullState, table: str, numbers: Sequence[int]
+) -> None:
+    """Remember the revisions of rows that the table no longer has: redone, they go on there."""
+    known = {"rows": state.revision_row, "curves": state.revision_curve}.get(table, {})
+    rows = [(_NAMES.get(table, table), i, known[i]) for i in numbers if i in known]
+    database.executemany("INSERT OR REPLACE INTO gone VALUES (?, ?, ?)", rows)
 
 
 def _group_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
@@ -203,15 +219,22 @@ def read_state(database: sqlite3.Connection) -> HullState:
     _read_lines(state, _rows(database, "lines"))
     _read_points(state, _rows(database, "points"))
     _read_curves(state, _rows(database, "curves"))
+    state.revision_row, state.revision_curve = read_revisions(database)
     return state
 
 
 def read_revisions(database: sqlite3.Connection) -> tuple[dict[int, int], dict[int, int]]:
-    """Read the revisions of points and curves, by number; those at nil are left out."""
+    """Read the revisions of points and curves, gone ones too, by number; no nil ones."""
     points, curves = (
-        dict(database.execute(f"SELECT number, revision FROM {name} WHERE revision > 0").fetchall())
+        dict(
+            database.execute(
+                "SELECT number, MAX(revision) FROM (SELECT number, revision FROM gone "
+                f"WHERE kind = ? UNION ALL SELECT number, revision FROM {name}) "
+                "WHERE revision > 0 GROUP BY number", (name,),
+            ).fetchall()
+        )
         for name in ("points", "curves")
-    )
+    )  # fmt: skip
     return points, curves
 
 
@@ -276,7 +299,6 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
         ("driver", "contact", "sign", "birth", "state"), range(13, 18), strict=True
     ):
         _whole(getattr(table, name), found[place])
-    state.revision_row |= {i: revision for i, revision in enumerate(found[18]) if revision}
     _whole(table.anchor, list(zip(found[19], found[20], strict=True)))
     _real(table.xyz, found[21])
     for name, place in zip(_REALS, range(22, 28), strict=True):
@@ -286,7 +308,7 @@ def _read_points(state: HullState, rows: Sequence[Row]) -> None:
 def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
     table = state.curves
     table.resize(len(rows))
-    _, key, alive, line, states, revision, ends, points, places, kept = _columns(rows, 10)
+    _, key, alive, line, states, _, ends, points, places, kept = _columns(rows, 10)
     table.key.data[:] = key
     table.ends.data[:] = [_ends(json.loads(each)) for each in ends]
     for i, each in enumerate(points):
@@ -296,7 +318,6 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
         table.rows.data[i], table.side.data[i] = chosen, side
     for column, values in ((table.alive, alive), (table.line, line), (table.state, states)):
         _whole(column, values)
-    state.revision_curve |= {i: each for i, each in enumerate(revision) if each}
     put_places_of(state, _places(places))
     splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
     shape_curves(state, np.arange(len(rows)), splines)

@@ -31,6 +31,7 @@ from assoc_hull.errors import BadInputError, HullFileError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file import HullFile
 from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_place import is_open_here, log_of
 from assoc_hull.io.hull_file_schema import create
 from assoc_hull.io.hull_file_steps import write_labels, write_step
 from assoc_hull.io.hull_file_tables import write_state
@@ -64,8 +65,7 @@ def save_hull_file(
     HullFileError
         The file cannot be written; nothing is left behind, and the hull is kept where it was.
     """
-    if document.writer is not None:
-        raise BadInputError("an edit is open", "in save", "end it first")
+    document.require_ended("save")
     target = Path(os.path.realpath(path))
     _require_free(target, replace=replace)
     changes = _write_whole(document, target)
@@ -87,7 +87,10 @@ def _require_free(target: Path, *, replace: bool) -> None:
     if os.path.lexists(target) and not replace:
         what, remedy = "there is a file of this name", "choose another name, or ask to replace it"
         raise BadInputError(what, f"at {target}", remedy)
-    log = target.with_name(f"{target.name}-wal")
+    if is_open_here(target):
+        remedy = "close it first, or give another name"
+        raise BadInputError("this hull file is open in this process", f"at {target}", remedy)
+    log = log_of(target)
     if os.path.lexists(log):
         what = "the log of another hull file lies beside it, with edits that may be nowhere else"
         remedy = "close the program that uses it, or move it to where its hull file is"

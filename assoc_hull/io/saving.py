@@ -90,6 +90,7 @@ def save(
             remedy = "give the name of a file, for instance ship.hull"
             raise BadInputError("this hull lives in memory", "in save", remedy)
         return Saved(there, written=False)
+    document.require_ended("save")
     name = file_path(path, "in save")
     if name.endswith(TEXT_ENDING):
         write_hull_json(document.state, path)
@@ -139,11 +140,19 @@ def refresh(document: Document) -> None:
     if not isinstance(document.keeper, HullFile):
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
+    document.require_ended("refresh")
     document.keeper.refresh(document)
 
 
 def detach(document: Document) -> None:
-    """Let a hull live in memory, with all its history; the hull file stays as it is."""
+    """Let a hull live in memory, with all its history; the hull file stays as it is.
+
+    Raises
+    ------
+    BadInputError
+        An edit is open.
+    """
+    document.require_ended("detach")
     document.keeper = None
 
 
@@ -155,6 +164,13 @@ def damages(document: Document) -> list[Difference]:
 
 
 def close(document: Document) -> None:
-    """Let go of the hull file, if there is one."""
+    """Let go of the hull file, if there is one.
+
+    Raises
+    ------
+    BadInputError
+        An edit is open.
+    """
+    document.require_ended("close")
     if isinstance(document.keeper, HullFile):
         document.keeper.close()

@@ -40,6 +40,21 @@ def test_the_first_hull_stays_if_another_is_named(hull: Path, edits: Edits, fact
     assert ah.open(out).fingerprint == found["fingerprint"]
 
 
+def test_a_hull_is_edited_in_place_however_it_is_named(
+    hull: Path, edits: Edits, facts: Json
+) -> None:
+    """-o may say the same file by another path, or by a link; the history goes on."""
+    file, link = hull.with_name("ship.hull"), hull.with_name("link.hull")
+    ah.read(hull).save(file)
+    link.symlink_to(file)
+    for out in (file.parent / "." / file.name, file.parent / ".." / file.parent.name / file.name):
+        facts("edit", file, edits(moved(file, 0.01)), "-o", out)
+    facts("edit", file, edits(moved(file, 0.01)), "-o", link)
+    facts("replay", file, file, "-o", link)
+    assert link.is_symlink()
+    assert len(ah.open(file).history) == 6
+
+
 def test_a_dry_run_writes_nothing(hull: Path, edits: Edits, facts: Json) -> None:
     """And reports what the edit then does, with the fingerprint that the hull then has."""
     before, file = hull.read_bytes(), edits(moved(hull, 0.01))

@@ -106,6 +106,26 @@ def test_an_edit_after_an_undo_keeps_the_undone_ones(hull: ah.Hull, file: Path) 
     assert (again.fingerprint, [each.name for each in again.history]) == (new, ["first", "other"])
 
 
+def test_revisions_of_what_was_undone_go_on_when_it_is_redone(hull: ah.Hull, file: Path) -> None:
+    """Also if the file was closed meanwhile, and in a copy; and so for another line there."""
+    with hull.edit("one more") as edit:
+        edit.add_line("waterlines", 1.0)
+    hull.undo()
+    known = stand(hull)
+    copy = ah.read(file)
+    copy.save(file.with_name("copy.hull"))
+    for path in (file, file.with_name("copy.hull")):
+        again = ah.open(path)
+        assert stand(again) == known
+        again.close()
+    hull.redo()
+    known = stand(hull)
+    again = ah.open(file.with_name("copy.hull"))
+    again.redo()
+    assert stand(again) == known
+    assert stand(ah.open(file)) == known
+
+
 def test_a_checkpoint_is_returned_to_and_compared_with(hull: ah.Hull, file: Path) -> None:
     """By name, in another process; the comparison says which lines and how far."""
     start = hull.fingerprint

@@ -34,10 +34,11 @@ def test_there_is_a_file_of_every_older_version() -> None:
     assert sorted(MIGRATIONS) == list(range(1, SCHEMA))
 
 
-def test_a_file_of_version_1_is_brought_up_to_date(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version", range(1, SCHEMA))
+def test_a_file_of_an_older_version_is_brought_up_to_date(tmp_path: Path, version: int) -> None:
     """All of it is there: state, history, undone steps, branch, checkpoint; and it goes on."""
     path = tmp_path / "old.hull"
-    shutil.copy(OLD / "version_1.hull", path)
+    shutil.copy(OLD / f"version_{version}.hull", path)
     hull = ah.open(path)
     assert hull.fingerprint == PRINT
     assert [(each.name, each.author) for each in hull.history] == [

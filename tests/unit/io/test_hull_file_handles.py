@@ -1,0 +1,213 @@
+"""Several handles on one hull file, other names of it, and what may not be done meanwhile."""
+
+import os
+import sqlite3
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.io.hull_file_place import is_open_here, log_of
+
+POINT = "WL 4.6875 x ST 3"
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """A hull file with one edit, closed."""
+    hull = ah.examples.wigley(stations=7, waterlines=5)
+    path = tmp_path / "ship.hull"
+    hull.save(path)
+    shift(hull, "one")
+    hull.close()
+    return path
+
+
+def shift(hull: ah.Hull, name: str) -> None:
+    """Move a crossing."""
+    with hull.edit(name) as edit:
+        edit.move(POINT, y=hull.points[POINT].y + 0.01)
+
+
+def names(hull: ah.Hull) -> list[str]:
+    """Names of the edits."""
+    return [report.name for report in hull.history]
+
+
+def test_a_relative_name_holds_when_the_working_folder_changes(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The file is known by its whole path from the moment it is opened."""
+    (file.parent / "elsewhere").mkdir()
+    monkeypatch.chdir(file.parent)
+    hull = ah.open(file.name)
+    assert not hull.save(file.name).written
+    assert not hull.save(file).written
+    monkeypatch.chdir("elsewhere")
+    shift(hull, "two")
+    assert hull.path == file
+    assert names(ah.open(file)) == ["one", "two"]
+
+
+def test_a_link_leads_to_the_file_and_its_log(file: Path) -> None:
+    """Through a link and by its own name the file is the same one."""
+    folder = file.parent / "links"
+    folder.mkdir()
+    (folder / "link.hull").symlink_to(file)
+    hull = ah.open(folder / "link.hull")
+    shift(hull, "two")
+    assert not hull.save(file).written
+    assert not hull.save(folder / "link.hull").written
+    assert [each.name for each in folder.iterdir()] == ["link.hull"]
+    assert names(ah.open(file)) == ["one", "two"]
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda hull: hull.undo(),
+        lambda hull: hull.refresh(),
+        lambda hull: hull.save(hull.path.with_name("copy.hull")),
+        lambda hull: shift(hull, "two"),
+    ],
+)
+def test_a_closed_file_is_said_to_be_closed(file: Path, act: Callable[[ah.Hull], object]) -> None:
+    """Nobody is told that it is damaged."""
+    hull = ah.open(file)
+    hull.close()
+    with pytest.raises(HullFileError, match=r"it is closed, at .*; open it again"):
+        act(hull)
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda hull: hull.refresh(),
+        lambda hull: hull.close(),
+        lambda hull: hull.detach(),
+        lambda hull: hull.save(hull.path.with_name("copy.hull")),
+        lambda hull: hull.save(hull.path.with_name("copy.hull.json")),
+    ],
+)
+def test_an_open_edit_is_ended_first(file: Path, act: Callable[[ah.Hull], object]) -> None:
+    """What would meet a half-made edit is refused; the next writer finds the file free."""
+    hull = ah.open(file)
+
+    def meanwhile() -> None:
+        with hull.edit("two") as edit:
+            edit.move(POINT, y=hull.points[POINT].y + 0.01)
+            act(hull)
+
+    with pytest.raises(BadInputError, match="an edit is open"):
+        meanwhile()
+    assert names(hull) == ["one"]
+    assert [each.name for each in file.parent.glob("copy*")] == []
+    other = ah.open(file)
+    shift(other, "three")
+    hull.refresh()
+    assert names(hull) == ["one", "three"]
+
+
+_SECOND_LOOK = """
+import os, signal, subprocess, sys
+import assoc_hull as ah
+path, point = sys.argv[1:]
+hull = ah.open(path)
+def shift(name):
+    with hull.edit(name) as edit:
+        edit.move(point, y=hull.points[point].y + 0.01)
+shift("two")
+ah.open(path).close()
+ah.read(path).close()
+look = "import sys, assoc_hull as ah; ah.open(sys.argv[1]).close()"
+subprocess.run([sys.executable, "-c", look, path], check=True)
+shift("three")
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_second_look_at_an_open_file_loses_no_later_edit(file: Path) -> None:
+    """Closing another handle on the file in one process leaves the log to its writer."""
+    command = [sys.executable, "-c", _SECOND_LOOK, str(file), POINT]
+    assert subprocess.run(command, check=False, timeout=60).returncode == -9
+    assert names(ah.open(file)) == ["one", "two", "three"]
+
+
+def test_a_hull_file_that_is_read_is_not_edited(file: Path) -> None:
+    """Reading takes it into memory with its history; what is edited then is not in the file."""
+    hull = ah.read(file)
+    assert (names(hull), hull.path) == (["one"], None)
+    shift(hull, "two")
+    assert names(ah.open(file)) == ["one"]
+
+
+def test_a_process_knows_what_it_has_open(file: Path) -> None:
+    """From opening to closing, each handle on its own."""
+    assert not is_open_here(file)
+    one, two = ah.open(file), ah.open(file)
+    one.close()
+    assert is_open_here(file)
+    two.close()
+    assert not is_open_here(file)
+
+
+def test_a_file_that_is_open_here_is_not_written_over(file: Path) -> None:
+    """Its edits would go on in a file that has no name."""
+    hull = ah.open(file)
+    with pytest.raises(BadInputError, match="open in this process"):
+        ah.examples.wigley(stations=7, waterlines=5).save(file, replace=True)
+    shift(hull, "two")
+    assert names(ah.open(file)) == ["one", "two"]
+
+
+def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
+    """An edit that nobody would ever see is refused, and all others are in the file."""
+    hull = ah.open(file)
+    os.replace(log_of(file), log_of(file).with_name("away"))
+    before = hull.fingerprint
+    acts: list[Callable[[], None]] = [lambda: shift(hull, "two"), hull.undo, hull.refresh]
+    for act in acts:
+        with pytest.raises(HullFileError, match=r"its log ship\.hull-wal was removed"):
+            act()
+    assert hull.fingerprint == before
+    assert names(ah.open(file)) == ["one"]
+
+
+def test_a_file_that_was_replaced_is_not_refreshed_from(file: Path) -> None:
+    """The file of that name holds another hull by now."""
+    hull = ah.open(file)
+    os.replace(file, file.with_name("away.hull"))
+    with pytest.raises(HullFileError, match="it was removed or replaced"):
+        hull.refresh()
+
+
+def test_a_refresh_that_fails_leaves_all_as_it_was(file: Path) -> None:
+    """A step that cannot be read is told; no edit is made upon a state that is not the file's."""
+    hull, other = ah.open(file), ah.open(file)
+    before = hull.fingerprint
+    shift(other, "two")
+    shift(other, "three")
+    database = sqlite3.connect(file)
+    with database:
+        database.execute("UPDATE steps SET digest = 'none' WHERE number = 3")
+    database.close()
+    for _ in range(2):
+        with pytest.raises(DamagedFileError, match="step 3 cannot be read"):
+            hull.refresh()
+        assert hull.fingerprint == before
+        assert names(hull) == ["one"]
+        with pytest.raises(StaleHullError):
+            shift(hull, "four")
+
+
+def test_a_hull_repeats_its_own_edits_once() -> None:
+    """The steps that are made meanwhile are not repeated as well."""
+    hull = ah.examples.wigley(stations=7, waterlines=5)
+    with hull.edit("pull") as edit:
+        edit.pull(POINT, 0.001, (20.0, 6.0))
+    assert len(hull.replay(hull)) == 1
+    assert names(hull) == ["pull", "pull"]
