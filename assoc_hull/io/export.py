@@ -27,7 +27,7 @@ from assoc_hull.io.delftship import dumps_delftship
 from assoc_hull.io.delftship_offsets import dumps_delftship_offsets
 from assoc_hull.io.export_book import ExportBook, ExportReport
 from assoc_hull.io.gf import FOOT, dumps_gf
-from assoc_hull.io.hull_json import dumps_hull_json
+from assoc_hull.io.hull_json import readable_text
 from assoc_hull.io.line_points import lines_as_points
 from assoc_hull.io.offset_out import csv_text, offsets_of
 from assoc_hull.io.offset_xlsx import xlsx_bytes
@@ -63,7 +63,7 @@ def _hull(state: HullState, book: ExportBook) -> bytes:
     book.lines = len(state.live("lines"))
     book.curves = len(state.live("curves"))
     book.points = len(state.live("rows"))
-    return dumps_hull_json(state).encode()
+    return readable_text(state).encode()
 
 
 def _csv(state: HullState, book: ExportBook) -> bytes:

@@ -42,12 +42,12 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.keeper import Label
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.errors import AssocHullError, DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.io.hull_file_connect import connect, speaking_of
 from assoc_hull.io.hull_file_place import Connection, Place
-from assoc_hull.io.hull_file_sound import require_whole
+from assoc_hull.io.hull_file_sound import require_sound, require_whole
 from assoc_hull.io.hull_file_steps import (
     body_of,
     read_labels,
@@ -59,6 +59,7 @@ from assoc_hull.io.hull_file_steps import (
 from assoc_hull.io.hull_file_tables import (
     put_rows,
     read_revisions,
+    require_counts,
     write_births,
     write_settings,
 )
@@ -178,7 +179,7 @@ class HullFile:
 
     def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
         """Write the rows that steps changed when they were run, and where the hull is now."""
-        with speaking_of(self.path):
+        with speaking_of(self.path), _fitting(self.path):
             for step in steps:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
@@ -186,8 +187,9 @@ class HullFile:
                 self._look_anew(journal.change)
             found = self._sign(head, tip)
             if found != self.recorded(head):
-                what = f"the hull after step {head} is not as it was when that was committed"
-                raise DamagedFileError(what, f"in {self.path}", _COPY)
+                raise ValueError(f"the hull after step {head} is not as it was then")
+            require_sound(self.state)
+            require_counts(self.database, self.state)
             self._label(branch)
             self.database.execute("COMMIT")
 
@@ -373,4 +375,16 @@ def _step_of(path: Path, number: int) -> Iterator[None]:
         yield
     except ODD as error:
         what = " ".join(f"step {number} cannot be read ({error})".split())
+        raise DamagedFileError(what, f"in {path}", _COPY) from error
+
+
+@contextlib.contextmanager
+def _fitting(path: Path) -> Iterator[None]:
+    """Say that the history is damaged where it leads to what no hull is."""
+    try:
+        yield
+    except ODD as error:
+        if isinstance(error, AssocHullError):
+            raise
+        what = " ".join(f"the history does not fit the hull ({error})".split())
         raise DamagedFileError(what, f"in {path}", _COPY) from error

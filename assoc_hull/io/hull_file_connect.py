@@ -53,6 +53,9 @@ def speaking_of(path: Path, waited: float = 0.0) -> Iterator[None]:
         yield
     except sqlite3.Error as error:
         raise _explained(error, path, waited) from error
+    except UnicodeDecodeError as error:  # the database quotes what it found
+        what = "it is damaged (there are bytes that are no text)"
+        raise DamagedFileError(what, f"at {path}", _COPY) from error
 
 
 def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:

@@ -17,6 +17,7 @@ True
 from __future__ import annotations
 
 import json
+import operator
 import sqlite3
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -37,6 +38,7 @@ __all__ = [
     "put_rows",
     "read_revisions",
     "read_state",
+    "require_counts",
     "write_births",
     "write_settings",
     "write_state",
@@ -226,13 +228,14 @@ def read_state(database: sqlite3.Connection) -> HullState:
 def read_revisions(database: sqlite3.Connection) -> tuple[dict[int, int], dict[int, int]]:
     """Read the revisions of points and curves, gone ones too, by number; no nil ones."""
     points, curves = (
-        dict(
-            database.execute(
+        {
+            operator.index(number): operator.index(revision)
+            for number, revision in database.execute(
                 "SELECT number, MAX(revision) FROM (SELECT number, revision FROM gone "
                 f"WHERE kind = ? UNION ALL SELECT number, revision FROM {name}) "
                 "WHERE revision > 0 GROUP BY number", (name,),
-            ).fetchall()
-        )
+            )
+        }
         for name in ("points", "curves")
     )  # fmt: skip
     return points, curves
@@ -345,3 +348,18 @@ def unpack_spline(data: bytes) -> SplineBatch:
     return SplineBatch(
         np.array([0, len(knot)], np.int64), knot, arrays["xyz"], arrays["leave"], arrays["arrive"]
     )
+
+
+def require_counts(database: sqlite3.Connection, state: HullState) -> None:
+    """Refuse tables that have not as many rows as the hull.
+
+    Raises
+    ------
+    ValueError
+        Naming the first such table.
+    """
+    for table in ("groups", "lines", "curves", "rows"):
+        name, count = "points" if table == "rows" else table, getattr(state, table).count
+        found = database.execute(f"SELECT count(*) FROM {name}").fetchone()[0]
+        if found != count:
+            raise ValueError(f"the table {name} has {found} rows, and the hull {count}")

@@ -38,7 +38,14 @@ from assoc_hull.model.definition import definition, fingerprint, published
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
 
-__all__ = ["FORMAT", "SCHEMA", "dumps_hull_json", "read_hull_json", "write_hull_json"]
+__all__ = [
+    "FORMAT",
+    "SCHEMA",
+    "dumps_hull_json",
+    "read_hull_json",
+    "readable_text",
+    "write_hull_json",
+]
 
 SCHEMA = 1
 """Version of the form that is written and read."""
@@ -121,7 +128,25 @@ def write_hull_json(state: HullState, path: str | os.PathLike[str]) -> None:
     BadInputError
         If the file cannot be written, or the hull holds a number that is not finite.
     """
-    write_whole(path, dumps_hull_json(state).encode())
+    write_whole(path, readable_text(state).encode())
+
+
+def readable_text(state: HullState) -> str:
+    """Give the canonical text of a hull, which has been read back.
+
+    Raises
+    ------
+    BadInputError
+        The tables contradict one another, as those of a file that was changed by other hands
+        may, so that no text of theirs can be read.
+    """
+    text = dumps_hull_json(state)
+    try:
+        _read(text, "the text")
+    except BadInputError as error:
+        where = f"in the hull {state.particulars.name!r}: {error.where}"
+        raise BadInputError(error.what, where, "check the hull, and undo what is wrong") from error
+    return text
 
 
 def read_hull_json(source: str | os.PathLike[str]) -> HullState:

@@ -251,6 +251,11 @@ def run_change(state: HullState, change: Change, *, forward: bool) -> None:
         The change.
     forward : bool
         Make the edit, or take it back.
+
+    Raises
+    ------
+    ValueError, IndexError, AssocHullError
+        The change is none of these tables, which may be spoilt then.
     """
     if forward:
         _resize(state, change, 1)
@@ -269,7 +274,11 @@ def run_change(state: HullState, change: Change, *, forward: bool) -> None:
     if not forward:
         _resize(state, change, 0)
     curves = np.union1d(change.lofted, revived)
-    shape_curves(state, curves[curves < state.curves.count], change.kept[forward])
+    curves = curves[curves < state.curves.count]
+    shape_curves(state, curves, change.kept[forward])
+    for curve in curves[state.curves.alive.data[curves]].tolist():
+        if state.curves.spline.data[curve] is None:
+            raise ValueError(f"the curve {state.curves.key.data[curve]!r} would have no shape")
 
 
 def _resize(state: HullState, change: Change, which: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import io
 import json
 import re
@@ -119,6 +120,7 @@ def _files(
     kind: Kind, folder: Path, given: Mapping[str, bytes], command: list[str], code: int
 ) -> str:
     """What is wrong with the files after a command."""
+    gc.collect()  # what an error still holds is let go of when a program ends
     found = {path.name for path in folder.iterdir()}
     wanted = {name for name in (TARGET, *kind.extra) if name in command}
     for name, content in given.items():
