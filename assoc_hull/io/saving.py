@@ -140,7 +140,11 @@ def refresh(document: Document) -> None:
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
     document.require_ended("refresh")
-    document.keeper.refresh(document)
+    document.begin(keep=False)
+    try:
+        document.keeper.refresh(document)
+    finally:
+        document.end(keep=False)
 
 
 def detach(document: Document) -> None:
