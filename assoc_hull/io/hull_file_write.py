@@ -35,7 +35,7 @@ from assoc_hull.io.hull_file_place import is_open_here, log_of
 from assoc_hull.io.hull_file_schema import create
 from assoc_hull.io.hull_file_steps import write_labels, write_step
 from assoc_hull.io.hull_file_tables import write_state
-from assoc_hull.io.whole_file import mode_for
+from assoc_hull.io.whole_file import mode_for, take_place
 from assoc_hull.model.change import Change, change_of
 from assoc_hull.model.definition import fingerprint
 
@@ -111,7 +111,7 @@ def _write_whole(document: Document, target: Path) -> dict[int, Change]:
         with speaking_of(target):
             changes = _fill(document, name)
         os.chmod(name, mode_for(target))
-        os.replace(name, target)
+        take_place(name, target)
     except OSError as error:
         if isinstance(error, HullFileError):
             raise

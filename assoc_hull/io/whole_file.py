@@ -20,7 +20,7 @@ from pathlib import Path
 
 from assoc_hull.errors import BadInputError
 
-__all__ = ["mode_for", "write_whole"]
+__all__ = ["mode_for", "take_place", "write_whole"]
 
 
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
@@ -59,11 +59,22 @@ def _replace(target: Path, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         os.chmod(name, mode_for(target))
-        os.replace(name, target)
+        take_place(name, target)
     except BaseException:
         with contextlib.suppress(OSError):
             os.unlink(name)
         raise
+
+
+def take_place(name: str, target: Path) -> None:
+    """Let a file that was brought to the disk take the place of another, on the disk too."""
+    os.replace(name, target)
+    with contextlib.suppress(OSError):  # some systems open no folder, and need not
+        folder = os.open(target.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
 
 
 def mode_for(target: Path) -> int:

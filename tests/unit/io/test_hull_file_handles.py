@@ -45,6 +45,22 @@ def names(hull: ah.Hull) -> list[str]:
     return [report.name for report in hull.history]
 
 
+@pytest.mark.parametrize("name", ["new.hull", "new.hull.json"])
+def test_the_name_of_a_new_file_is_brought_to_the_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """What is on the disk without a name would be lost with the power."""
+    brought, really = list[Path](), os.fsync
+
+    def fsync(handle: int) -> None:
+        brought.append(Path(os.readlink(f"/proc/self/fd/{handle}")))
+        really(handle)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    ah.examples.wigley(stations=7, waterlines=5).save(tmp_path / name)
+    assert brought[-1] == tmp_path
+
+
 def test_a_relative_name_holds_when_the_working_folder_changes(
     file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
