@@ -144,7 +144,7 @@ def _set_up(database: sqlite3.Connection, path: Path) -> None:
         if not writable(path):
             what = f"it has version {version} of the hull file, and may only be read"
             raise BadInputError(what, f"at {path}", "copy it to where it can be brought up to date")
-        migrate(database, version)
+        migrate(database)
 
 
 def _look(path: Path) -> None:

@@ -117,10 +117,12 @@ def create(database: sqlite3.Connection) -> None:
     database.execute(f"PRAGMA user_version = {SCHEMA}")
 
 
-def migrate(database: sqlite3.Connection, version: int) -> None:
+def migrate(database: sqlite3.Connection) -> None:
     """Bring a file to this version, all of it or nothing."""
     database.execute("BEGIN IMMEDIATE")
     try:
+        # Asked for now: another process may just have done it.
+        version = database.execute("PRAGMA user_version").fetchone()[0]
         for each in range(version, SCHEMA):
             MIGRATIONS[each](database)
         database.execute(f"PRAGMA user_version = {SCHEMA}")
