@@ -100,7 +100,7 @@ class HullFile:
         self.path, self.database, self.state, self.wait = path, database, state, wait
         self.serial = 0
         self._known = 0
-        self._place = Place(path)
+        self.place = Place(path)
         self._open = True
         weakref.finalize(self, database.close)  # the last one to close tidies the log away
 
@@ -127,7 +127,7 @@ class HullFile:
         self._enter("BEGIN IMMEDIATE")
         try:
             with speaking_of(self.path):
-                self._place.require_log()
+                self.place.require_log()
                 self._refuse_stale()
         except BaseException:
             self.end()
@@ -137,7 +137,7 @@ class HullFile:
         """Begin a transaction of the database, if this still is the file that was opened."""
         if not self._open:
             raise HullFileError(str(self.path), "it is closed", "open it again")
-        self._place.require_file()
+        self.place.require_file()
         with speaking_of(self.path, self.wait):
             self.database.execute(how)
 
@@ -290,7 +290,7 @@ class HullFile:
         self._enter("BEGIN")
         known = self.serial, self._known
         try:
-            self._place.require_log()
+            self.place.require_log()
             with document.unharmed():
                 document.follow(*self.follow(document))
                 document.keep_revisions(*read_revisions(self.database))

@@ -202,6 +202,17 @@ def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
     assert names(ah.open(file)) == ["one"]
 
 
+def test_nobody_is_told_that_edits_are_in_a_file_that_has_gone(file: Path) -> None:
+    """Saving has nothing to do only while the file is there; elsewhere all can be saved."""
+    hull = ah.open(file)
+    file.unlink()
+    for path in (None, file):
+        with pytest.raises(HullFileError, match="it was removed or replaced"):
+            hull.save(path)
+    hull.save(file.with_name("again.hull"))
+    assert names(ah.open(file.with_name("again.hull"))) == ["one"]
+
+
 def test_a_file_that_was_replaced_is_not_refreshed_from(file: Path) -> None:
     """The file of that name holds another hull by now."""
     hull = ah.open(file)
