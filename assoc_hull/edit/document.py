@@ -63,6 +63,7 @@ class Document:
     start: str = ""
     writer: object = attrs.field(default=None, init=False)
     _index: Index | None = attrs.field(default=None, init=False)
+    _free: list[bool] = attrs.field(factory=lambda: [True], init=False)
 
     @property
     def index(self) -> Index:
@@ -88,15 +89,33 @@ class Document:
         """Number of the step that redoing all undone ones would lead to."""
         return self.undone[0].number if self.undone else self.head
 
-    def begin(self) -> None:
-        """Take the right to write, for an edit."""
-        if self.keeper is not None:
-            self.keeper.begin()
+    def begin(self, *, keep: bool = True) -> None:
+        """Take the right to write the tables, and what keeps them unless nothing is to be kept.
 
-    def end(self) -> None:
+        Raises
+        ------
+        BadInputError
+            Another thread has it.
+        """
+        try:
+            self._free.pop()  # atomic: one thread gets it
+        except IndexError:
+            what, remedy = "another thread is at work on this hull", "let one edit at a time"
+            raise BadInputError(what, "in the hull", remedy) from None
+        try:
+            if keep and self.keeper is not None:
+                self.keeper.begin()
+        except BaseException:
+            self._free.append(True)
+            raise
+
+    def end(self, *, keep: bool = True) -> None:
         """Give it back."""
-        if self.keeper is not None:
-            self.keeper.end()
+        try:
+            if keep and self.keeper is not None:
+                self.keeper.end()
+        finally:
+            self._free.append(True)
 
     def commit(self, step: Step) -> None:
         """Take a finished step into the history; whatever fails, it is not in it."""

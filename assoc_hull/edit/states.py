@@ -58,11 +58,13 @@ def walking(document: Document) -> Iterator[Walk]:
         An edit is open.
     """
     document.require_ended("the history")
+    document.begin(keep=False)
     walk = Walk(document)
     try:
         yield walk
     finally:
         walk.go(document.head)
+        document.end(keep=False)
 
 
 def state_at(document: Document, number: int) -> HullState:

@@ -6,6 +6,7 @@ error. Whatever goes wrong, the journal takes every write back, to the last bit.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from types import TracebackType
 from typing import Any, Self
@@ -62,7 +63,7 @@ class Transaction:
         self.script: list[dict[str, Any]] = []
         self.report: EditReport | None = None
         self._step: Step | None = None
-        self._depth = 0
+        self._depth, self._thread = 0, 0
         self._broken = False
         self._quiet = Quiet()
         self._over = False
@@ -129,10 +130,12 @@ class Transaction:
                 raise BadInputError("it has ended", where, "begin another one")
             if self.document.writer is not None:
                 raise BadInputError("another edit is open", where, "end that one first")
-            if self.look is None:
-                self.document.begin()
-            self.document.writer = self
+            self.document.begin(keep=self.look is None)
+            self.document.writer, self._thread = self, threading.get_ident()
             self._quiet.__enter__()
+        elif self._thread != threading.get_ident():
+            what, remedy = "another thread is at work on this hull", "let one edit at a time"
+            raise BadInputError(what, f"in the edit {self.name!r}", remedy)
         self._depth += 1
         return self
 
@@ -153,8 +156,7 @@ class Transaction:
             if error is None:
                 self._finish()
         finally:
-            if self.look is None:
-                self.document.end()
+            self.document.end(keep=self.look is None)
             self._quiet.__exit__()
 
     def _finish(self) -> None:

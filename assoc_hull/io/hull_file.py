@@ -94,7 +94,7 @@ class HullFile:
         self.path, self.database, self.state, self.wait = path, database, state, wait
         self.serial = 0
         self._known = 0
-        self._place = Place(path)
+        self.place = Place(path)
         self._known_printer: Printer | None = None
         self._agreed = False
         self._open = True
@@ -124,7 +124,7 @@ class HullFile:
         self._agreed = False
         try:
             with speaking_of(self.path):
-                self._place.require_log()
+                self.place.require_log()
                 self._refuse_stale()
         except BaseException:
             self.end()
@@ -137,7 +137,7 @@ class HullFile:
     def _enter(self, how: str) -> None:
         """Begin a transaction of the database, if this still is the file that was opened."""
         self._require_open()
-        self._place.require_file()
+        self.place.require_file()
         with speaking_of(self.path, self.wait):
             self.database.execute(how)
 
@@ -336,7 +336,7 @@ class HullFile:
         self._known_printer = None
         known = self.serial, self._known
         try:
-            self._place.require_log()
+            self.place.require_log()
             with document.unharmed():
                 document.follow(*self.follow(document))
                 document.keep_revisions(*read_revisions(self.database))

@@ -89,14 +89,14 @@ def save(
         if there is None:
             remedy = "give the name of a file, for instance ship.hull"
             raise BadInputError("this hull lives in memory", "in save", remedy)
-        return Saved(there, written=False)
+        return _in_place(document, there)
     document.require_ended("save")
     name = file_path(path, "in save")
     if name.endswith(TEXT_ENDING):
         write_hull_json(document.state, path)
         return Saved(Path(path), written=True)
     if there is not None and there == Path(os.path.realpath(path)):
-        return Saved(there, written=False)  # also where it may be replaced: by itself
+        return _in_place(document, there)
     if not name.endswith(FILE_ENDING):
         remedy = f"end the name in {FILE_ENDING} or {TEXT_ENDING}; other forms are exported"
         raise BadInputError("the form is unknown", f"at {name}", remedy)
@@ -104,6 +104,13 @@ def save(
     save_hull_file(document, Path(path), wait, replace=replace)
     document.author = document.author or user()
     return Saved(Path(path), written=True)
+
+
+def _in_place(document: Document, there: Path) -> Saved:
+    """Say that every edit is in the hull file, if that still is where it was."""
+    if isinstance(document.keeper, HullFile):
+        document.keeper.place.require_file()
+    return Saved(there, written=False)
 
 
 def open_document(
@@ -141,7 +148,11 @@ def refresh(document: Document) -> None:
         remedy = "save it as a hull file first"
         raise BadInputError("this hull lives in memory", "in refresh", remedy)
     document.require_ended("refresh")
-    document.keeper.refresh(document)
+    document.begin(keep=False)
+    try:
+        document.keeper.refresh(document)
+    finally:
+        document.end(keep=False)
 
 
 def detach(document: Document) -> None:

@@ -4,13 +4,20 @@ import os
 import sqlite3
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.errors import BadInputError, DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.errors import (
+    AssocHullError,
+    BadInputError,
+    DamagedFileError,
+    HullFileError,
+    StaleHullError,
+)
 from assoc_hull.io.hull_file_place import is_open_here, log_of
 
 POINT = "WL 4.6875 x ST 3"
@@ -36,6 +43,22 @@ def shift(hull: ah.Hull, name: str) -> None:
 def names(hull: ah.Hull) -> list[str]:
     """Names of the edits."""
     return [report.name for report in hull.history]
+
+
+@pytest.mark.parametrize("name", ["new.hull", "new.hull.json"])
+def test_the_name_of_a_new_file_is_brought_to_the_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """What is on the disk without a name would be lost with the power."""
+    brought, really = list[Path](), os.fsync
+
+    def fsync(handle: int) -> None:
+        brought.append(Path(os.readlink(f"/proc/self/fd/{handle}")))
+        really(handle)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    ah.examples.wigley(stations=7, waterlines=5).save(tmp_path / name)
+    assert brought[-1] == tmp_path
 
 
 def test_a_relative_name_holds_when_the_working_folder_changes(
@@ -177,12 +200,68 @@ def test_nothing_is_written_to_a_log_that_has_gone(file: Path) -> None:
     assert names(ah.open(file)) == ["one"]
 
 
+def test_nobody_is_told_that_edits_are_in_a_file_that_has_gone(file: Path) -> None:
+    """Saving has nothing to do only while the file is there; elsewhere all can be saved."""
+    hull = ah.open(file)
+    file.unlink()
+    for path in (None, file):
+        with pytest.raises(HullFileError, match="it was removed or replaced"):
+            hull.save(path)
+    hull.save(file.with_name("again.hull"))
+    assert names(ah.open(file.with_name("again.hull"))) == ["one"]
+
+
 def test_a_file_that_was_replaced_is_not_refreshed_from(file: Path) -> None:
     """The file of that name holds another hull by now."""
     hull = ah.open(file)
     os.replace(file, file.with_name("away.hull"))
     with pytest.raises(HullFileError, match="it was removed or replaced"):
         hull.refresh()
+
+
+def test_threads_that_edit_one_hull_are_told_apart(file: Path) -> None:
+    """One edits at a time; the others are refused, and none joins the edit of another."""
+    hull, said = ah.open(file), list[str]()
+
+    def work() -> None:
+        for _ in range(10):
+            try:
+                shift(hull, "in a thread")
+                hull.undo()
+            except AssocHullError as error:
+                said.append(str(error))
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for each in threads:
+        each.start()
+    for each in threads:
+        each.join()
+    assert not [each for each in said if "damaged" in each]
+    assert hull.verify() == ()
+    shift(hull, "last")
+    again = ah.open(file)
+    assert again.fingerprint == hull.fingerprint
+    assert again.verify() == ()
+
+
+def test_no_thread_joins_the_edit_of_another(file: Path) -> None:
+    """What it would add belongs to another edit; the open one goes on."""
+    hull, said = ah.open(file), list[str]()
+
+    def meanwhile() -> None:
+        try:
+            shift(hull, "two")
+        except BadInputError as error:
+            said.append(str(error))
+
+    with hull.edit("one more") as edit:
+        edit.move(POINT, y=hull.points[POINT].y + 0.01)
+        thread = threading.Thread(target=meanwhile)
+        thread.start()
+        thread.join()
+    assert len(said) == 1
+    assert "another thread is at work" in said[0]
+    assert names(ah.open(file)) == ["one", "one more"]
 
 
 def test_a_refresh_that_fails_leaves_all_as_it_was(file: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file_schema import MIGRATIONS, SCHEMA
+from assoc_hull.io.hull_file_schema import MIGRATIONS, SCHEMA, migrate
 
 OLD = Path(__file__).parent / "old_files"
 PRINT = "0e275868597c38061acf0b780531a5e89c848937aa4fbe74c37ae6cea4b779c1"
@@ -60,6 +60,18 @@ def test_a_file_of_an_older_version_is_brought_up_to_date(tmp_path: Path, versio
     assert columns(path) == columns(new)
     again = ah.open(path)
     assert "brought up to date" in again.labels
+
+
+def test_two_processes_bring_a_file_up_to_date_once(tmp_path: Path) -> None:
+    """The one that comes second finds it done, though it saw an old file before."""
+    path = tmp_path / "old.hull"
+    shutil.copy(OLD / "version_1.hull", path)
+    one, two = (sqlite3.connect(path, isolation_level=None) for _ in range(2))
+    for database in (one, two):
+        migrate(database)
+        assert database.execute("PRAGMA user_version").fetchone() == (SCHEMA,)
+        database.close()
+    assert ah.open(path).verify() == ()
 
 
 def test_a_newer_file_is_refused_and_left_alone(tmp_path: Path) -> None:
