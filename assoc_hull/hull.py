@@ -339,6 +339,7 @@ class Hull:
         """Write offsets or sections for other programs; see `assoc_hull.io.export.export`."""
         from assoc_hull.io.export import export
 
+        self.document.require_ended("export")
         return export(self.state, path, form)
 
     def refresh(self) -> None:

@@ -82,7 +82,8 @@ class Comparison:
     names: tuple[str, str]
 
     def __str__(self) -> str:
-        head = f"{self.states[0]} -> {self.states[1]}: {len(self.lines)} lines differ"
+        many = "1 line differs" if len(self.lines) == 1 else f"{len(self.lines)} lines differ"
+        head = f"{self.states[0]} -> {self.states[1]}: {many}"
         told = [head, *(f"  {line}" for line in self.lines)]
         for name, (old, new) in self.numbers.items():
             change = "" if old is None or new is None else f" ({new - old:+.6g})"

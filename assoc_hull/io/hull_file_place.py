@@ -75,15 +75,19 @@ class Place:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._file, self._log = _identity(path), _identity(log_of(path))
+        self._process = os.getpid()
 
     def require_file(self) -> None:
-        """Refuse another file of the same name.
+        """Refuse another file of the same name, and another process than opened it.
 
         Raises
         ------
         HullFileError
-            The file was removed or replaced.
+            The file was removed or replaced; this process was forked from the one that opened it.
         """
+        if os.getpid() != self._process:
+            what = "it was opened before this process was forked from another"
+            raise HullFileError(str(self.path), what, "open it again here")
         if _identity(self.path) != self._file:
             remedy = "save the hull under another name, so that nothing is lost"
             raise HullFileError(str(self.path), "it was removed or replaced", remedy)

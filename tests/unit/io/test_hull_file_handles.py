@@ -89,6 +89,35 @@ def test_a_link_leads_to_the_file_and_its_log(file: Path) -> None:
     assert names(ah.open(file)) == ["one", "two"]
 
 
+def test_a_forked_process_opens_the_file_anew(file: Path) -> None:
+    """The database it inherits is not its own."""
+    hull = ah.open(file)
+    reader, writer = os.pipe()
+    pid = os.fork()
+    if not pid:
+        try:
+            shift(hull, "inherited")
+        except HullFileError as error:
+            os.write(writer, str(error).encode())
+        finally:
+            os._exit(0)
+    os.waitpid(pid, 0)
+    os.close(writer)
+    with os.fdopen(reader) as told:
+        assert "before this process was forked" in told.read()
+    shift(hull, "here")
+
+
+def test_an_open_edit_is_not_exported(file: Path) -> None:
+    """What it has asked for by then is no hull yet."""
+    hull = ah.open(file)
+    with hull.edit("half") as edit:
+        edit.add_line("waterlines", 2.0)
+        with pytest.raises(ah.BadInputError, match="an edit is open, in export"):
+            hull.export(file.with_name("offsets.csv"))
+    assert not file.with_name("offsets.csv").exists()
+
+
 @pytest.mark.parametrize(
     "act",
     [
