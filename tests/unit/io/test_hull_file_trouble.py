@@ -15,6 +15,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.errors import DamagedFileError, HullFileError
+from assoc_hull.io.hull_file_steps import digest
 
 POINT = "WL 4.6875 x ST 3"
 
@@ -283,3 +284,23 @@ def test_a_log_of_another_file_is_not_taken_for_its_own(file: Path) -> None:
 def test_the_limit_is_real() -> None:
     """The machine can limit the size of files, so that the tests above mean something."""
     assert hasattr(resource, "RLIMIT_FSIZE")
+
+
+def test_an_undo_that_leads_elsewhere_is_taken_back(file: Path) -> None:
+    """The state that a step recorded is not the one that its change gives: nothing is believed."""
+    database = sqlite3.connect(file, isolation_level=None)
+    row = list(database.execute("SELECT * FROM steps WHERE number = 1").fetchone())
+    row[6] = "0" * 64
+    row[7] = digest((*row[:7], *row[8:]))
+    database.execute("DELETE FROM steps WHERE number = 1")
+    database.execute(f"INSERT INTO steps VALUES ({', '.join('?' * len(row))})", row)
+    database.close()
+    hull = ah.open(file)
+    before = hull.fingerprint
+    with pytest.raises(DamagedFileError, match="the hull after step 1 is not as it was then"):
+        hull.undo()
+    assert (hull.fingerprint, len(hull.history), len(hull.undone)) == (before, 2, 0)
+    hull.undo(2)
+    hull.redo(2)
+    assert hull.fingerprint == before
+    assert hull.verify() == ()
