@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import stat
 import tempfile
 from pathlib import Path
 
@@ -30,7 +31,8 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     Parameters
     ----------
     path : path
-        The file; its folder must exist. A link is followed.
+        The file; its folder must exist. A link is followed. What is no file, such as
+        ``/dev/stdout`` or a pipe, is written to and not replaced.
     data : bytes
         The content.
 
@@ -44,7 +46,10 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
         raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
     require_no_hull_file(target)
     try:
-        _replace(target, data)
+        if _is_device(path):
+            Path(path).write_bytes(data)
+        else:
+            _replace(target, data)
     except OSError as error:
         reason = error.strerror or str(error)
         raise BadInputError(
@@ -71,12 +76,19 @@ def require_no_hull_file(path: Path) -> None:
     >>> from assoc_hull.io.whole_file import require_no_hull_file
     >>> require_no_hull_file(Path("offsets.csv"))
     """
-    if is_hull_file(path):
+    if not _is_device(path) and is_hull_file(path):
         what = "a hull file would be written over, with its history"
         raise BadInputError(what, f"at {path}", "give another name")
     if path.name.lower().endswith(".hull"):
         what, remedy = "the ending .hull is that of hull files", "end the name otherwise"
         raise BadInputError(what, f"at {path}", remedy)
+
+
+def _is_device(path: str | os.PathLike[str]) -> bool:
+    """Tell whether there is something of this name that holds no content: a device, a pipe."""
+    with contextlib.suppress(OSError):
+        return not stat.S_ISREG(os.stat(path).st_mode)
+    return False
 
 
 def _replace(target: Path, data: bytes) -> None:
