@@ -279,6 +279,13 @@ def test_lines_are_plotted(ending: str, hull: Path, tmp_path: Path) -> None:
     )
 
 
+def test_a_plot_tells_its_file(hull: Path, facts: Json, tmp_path: Path) -> None:
+    """As every command that writes one does, in JSON too."""
+    pytest.importorskip("matplotlib")
+    out = tmp_path / "lines.svg"
+    assert facts("plot", hull, "-o", out) == {"saved": str(out)}
+
+
 def test_combs_are_plotted(hull: Path, tmp_path: Path) -> None:
     """Of the lines that are named."""
     pytest.importorskip("matplotlib")
