@@ -45,7 +45,7 @@ def add(commands: Commands) -> None:
         assoc-hull edit ship.hull edits.json -o fairer.hull
         assoc-hull edit ship.hull edits.json --dry-run --json
 
-        edits.json: [{"op": "move", "point": "WL 0.5 x ST 16", "y": 7.35},
+        edits.json: [{"op": "move", "point": "WL 0.5 x ST 16", "y": 6.79},
         {"op": "pull", "point": "WL 0.5 x ST 17", "d": 0.02, "radius": [20, 8]}]
         (lengths in m; all modifications are one edit)""",
     )  # fmt: skip

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import check_target
+from assoc_hull.cli.problems import check_other_target
 from assoc_hull.io.export_book import ExportReport
 from assoc_hull.sources import open as open_hull
 
@@ -41,7 +41,7 @@ def _export(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.export import export, form_of
 
     form = form_of(arguments.out, arguments.format)
-    check_target(arguments.out, ("",))
+    check_other_target(arguments.out, arguments.hull)
     hull = open_hull(arguments.hull)
     with progress(f"writing {arguments.out}"):
         report = export(hull.state, arguments.out, form)

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from assoc_hull.cli.arguments import Commands, add_command, add_hull
 from assoc_hull.cli.output import progress
-from assoc_hull.cli.problems import UsageError, check_target
-from assoc_hull.errors import BadInputError
+from assoc_hull.cli.problems import UsageError, check_other_target
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -69,10 +68,11 @@ def _count(text: str) -> int:
 
 def _graph(arguments: argparse.Namespace) -> int:
     from assoc_hull.graph.export import export
+    from assoc_hull.io.whole_file import write_whole
 
     up, down = _hops(arguments)
     if arguments.out is not None:
-        _check_out(arguments.out, arguments.hull)
+        check_other_target(arguments.out, arguments.hull)
     hull = open_hull(arguments.hull)
     with progress("writing the graph"):
         found = hull.graph(
@@ -84,7 +84,7 @@ def _graph(arguments: argparse.Namespace) -> int:
     if arguments.out is None:
         _print(text)
     else:
-        arguments.out.write_text(text, "utf-8")
+        write_whole(arguments.out, text.encode())
     return 0
 
 
@@ -109,10 +109,3 @@ def _hops(arguments: argparse.Namespace) -> tuple[int, int]:
         both if arguments.up is None else arguments.up,
         both if arguments.down is None else arguments.down,
     )
-
-
-def _check_out(out: Path, hull: Path) -> None:
-    """Refuse a file that cannot be written, and the hull itself."""
-    check_target(out, ("",))
-    if out.exists() and hull.exists() and out.samefile(hull):
-        raise BadInputError("the graph would replace the hull", f"at {out}", "give another file")

@@ -15,7 +15,7 @@ from assoc_hull.cli.arguments import (
     add_replace,
 )
 from assoc_hull.cli.output import emit, plain, progress, progress_bar
-from assoc_hull.cli.problems import check_hull_target, check_target
+from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
 from assoc_hull.cli.words import adoption_words, hull_words, slice_words
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
@@ -121,9 +121,14 @@ def _example(arguments: argparse.Namespace) -> int:
 
 
 def _import(arguments: argparse.Namespace) -> int:
+    from assoc_hull.io.whole_file import write_whole
+
     check_hull_target(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
         check_target(arguments.report, (".json",))
+        if not is_apart(arguments.report, arguments.out):
+            what = "the report would be written over the hull"
+            raise BadInputError(what, f"at {arguments.report}", "give it another name")
     if arguments.picture is not None:
         check_target(arguments.picture, PICTURE_ENDINGS)
         _require_plot()
@@ -134,7 +139,7 @@ def _import(arguments: argparse.Namespace) -> int:
             _draw(hull, arguments.picture)
     hull.save(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
-        arguments.report.write_text(json.dumps(plain(report), indent=1) + "\n", "utf-8")
+        write_whole(arguments.report, (json.dumps(plain(report), indent=1) + "\n").encode())
     _tell(arguments, hull, {"report": report}, text + "\n")
     return 0
 

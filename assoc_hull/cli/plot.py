@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull
-from assoc_hull.cli.output import progress
+from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_target
 from assoc_hull.sources import open as open_hull
 
@@ -28,6 +28,7 @@ def add(commands: Commands) -> None:
     parser.add_argument(
         "--combs", nargs="+", metavar="LINE", help="draw these lines with their curvature"
     )
+    add_json(parser)
 
 
 def _plot(arguments: argparse.Namespace) -> int:
@@ -42,4 +43,5 @@ def _plot(arguments: argparse.Namespace) -> int:
             curvature_combs(hull, arguments.combs, arguments.out, paper=arguments.paper)
         else:
             lines_plan(hull, arguments.out, paper=arguments.paper)
+    emit(arguments, {"saved": str(arguments.out)}, f"written: {arguments.out}")
     return 0

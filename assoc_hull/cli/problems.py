@@ -15,6 +15,7 @@ __all__ = [
     "InFileError",
     "UsageError",
     "check_hull_target",
+    "check_other_target",
     "check_target",
     "explain",
     "is_apart",
@@ -126,6 +127,29 @@ def check_hull_target(path: Path, *, replace: bool) -> None:
     if path.name.endswith(FILE_ENDING) and path.exists() and not replace:
         what, remedy = "there is a file of this name", "choose another name, or say --replace"
         raise BadInputError(what, f"at {path}", remedy)
+
+
+def check_other_target(path: Path, hull: Path) -> None:
+    """Refuse, before anything is computed, to write something else over a hull.
+
+    Parameters
+    ----------
+    path : Path
+        The file to be written, with any ending but that of hull files.
+    hull : Path
+        The hull that is read.
+
+    Raises
+    ------
+    BadInputError
+        See `check_target`; or a hull file lies there, or the hull that is read.
+    """
+    from assoc_hull.io.whole_file import require_no_hull_file
+
+    check_target(path, ("",))
+    require_no_hull_file(path)
+    if path.exists() and hull.exists() and path.samefile(hull):
+        raise BadInputError("the hull would be written over", f"at {path}", "give another name")
 
 
 def is_apart(out: Path | None, hull: Path) -> bool:

@@ -59,10 +59,11 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 
 def _schema(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.hull_schema import dumps_hull_schema
+    from assoc_hull.io.whole_file import write_whole
 
     if arguments.out is None:
         print(dumps_hull_schema(), end="")
         return 0
     check_target(arguments.out, (".json",))
-    arguments.out.write_text(dumps_hull_schema(), "utf-8")
+    write_whole(arguments.out, dumps_hull_schema().encode())
     return 0

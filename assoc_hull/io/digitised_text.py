@@ -76,8 +76,8 @@ def _parser(text: str) -> Parse | None:
     """Tell by the content what reads a text; None if it holds no digitised lines."""
     forms: tuple[tuple[Callable[[str], bool], Parse], ...] = (
         (_is_csv, _parse_csv), (_is_dxf, _parse_dxf), (is_britfair, parse_britfair),
-        (is_delftship, parse_delftship), (is_delftship_offsets, parse_delftship_offsets),
-        (is_gf, parse_gf),
+        (is_delftship, parse_delftship), (is_gf, parse_gf),
+        (is_delftship_offsets, parse_delftship_offsets),  # tells by one row: a title may look alike
     )  # fmt: skip
     return next((parse for is_form, parse in forms if is_form(text)), None)
 

@@ -109,5 +109,5 @@ def _particular(text: str, names: str) -> float | None:
 
 
 def _rounding(text: str) -> tuple[float, ...]:
-    found = re.search(r"^rounding\s*:((?:\s+[0-9]*\.?[0-9]+)+)\s*$", text, re.MULTILINE)
+    found = re.search(r"^rounding\s*:((?:[ \t]+[0-9]*\.?[0-9]+)+)[ \t]*$", text, re.MULTILINE)
     return tuple(float(word) for word in found[1].split()) if found else ()

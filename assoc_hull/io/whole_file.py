@@ -15,12 +15,14 @@ from __future__ import annotations
 
 import contextlib
 import os
+import stat
 import tempfile
 from pathlib import Path
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.io.hull_file_connect import is_hull_file
 
-__all__ = ["mode_for", "take_place", "write_whole"]
+__all__ = ["mode_for", "require_no_hull_file", "take_place", "write_whole"]
 
 
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
@@ -29,25 +31,64 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     Parameters
     ----------
     path : path
-        The file; its folder must exist. A link is followed.
+        The file; its folder must exist. A link is followed. What is no file, such as
+        ``/dev/stdout`` or a pipe, is written to and not replaced.
     data : bytes
         The content.
 
     Raises
     ------
     BadInputError
-        The file cannot be written.
+        The file cannot be written, or is a hull file, or has the name of one.
     """
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise BadInputError("this is a folder", f"at {target}", "give the name of a file")
+    require_no_hull_file(target)
     try:
-        _replace(target, data)
+        if _is_device(path):
+            Path(path).write_bytes(data)
+        else:
+            _replace(target, data)
     except OSError as error:
         reason = error.strerror or str(error)
         raise BadInputError(
             f"the file cannot be written ({reason})", f"at {target}", "give another place"
         ) from error
+
+
+def require_no_hull_file(path: Path) -> None:
+    """Refuse to write anything else over a hull file, whose history would go, or under its name.
+
+    Parameters
+    ----------
+    path : Path
+        Where something else than a hull file is to be written.
+
+    Raises
+    ------
+    BadInputError
+        A hull file lies there, or the name says that one does.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from assoc_hull.io.whole_file import require_no_hull_file
+    >>> require_no_hull_file(Path("offsets.csv"))
+    """
+    if not _is_device(path) and is_hull_file(path):
+        what = "a hull file would be written over, with its history"
+        raise BadInputError(what, f"at {path}", "give another name")
+    if path.name.lower().endswith(".hull"):
+        what, remedy = "the ending .hull is that of hull files", "end the name otherwise"
+        raise BadInputError(what, f"at {path}", remedy)
+
+
+def _is_device(path: str | os.PathLike[str]) -> bool:
+    """Tell whether there is something of this name that holds no content: a device, a pipe."""
+    with contextlib.suppress(OSError):
+        return not stat.S_ISREG(os.stat(path).st_mode)
+    return False
 
 
 def _replace(target: Path, data: bytes) -> None:

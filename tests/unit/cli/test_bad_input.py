@@ -245,15 +245,19 @@ def test_a_fault_of_the_program_is_one_line_too(
 def test_a_file_that_cannot_be_written_is_named(
     hull: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Whoever raises it."""
+    """And nothing is left of it; what was there stays."""
 
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "graph.dot")
 
-    monkeypatch.setattr(Path, "write_text", full)
-    line = error_of(["graph", hull, "-o", hull.with_name("graph.dot")], capsys)
+    target = hull.with_name("graph.dot")
+    target.write_text("old")
+    monkeypatch.setattr(os, "fsync", full)
+    line = error_of(["graph", hull, "-o", target], capsys)
     assert "No space left" in line
     assert "graph.dot" in line
+    assert target.read_text() == "old"
+    assert sorted(hull.parent.iterdir()) == [target, hull]
 
 
 @pytest.mark.skipif(os.name != "posix", reason="shell of another system")

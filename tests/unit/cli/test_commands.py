@@ -85,6 +85,17 @@ def test_a_table_is_imported_with_its_report(tmp_path: Path, facts: Json) -> Non
     assert (ship.particulars.length, ship.particulars.draught) == (60.0, 4.0)
 
 
+def test_a_report_is_not_written_over_the_hull(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One name for both would leave the report only."""
+    table, out = tmp_path / "s.csv", tmp_path / "s.hull.json"
+    table.write_text(TABLE, "utf-8")
+    assert main(["import", str(table), "-o", str(out), "--report", str(out)]) == 2
+    assert "the report would be written over the hull" in capsys.readouterr().err
+    assert not out.exists()
+
+
 def test_an_import_tells_what_it_assumed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -214,7 +225,7 @@ def test_a_graph_does_not_replace_its_hull(hull: Path, capsys: pytest.CaptureFix
     (hull.parent / "link").symlink_to(hull)
     for name in (hull, hull.parent / "link"):
         assert main(["graph", str(hull), "-o", str(name)]) == 2
-        assert "would replace the hull" in capsys.readouterr().err
+        assert "the hull would be written over" in capsys.readouterr().err
     assert hull.read_bytes() == before
 
 
@@ -266,6 +277,13 @@ def test_lines_are_plotted(ending: str, hull: Path, tmp_path: Path) -> None:
     assert path.read_bytes().startswith(
         {"pdf": b"%PDF", "svg": b"<?xml", "png": b"\x89PNG"}[ending]
     )
+
+
+def test_a_plot_tells_its_file(hull: Path, facts: Json, tmp_path: Path) -> None:
+    """As every command that writes one does, in JSON too."""
+    pytest.importorskip("matplotlib")
+    out = tmp_path / "lines.svg"
+    assert facts("plot", hull, "-o", out) == {"saved": str(out)}
 
 
 def test_combs_are_plotted(hull: Path, tmp_path: Path) -> None:

@@ -110,3 +110,54 @@ def test_an_export_that_fails_leaves_the_old_file(
     assert "No space left on device" in capsys.readouterr().err
     assert out.read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", hull.name]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["export", "--format", "csv"], ["export", "--format", "hull"], ["graph"]],
+    ids=["csv", "text", "graph"],
+)
+def test_nothing_else_is_written_over_a_hull_file(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], command: list[str]
+) -> None:
+    """A hull file keeps its history: the one that is read, any other, and under any name."""
+    files = [tmp_path / name for name in ("own.hull", "other.hull", "kept.csv")]
+    for file in files[:2]:
+        assert main(["import", str(hull), "-o", str(file)]) == 0
+    files[2].write_bytes(files[1].read_bytes())
+    before = [file.read_bytes() for file in files]
+    capsys.readouterr()
+    for file in files:
+        assert main([command[0], str(files[0]), "-o", str(file), *command[1:]]) == 2
+        assert "a hull file would be written over" in capsys.readouterr().err
+    assert [file.read_bytes() for file in files] == before
+    assert main([command[0], str(files[0]), "-o", str(tmp_path / "new.hull"), *command[1:]]) == 2
+    assert "the ending .hull is that of hull files" in capsys.readouterr().err
+    assert not (tmp_path / "new.hull").exists()
+
+
+def test_a_form_is_not_written_over_the_text_that_is_read(
+    hull: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A table in the place of the hull would be all that is left of it."""
+    before = hull.read_bytes()
+    assert main(["export", str(hull), "-o", str(hull), "--format", "csv"]) == 2
+    assert "the hull would be written over" in capsys.readouterr().err
+    assert hull.read_bytes() == before
+
+
+def test_python_refuses_the_same(tmp_path: Path) -> None:
+    """`hull.export` and `hull.save` to text leave hull files alone, an open one too."""
+    ship = ah.examples.wigley()
+    ship.save(tmp_path / "ship.hull")
+    with pytest.raises(ah.BadInputError, match="a hull file would be written over"):
+        ship.export(tmp_path / "ship.hull", "gf")
+    (tmp_path / "kept.hull.json").write_bytes((tmp_path / "ship.hull").read_bytes())
+    with pytest.raises(ah.BadInputError, match="a hull file would be written over"):
+        ship.save(tmp_path / "kept.hull.json")
+    with ship.edit("after") as edit:
+        edit.move("WL 2.5 x ST 7", y=2.95)
+    ship.close()
+    again = ah.open(tmp_path / "ship.hull")
+    assert len(again.history) == 1
+    again.close()

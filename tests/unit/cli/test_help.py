@@ -1,13 +1,17 @@
 """Every command says what it is for and shows how it is called."""
 
 import argparse
+import json
 import re
 import shlex
 from pathlib import Path
 
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.cli.parser import make_parser
+
+_ACROSS = re.MULTILINE | re.DOTALL
 
 
 def commands() -> dict[str, argparse.ArgumentParser]:
@@ -86,3 +90,13 @@ def test_the_page_names_every_argument_of_a_command(name: str) -> None:
     for line in shown:
         words = shlex.split(line.split("\n")[0].partition(" > ")[0])
         assert callable(make_parser().parse_args(words).run)
+
+
+def test_the_edits_that_are_shown_can_be_made() -> None:
+    """Those of the page and of the help, on the hull that the other examples are about."""
+    ship = ah.examples.series60(cb=0.70)
+    blocks = re.findall(r"^    (\[\{?$.*?^ *\]|\[\{.*?\}\])$", SECTIONS["edit"], _ACROSS)
+    (helped,) = re.findall(r"edits\.json: (\[.*?\}\])", COMMANDS["edit"].epilog or "", re.DOTALL)
+    assert len(blocks) == 2
+    for text in (*blocks, helped):
+        assert ship.preview(json.loads(text)).refused == ()

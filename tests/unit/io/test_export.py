@@ -1,8 +1,10 @@
 """Each form: written, read back, compared, for three hulls; and what a form cannot hold is told."""
 
 import json
+import sys
 from pathlib import Path
 
+import attrs
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ from assoc_hull.io.line_points import CHORD, DrawnLine, lines_as_points
 from assoc_hull.io.offsets import OffsetTable, read_offsets
 from assoc_hull.io.section_text import sections_of
 from assoc_hull.io.slice_types import Slices
+from assoc_hull.model.state import Particulars
 from assoc_hull.sources import examples
 
 SECTIONS = ("britfair", "delftship", "gf")
@@ -177,6 +180,30 @@ def test_the_ending_tells_the_form_and_the_content_tells_it_back(
     assert len(hull.groups["sections"].lines) == 19
     assert hull.check() == ()
     assert hull.verify() == ()
+
+
+@pytest.mark.parametrize("name", ["1234", "12 34.5", "Station 3", "T = 2", "unit: ft", "=1+1"])
+@pytest.mark.parametrize("form", [*TABLES, "britfair", "gf"])
+def test_a_ship_may_be_called_anything(
+    form: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A yard number, or words the reader looks for: the name says nothing of the numbers."""
+    plain, named = (tmp_path / each for each in ("plain", "named"))
+    examples.wigley(stations=9, waterlines=5).export(plain, form)
+    module = sys.modules["assoc_hull.examples.wigley"]
+    monkeypatch.setattr(module, "Particulars", lambda _, *sizes: Particulars(name, *sizes))
+    ship = examples.wigley(stations=9, waterlines=5)
+    assert ship.particulars.name == name
+    ship.export(named, form)
+    one, other = (
+        ah.read(each, draught=6.0) if form not in TABLES else ah.read(each)
+        for each in (plain, named)
+    )
+    sizes = [attrs.astuple(each.particulars)[1:] for each in (one, other)]
+    assert sizes[0] == sizes[1]
+    assert [list(each.groups["sections"].lines) for each in (one, other)] == [
+        list(one.groups["sections"].lines)
+    ] * 2
 
 
 def test_a_table_that_no_rule_completes_is_adopted_as_it_stands(

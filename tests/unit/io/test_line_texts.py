@@ -1,5 +1,6 @@
 """What other programs may write in these forms, and we do not: read, or told."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -148,3 +149,15 @@ def test_a_link_is_followed(tmp_path: Path) -> None:
     write_whole(tmp_path / "link", b"new")
     assert (tmp_path / "a").read_text() == "new"
     assert (tmp_path / "link").is_symlink()
+
+
+def test_a_pipe_is_written_to_and_stays(tmp_path: Path) -> None:
+    """What is no file, a device too, is not replaced by one, nor is it looked into."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    write_whole(pipe, b"lines")
+    assert os.read(reader, 100) == b"lines"
+    os.close(reader)
+    assert pipe.is_fifo()
+    assert list(tmp_path.iterdir()) == [pipe]
