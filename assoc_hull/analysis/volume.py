@@ -85,7 +85,8 @@ def _with_ends(
     lines = state.live("lines")
     ends = lines[state.lines.boundary.data[lines] == BoundaryKind.END]
     ends = ends[np.abs(state.lines.normal.data[ends, 1]) == 1.0]
-    curves = [curve for line in ends.tolist() for curve in state.lines.curves.data[line]]
+    live = state.curves.alive.data
+    curves = [c for line in ends.tolist() for c in state.lines.curves.data[line] if live[c]]
     if not curves:
         return place, area
     points = sample(SplineBatch.join([state.spline(curve) for curve in curves]), 16)[1]

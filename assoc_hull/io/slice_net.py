@@ -101,6 +101,11 @@ def sources_from_slices(
         borders.setdefault(source.name, []).append(loft_source(source))
     parts = [snap_ends(p, borders, 0.5 * allowed) for p in parts if p.line.group != "boundary"]
     parts, curves, drawn = draw_borders(parts, knuckles, wanted, allowed)
+    if not parts:
+        raise BadInputError(
+            "no section, waterline or buttock is left to be adopted", f"in {slices.name}",
+            "check unit, scale and axes, or ask for more planes",
+        )  # fmt: skip
     plans = [plan_piece(part, wanted) for part in parts]
     links = _links({plan.part.line.group for plan in plans})
     joined = join_plans(plans, links, max(wanted.near_least, wanted.near_times * noise))

@@ -276,7 +276,7 @@ def run_change(state: HullState, change: Change, *, forward: bool) -> None:
     curves = np.union1d(change.lofted, revived)
     curves = curves[curves < state.curves.count]
     shape_curves(state, curves, change.kept[forward])
-    for curve in curves[state.curves.alive.data[curves]].tolist():
+    for curve in state.live("curves").tolist():
         if state.curves.spline.data[curve] is None:
             raise ValueError(f"the curve {state.curves.key.data[curve]!r} would have no shape")
 
