@@ -48,11 +48,16 @@ def speaking_of(path: Path, waited: float = 0.0) -> Iterator[None]:
         It does not hold what was written to it.
     HullFileError
         The disk is full, the file may not be written, or input or output failed.
+    BadInputError
+        A name cannot be written.
     """
     try:
         yield
     except sqlite3.Error as error:
         raise _explained(error, path, waited) from error
+    except UnicodeEncodeError as error:
+        what = f"a name holds {error.object[error.start]!r}, which is no character"
+        raise BadInputError(what, f"for {path}", "choose another name") from error
     except UnicodeDecodeError as error:  # the database quotes what it found
         what = "it is damaged (there are bytes that are no text)"
         raise DamagedFileError(what, f"at {path}", _COPY) from error

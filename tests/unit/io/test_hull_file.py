@@ -4,10 +4,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import attrs
 import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import FileBusyError, HullFileError, NameTakenError, StaleHullError
+from assoc_hull.model.state import HullState
 
 POINT = "WL 2.5 x ST 7"
 OTHER = "WL 3.75 x ST 12"
@@ -354,6 +356,24 @@ def test_a_path_is_the_same_wherever_one_stands(
     monkeypatch.chdir(tmp_path / "elsewhere")
     shift(again, "from elsewhere")
     assert [each.name for each in ah.open(file).history] == ["from elsewhere"]
+
+
+def test_a_name_that_is_no_text_is_refused(hull: ah.Hull, file: Path, tmp_path: Path) -> None:
+    """Of an edit, an author, a checkpoint or the ship; nothing is kept, and all goes on."""
+    before = stand(hull)
+    refused = r"which is no character|give printable text"
+    with pytest.raises(ah.BadInputError, match=refused):
+        shift(hull, "fair \ud800")
+    with pytest.raises(ah.BadInputError, match=refused):
+        hull.checkpoint("\ud800")
+    with pytest.raises(ah.BadInputError, match=refused):
+        hull.author = "\ud800"
+    assert stand(hull) == before == stand(ah.open(file))
+    odd = HullState(attrs.evolve(hull.particulars, name="\ud800"))
+    with pytest.raises(ah.BadInputError, match="which is no character"):
+        ah.Hull(odd).save(tmp_path / "odd.hull")
+    assert sorted(path.name for path in tmp_path.glob("odd*")) == []
+    shift(hull, "fair")
 
 
 def test_an_interrupt_leaves_no_two_truths(
