@@ -42,10 +42,10 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.keeper import Label
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Rerun, Step, StepBody
-from assoc_hull.errors import AssocHullError, DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file_connect import as_written, connect, speaking_of
 from assoc_hull.io.hull_file_place import Connection, Place
 from assoc_hull.io.hull_file_sound import require_sound, require_whole
 from assoc_hull.io.hull_file_steps import (
@@ -68,11 +68,9 @@ from assoc_hull.model.definition import fingerprint
 from assoc_hull.model.prints import Printer, is_shape
 from assoc_hull.model.state import HullState
 
-__all__ = ["ODD", "HullFile"]
+__all__ = ["HullFile"]
 
 _COPY = "take it from a copy; what is in memory is as it was"
-ODD = (ValueError, TypeError, LookupError, ArithmeticError, AttributeError)
-"""What reading rows may come upon that were never written."""
 
 
 class HullFile:
@@ -158,9 +156,8 @@ class HullFile:
     def commit(self, step: Step, branch: Label | None) -> None:
         """Write a step and what it changed, and bring it to the disk."""
         journal = step.journal
-        change = change_of(self.state, journal) if isinstance(journal, Journal) else None
-        if change is None:
-            raise TypeError("a step that was just made holds its journal")
+        assert isinstance(journal, Journal), "a step that was just made holds its journal"
+        change = change_of(self.state, journal)
         with speaking_of(self.path):
             self._put(change, step.rows, step.curves)
             self._look_anew(change)
@@ -172,14 +169,19 @@ class HullFile:
 
     def keep(self, step: Step, change: Change) -> None:
         """Let a step hold no more of its journal than its change, and that only for a while."""
-        body, number = step.body, step.number
-        step.load, step.tell = partial(self.load, number), partial(self.tell, number)
+        body = step.body
+        self._lend(step)
         rerun = Rerun(self.state, change)
         step.replace(StepBody(rerun, body.cause, body.changed, body.moved, body.seeds, body.report))
 
+    def _lend(self, step: Step) -> None:
+        """Let a step read from the file what it does not hold."""
+        step.load = partial(self.load, step.number)
+        step.tell = partial(self.tell, step.number)
+
     def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
         """Write the rows that steps changed when they were run, and where the hull is now."""
-        with speaking_of(self.path), _fitting(self.path):
+        with speaking_of(self.path), as_written(self.path, "the history does not fit the hull"):
             for step in steps:
                 journal = step.journal
                 assert isinstance(journal, Rerun), "a step that is kept holds its change"
@@ -261,7 +263,7 @@ class HullFile:
             It is not as it was written.
         """
         row = self._read("SELECT * FROM steps WHERE number = ?", number)
-        with _step_of(self.path, number):
+        with as_written(self.path, f"step {number} cannot be read"):
             return body_of(row, self.state)
 
     def tell(self, number: int) -> EditReport:
@@ -273,7 +275,7 @@ class HullFile:
             It cannot be read.
         """
         (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
-        with _step_of(self.path, number):
+        with as_written(self.path, f"step {number} cannot be read"):
             return report_from(text)
 
     def _read(self, sql: str, number: int) -> Any:
@@ -317,7 +319,7 @@ class HullFile:
             if number in changes:
                 self.keep(step, changes[number])
             else:
-                step.load, step.tell = partial(self.load, number), partial(self.tell, number)
+                self._lend(step)
 
     def copy_to(self, database: sqlite3.Connection) -> None:
         """Copy the whole file into another database."""
@@ -366,25 +368,3 @@ class HullFile:
             except DamagedFileError as error:
                 found.append(error.what)
         return found
-
-
-@contextlib.contextmanager
-def _step_of(path: Path, number: int) -> Iterator[None]:
-    """Say that a step cannot be read where its row is not what was written."""
-    try:
-        yield
-    except ODD as error:
-        what = " ".join(f"step {number} cannot be read ({error})".split())
-        raise DamagedFileError(what, f"in {path}", _COPY) from error
-
-
-@contextlib.contextmanager
-def _fitting(path: Path) -> Iterator[None]:
-    """Say that the history is damaged where it leads to what no hull is."""
-    try:
-        yield
-    except ODD as error:
-        if isinstance(error, AssocHullError):
-            raise
-        what = " ".join(f"the history does not fit the hull ({error})".split())
-        raise DamagedFileError(what, f"in {path}", _COPY) from error

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import Change
-from assoc_hull.model.places import PlacesOn
+from assoc_hull.model.places_on_curves import PlacesOn
 from assoc_hull.model.state import Association, Ends, Particulars
 
 __all__ = ["pack_change", "unpack_change"]

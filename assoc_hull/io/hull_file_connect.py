@@ -17,11 +17,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import quote
 
+import numpy as np
+
 from assoc_hull.errors import BadInputError, DamagedFileError, FileBusyError, HullFileError
 from assoc_hull.io.hull_file_place import Connection, is_open_here, log_of
 from assoc_hull.io.hull_file_schema import APPLICATION, SCHEMA, migrate
 
-__all__ = ["connect", "is_hull_file", "speaking_of", "writable"]
+__all__ = ["as_written", "connect", "is_hull_file", "speaking_of", "writable"]
 
 _MAGIC = b"SQLite format 3\x00"
 _COPY = "take it from a copy, and look after the disk"
@@ -61,6 +63,32 @@ def speaking_of(path: Path, waited: float = 0.0) -> Iterator[None]:
     except UnicodeDecodeError as error:  # the database quotes what it found
         what = "it is damaged (there are bytes that are no text)"
         raise DamagedFileError(what, f"at {path}", _COPY) from error
+
+
+@contextlib.contextmanager
+def as_written(path: Path, fault: str) -> Iterator[None]:
+    """Say that a file is damaged where it holds what was never written to one.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    fault : str
+        What cannot be done with it then.
+
+    Raises
+    ------
+    DamagedFileError
+        With what was come upon.
+    """
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except DamagedFileError:
+        raise
+    except (ValueError, TypeError, LookupError, ArithmeticError, AttributeError) as error:
+        what = " ".join(f"{fault} ({error})".split())
+        raise DamagedFileError(what, f"in {path}", "take it from a copy") from error
 
 
 def _explained(error: sqlite3.Error, path: Path, waited: float) -> Exception:

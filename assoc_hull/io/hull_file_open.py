@@ -20,18 +20,13 @@ Wigley
 
 from __future__ import annotations
 
-import contextlib
 import getpass
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
-
 from assoc_hull.edit.document import Document
-from assoc_hull.errors import DamagedFileError
-from assoc_hull.io.hull_file import ODD, HullFile
-from assoc_hull.io.hull_file_connect import connect, speaking_of
+from assoc_hull.io.hull_file import HullFile
+from assoc_hull.io.hull_file_connect import as_written, connect, speaking_of
 from assoc_hull.io.hull_file_sound import require_sound
 from assoc_hull.io.hull_file_tables import read_state
 
@@ -71,7 +66,7 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
     path = Path(os.path.realpath(path))
     database = connect(path, wait)
     try:
-        with speaking_of(path, wait), _reading(path):
+        with speaking_of(path, wait), as_written(path, "it is damaged"):
             database.execute("BEGIN")
             state = read_state(database)
             file = HullFile(path, database, state, wait)
@@ -86,16 +81,3 @@ def open_hull_file(path: Path, wait: float = 0.0, *, damaged: bool = False) -> D
         database.close()
         raise
     return document
-
-
-@contextlib.contextmanager
-def _reading(path: Path) -> Iterator[None]:
-    """Say that a file is damaged where it holds what no hull file holds."""
-    try:
-        with np.errstate(all="ignore"):
-            yield
-    except ODD as error:
-        if isinstance(error, DamagedFileError):
-            raise
-        what = " ".join(f"it is damaged ({type(error).__name__}: {error})".split())
-        raise DamagedFileError(what, f"at {path}", "take it from a copy") from error

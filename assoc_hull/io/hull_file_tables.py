@@ -30,7 +30,7 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import shape_curves
 from assoc_hull.model.family import State
-from assoc_hull.model.places import PlacesOn, places_of, put_places_of
+from assoc_hull.model.places_on_curves import PlacesOn, places_of, put_places_of
 from assoc_hull.model.state import Association, Ends, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 

@@ -38,7 +38,7 @@ from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, same_value
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.family import State
-from assoc_hull.model.places import PlacesOn, Then, places_of, put_places_of
+from assoc_hull.model.places_on_curves import PlacesOn, Then, places_of, put_places_of
 from assoc_hull.model.recipe import loft_curves
 from assoc_hull.model.state import HullState
 

@@ -8,7 +8,7 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.examples.wigley import wigley
->>> from assoc_hull.model.places import put_places_of, places_of
+>>> from assoc_hull.model.places_on_curves import put_places_of, places_of
 >>> state = wigley()
 >>> found = places_of(state, np.arange(state.curves.count))
 >>> put_places_of(state, found)
