@@ -123,7 +123,7 @@ class CoonsStrips:
         cells = self.cells
         curve, tile = _spread(cells.tile_start, strip)
         start = _starts(cells.tile_start, strip)
-        bow, turn, place = self._bows(strip, v)
+        bow, turn = self._bows(strip, v)
         anchors = _starts(cells.anchor_start, strip)
         lower = anchors[curve] + cells.tile_anchor[tile] - cells.anchor_start[strip[curve]]
         at = v[curve][:, None, None]
@@ -135,7 +135,7 @@ class CoonsStrips:
             return IsoCurves(start, point, across, deck)
         return _with_decks(start, point, across, cells.deck[strip])
 
-    def _bows(self, strip: IntArray, v: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    def _bows(self, strip: IntArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v."""
         cells = self.cells
         curve, anchor = _spread(cells.anchor_start, strip)
@@ -154,7 +154,7 @@ class CoonsStrips:
             begin, finish = first[which], last[which]
             bow[chosen] = place - ((1.0 - w)[:, None] * begin + w[:, None] * finish)
             turn[chosen] = slope - (finish - begin)
-        return bow, turn, curve
+        return bow, turn
 
     def _rise(self, tile: IntArray, bow: FloatArray, lower: IntArray) -> FloatArray:
         """Give what the anchors below and above add to each tile, as cubics (s, 4, 3)."""

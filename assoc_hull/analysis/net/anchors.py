@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import attrs
@@ -72,7 +73,7 @@ def spans(net: Net) -> Spans:
     for curve in sorted(marks):
         order = sorted(marks[curve])
         rank = _PLACES.index(net.family[curve])
-        for (t0, c0, s0), (t1, c1, s1) in zip(order, order[1:], strict=False):
+        for (t0, c0, s0), (t1, c1, s1) in itertools.pairwise(order):
             if t1 > t0:
                 found.append(((curve, t0, t1), (c0, s0), (c1, s1), rank))
     of: dict[tuple[int, int], tuple[int, ...]] = {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import attrs
@@ -84,14 +85,15 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         run = anchors(net, frame, every)
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        for i, (below, above) in enumerate(zip(run, run[1:], strict=False)):
+        for i, (below, above) in enumerate(itertools.pairwise(run)):
             aft = draft.add(_between(frame.aft, below.aft, above.aft))
             fore = draft.add(_between(frame.fore, below.fore, above.fore))
             draft.cell.append((len(draft.anchor) - len(run) + i, aft, fore))
         draft.anchor_start.append(len(draft.anchor))
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
-    return Layout(_cells(net, draft, found, shapes(paths, net.batch), closed), tuple(found), lost)
+    cells = _cells(net, draft, found, shapes(paths, net.batch), closed)
+    return Layout(cells, tuple(found), tuple(lost))
 
 
 def _between(rail: tuple[Part, ...], low: Spot, high: Spot) -> list[Part]:
@@ -111,8 +113,8 @@ def _cells(net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, clos
     tiles: list[tuple[int, int, int, int, int]] = []
     tile_start = [0]
     for i in range(len(found)):
-        for anchor, aft, fore in draft.cell[draft.cell_start[i] : draft.cell_start[i + 1]]:
-            tiles += [(anchor, *tile) for tile in _tiles(walked, aft, fore)]
+        for lower, aft, fore in draft.cell[draft.cell_start[i] : draft.cell_start[i + 1]]:
+            tiles += [(lower, *tile) for tile in _tiles(walked, aft, fore)]
         tile_start.append(len(tiles))
     table = np.array(tiles, np.int64).reshape(-1, 5)
     anchor_start = np.array(draft.anchor_start, np.int64)
@@ -122,15 +124,20 @@ def _cells(net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, clos
             frame.plane and _steady(walked, anchor[anchor_start[i] : anchor_start[i + 1]])
             for i, frame in enumerate(found)
         ],
-        bool,
+        np.bool_,
     )
-    deck = np.array([closed and _is_deck(net, frame) for frame in found], bool)
+    deck = np.array([closed and _is_deck(net, frame) for frame in found], np.bool_)
+    column = [table[:, i].copy() for i in range(5)]
     return Cells(
         walked.paths,
         anchor_start,
         anchor,
         np.array(tile_start, np.int64),
-        *(table[:, column].copy() for column in range(5)),
+        column[0],
+        column[1],
+        column[2],
+        column[3],
+        column[4],
         plane,
         deck,
         np.where(plane, _ORDER, _END_ORDER).astype(np.int64),

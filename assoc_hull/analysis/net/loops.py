@@ -144,7 +144,7 @@ def _joined(
     finish: FloatArray,
     near: float,
 ) -> list[_Edge]:
-    """Number the ends of the arcs; ends that lie near one another have one number."""
+    """Give the ends of the arcs numbers, the same to ends that lie near one another."""
     node: list[FloatArray] = []
 
     def number(place: FloatArray) -> int:
@@ -345,10 +345,11 @@ def _upward(
     if swept < 0.0:
         aft, fore, keel, deck = _turned(aft), _turned(fore), deck, keel
     plane = all(_stands(net, edge) for edge in aft + fore)
-    parts = (
-        tuple(edge.part for edge in run if edge.part[0] >= 0) for run in (aft, fore, keel, deck)
-    )
-    return Frame(*parts, slab, plane)
+    return Frame(_parts(aft), _parts(fore), _parts(keel), _parts(deck), slab, plane)
+
+
+def _parts(run: list[_Edge]) -> tuple[Part, ...]:
+    return tuple(edge.part for edge in run if edge.part[0] >= 0)
 
 
 def _stands(net: Net, edge: _Edge) -> bool:
