@@ -86,9 +86,10 @@ def gather(state: HullState) -> Net:
     end = boundary == BoundaryKind.END
     across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
     offset = table.offset.data[lines]
-    meets, place = _crossings(state, curves)
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    meets, place = _crossings(state, curves, batch)
     return Net(
-        SplineBatch.join([state.spline(curve) for curve in curves.tolist()]),
+        batch,
         curves,
         tuple(str(table.name.data[line]) for line in lines.tolist()),
         family,
@@ -101,15 +102,22 @@ def gather(state: HullState) -> Net:
     )
 
 
-def _crossings(state: HullState, curves: IntArray) -> tuple[IntArray, FloatArray]:
+def _crossings(
+    state: HullState, curves: IntArray, batch: SplineBatch
+) -> tuple[IntArray, FloatArray]:
     """Give which two curves of the net cross in each defining crossing, and where on them."""
     number = np.full(state.curves.count + 1, -1, np.int64)
     number[curves] = np.arange(len(curves))
-    rows = state.live("rows")
     table = state.rows
+    place = table.parameter.data[: table.count].copy()
+    # Where a line ends on another it has no meeting, but a defining point: a knot.
+    row = np.concatenate([state.curves.rows.data[curve] for curve in curves.tolist()])
+    side = np.concatenate([state.curves.side.data[curve] for curve in curves.tolist()])
+    place[row, side] = batch.knot
+    rows = state.live("rows")
     rows = rows[(table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] != Role.WATCHED)]
     both = number[table.curve.data[rows]]
-    place = table.parameter.data[rows]
+    place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
     return both[good], place[good]
 
