@@ -4,11 +4,12 @@ Between two *rails* (curves across the ship: sections, a stem) run *anchors* (cu
 waterlines, keel, deck edge). Two neighbouring anchors and the rails bound a cell, and the
 cell is the bilinear Coons patch in the form
 
-    P(u, v) = (1 - v) R0(u) + v R1(u) + (1 - f) D0(v) + f D1(v)
+    P(u, v) = (1 - v) R0(u) + v R1(u) + D(f, v)
 
-with D the way by which an anchor leaves its own chord, and f from 0 to 1 over the cell. So
-rails and anchors lie in the surface exactly, neighbouring cells join without a gap, and the
-surface leaves a smooth hull by an amount of fourth order in the spacing of the lines.
+with D(f, v) the way by which the anchors leave their own chords, carried on between them by
+cubics in f, the place up the cell from 0 to 1. So rails and anchors lie in the surface exactly
+and neighbouring cells join without a gap. Straight lines in f in place of cubics would be
+Coons's bilinear patch.
 
 Source: S.A. Coons, "Surfaces for computer-aided design of space forms", MIT Project MAC
 TR-41 (1967).
@@ -39,6 +40,10 @@ class Cells:
         Where the anchors of each strip begin; from keel to deck.
     anchor : (a,) int
         The path of each anchor; -1 for a straight one.
+    near : (a, 2, 3) int
+        Three anchors from which the slope of D follows below and above each anchor.
+    lean : (a, 2, 3)
+        By which weights; the slope is for the whole cell, f from 0 to 1.
     tile_start : (n + 1,) int
         Where the tiles of each strip begin; from keel to deck.
     tile_anchor : (t,) int
@@ -59,6 +64,8 @@ class Cells:
     paths: Paths
     anchor_start: IntArray
     anchor: IntArray
+    near: IntArray
+    lean: FloatArray
     tile_start: IntArray
     tile_anchor: IntArray
     aft: IntArray
@@ -158,11 +165,19 @@ class CoonsStrips:
 
     def _rise(self, tile: IntArray, bow: FloatArray, lower: IntArray) -> FloatArray:
         """Give what the anchors below and above add to each tile, as cubics (s, 4, 3)."""
-        low, high = self.low[tile][:, None], self.high[tile][:, None]
+        cells = self.cells
+        anchor = cells.tile_anchor[tile]
+        shift = (lower - anchor)[:, None]
         below, above = bow[lower], bow[lower + 1]
         step = above - below
-        nil = np.zeros_like(step)
-        return np.stack([below + low * step, (high - low) * step, nil, nil], axis=1)
+        leave, arrive = (
+            (bow[cells.near[at, side] + shift] * cells.lean[at, side][:, :, None]).sum(axis=1)
+            for at, side in ((anchor, 1), (anchor + 1, 0))
+        )
+        cubic = np.stack(
+            [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step], axis=1
+        )
+        return stretch(cubic, self.low[tile], self.high[tile])
 
 
 def _starts(start: IntArray, strip: IntArray) -> IntArray:

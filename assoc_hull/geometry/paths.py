@@ -168,7 +168,11 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     whole = (total[paths.start[1:]] - base)[owner]
     base = base[owner]
     cubic = stretch(power(batch)[paths.segment], paths.low, paths.high)
-    return PathShapes(paths, cubic, (total[:-1] - base) / whole, (total[1:] - base) / whole)
+    # A path that is a point has one bit, from 0 to 1 like any other.
+    point = whole == 0.0
+    whole = np.where(point, 1.0, whole)
+    finish = np.where(point, 1.0, (total[1:] - base) / whole)
+    return PathShapes(paths, cubic, (total[:-1] - base) / whole, finish)
 
 
 def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

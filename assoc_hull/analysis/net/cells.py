@@ -8,11 +8,12 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.net.anchors import Spot, anchors, spans
+from assoc_hull.analysis.net.anchors import Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.geometry.coons import Cells
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
 
 __all__ = ["Layout", "lay_out"]
@@ -20,10 +21,6 @@ __all__ = ["Layout", "lay_out"]
 _ORDER, _END_ORDER = 4, 8
 """Gauss points along a strip between sections, and along one at an end of the ship, where
 lines are steeper."""
-
-_SAMPLES = np.linspace(0.0, 1.0, 9)
-_STEADY = 0.02
-"""Along an anchor x grows everywhere by this part of its mean growth at least."""
 
 _SLIVER = 1e-10
 """Tiles of a smaller part of a cell are not made."""
@@ -56,6 +53,8 @@ class _Draft:
     paths: list[list[Bit]] = attrs.field(factory=list)
     anchor_start: list[int] = attrs.field(factory=lambda: [0])
     anchor: list[int] = attrs.field(factory=list)
+    near: list[IntArray] = attrs.field(factory=list)
+    lean: list[FloatArray] = attrs.field(factory=list)
     cell: list[tuple[int, int, int]] = attrs.field(factory=list)
     cell_start: list[int] = attrs.field(factory=lambda: [0])
 
@@ -81,19 +80,64 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
     found, lost = frames(net, arcs(net, x), len(x), length)
     every = spans(net)
     draft = _Draft(net)
-    for frame in found:
-        run = anchors(net, frame, every)
+    for i, given in enumerate(found):
+        found[i], run = anchors(given, every)
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        for i, (below, above) in enumerate(itertools.pairwise(run)):
-            aft = draft.add(_between(frame.aft, below.aft, above.aft))
-            fore = draft.add(_between(frame.fore, below.fore, above.fore))
-            draft.cell.append((len(draft.anchor) - len(run) + i, aft, fore))
+        near, lean = leans(np.array([0.5 * (each.low + each.high) for each in run]))
+        draft.near.append(near + len(draft.anchor) - len(run))
+        draft.lean.append(lean)
+        for j, (below, above) in enumerate(itertools.pairwise(run)):
+            aft = draft.add(_between(found[i].aft, below.aft, above.aft))
+            fore = draft.add(_between(found[i].fore, below.fore, above.fore))
+            draft.cell.append((len(draft.anchor) - len(run) + j, aft, fore))
         draft.anchor_start.append(len(draft.anchor))
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
     cells = _cells(net, draft, found, shapes(paths, net.batch), closed)
     return Layout(cells, tuple(found), tuple(lost))
+
+
+def leans(height: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Give by which weights slopes follow from values: of the parabola through three.
+
+    Parameters
+    ----------
+    height : (a,)
+        Where the values lie, ascending, a >= 2.
+
+    Returns
+    -------
+    near : (a, 2, 3) int
+        Which three values, for the interval below and the one above.
+    lean : (a, 2, 3)
+        The weights; slopes are for the whole interval as unit of length.
+    """
+    count = len(height)
+    near = np.zeros((count, 2, 3), np.int64)
+    lean = np.zeros((count, 2, 3))
+    width = np.diff(height)
+    if count == 2:
+        near[:, :] = 0, 1, 1
+        lean[:, :] = -1.0, 1.0, 0.0
+        return near, lean
+    at = np.arange(count)
+    middle = np.clip(at, 1, count - 2)
+    three = middle[:, None] + np.array([-1, 0, 1])
+    p = height[three]
+    x = height[:, None]
+    weight = np.stack(
+        [
+            (2 * x - p[:, 1:2] - p[:, 2:3]) / ((p[:, 0:1] - p[:, 1:2]) * (p[:, 0:1] - p[:, 2:3])),
+            (2 * x - p[:, 0:1] - p[:, 2:3]) / ((p[:, 1:2] - p[:, 0:1]) * (p[:, 1:2] - p[:, 2:3])),
+            (2 * x - p[:, 0:1] - p[:, 1:2]) / ((p[:, 2:3] - p[:, 0:1]) * (p[:, 2:3] - p[:, 1:2])),
+        ],
+        axis=2,
+    )[:, 0]
+    near[:] = three[:, None]
+    lean[1:, 0] = weight[1:] * width[:, None]
+    lean[:-1, 1] = weight[:-1] * width[:, None]
+    return near, lean
 
 
 def _between(rail: tuple[Part, ...], low: Spot, high: Spot) -> list[Part]:
@@ -106,7 +150,7 @@ def _between(rail: tuple[Part, ...], low: Spot, high: Spot) -> list[Part]:
         *rail[low[0] + 1 : high[0]],
         (last[0], last[1], high[1]),
     ]
-    return [part for part in parts if part[1] != part[2]]
+    return [part for part in parts if part[1] != part[2]] or parts[:1]
 
 
 def _cells(net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, closed: bool) -> Cells:
@@ -120,10 +164,7 @@ def _cells(net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, clos
     anchor_start = np.array(draft.anchor_start, np.int64)
     anchor = np.array(draft.anchor, np.int64)
     plane = np.array(
-        [
-            frame.plane and _steady(walked, anchor[anchor_start[i] : anchor_start[i + 1]])
-            for i, frame in enumerate(found)
-        ],
+        [frame.plane and all(steady(net, frame.keel + frame.deck)) for frame in found],
         np.bool_,
     )
     deck = np.array([closed and _is_deck(net, frame) for frame in found], np.bool_)
@@ -132,6 +173,8 @@ def _cells(net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, clos
         walked.paths,
         anchor_start,
         anchor,
+        np.concatenate(draft.near),
+        np.concatenate(draft.lean),
         np.array(tile_start, np.int64),
         column[0],
         column[1],
@@ -168,17 +211,6 @@ def _tiles(walked: PathShapes, aft: int, fore: int) -> list[tuple[int, int, int,
 def _bit_at(walked: PathShapes, path: int, w: float) -> int:
     first, last = int(walked.paths.start[path]), int(walked.paths.start[path + 1])
     return first + int(np.searchsorted(walked.begin[first:last], w, side="right")) - 1
-
-
-def _steady(walked: PathShapes, path: np.typing.NDArray[np.int64]) -> bool:
-    """Tell whether x only grows along the anchors."""
-    path = path[path >= 0]
-    if not len(path):
-        return True
-    which = path.repeat(len(_SAMPLES))
-    slope = walked.at(which, np.tile(_SAMPLES, len(path)))[1][:, 0].reshape(len(path), -1)
-    first, last = (end[path, 0] for end in walked.ends())
-    return bool((slope >= _STEADY * (last - first)[:, None]).all() and (last > first).all())
 
 
 def _is_deck(net: Net, frame: Frame) -> bool:

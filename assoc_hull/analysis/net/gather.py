@@ -129,6 +129,8 @@ def walk(net: Net, part: Part) -> list[Bit]:
     first = int(net.batch.start[curve])
     knot = net.batch.knot[first : net.batch.start[curve + 1]]
     inner = knot[(knot > low + _SNAP) & (knot < high - _SNAP)]
+    if high - low <= _SNAP:
+        inner, high = inner[:0], low
     edges = np.concatenate([[_snapped(knot, low)], inner, [_snapped(knot, high)]])
     middle = 0.5 * (edges[1:] + edges[:-1])
     segment, _, length = on_knots(net.batch, np.full(len(middle), curve), middle)
