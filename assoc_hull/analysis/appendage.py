@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.arguments import checked, not_negative, number, place, text
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed import Immersed, Planes
 
-__all__ = ["Appendage"]
+__all__ = ["Appendage", "with_appendages"]
 
 _WHERE = "in an appendage"
 
@@ -54,3 +56,32 @@ class Appendage:
         x, y, z = self.centroid
         wet: NDArray[np.bool_] = z < planes.height + planes.tan_trim * x - planes.tan_heel * y
         return wet
+
+
+def with_appendages(
+    immersed: Immersed, appendages: Sequence[Appendage], planes: Planes
+) -> Immersed:
+    """Add appendages to what is measured of a bare hull: to volume, moments and shell.
+
+    Parameters
+    ----------
+    immersed : Immersed
+        Below d planes.
+    appendages : sequence of Appendage
+        Each counts below the planes under which its centroid lies.
+    planes : Planes
+        The planes.
+    """
+    for each in appendages:
+        x, y, z = each.centroid
+        wet = each.immersed(planes)
+        volume = np.where(wet, each.volume, 0.0)
+        immersed = attrs.evolve(
+            immersed,
+            volume=immersed.volume + volume,
+            moment_x=immersed.moment_x + volume * x,
+            moment_y=immersed.moment_y + volume * y,
+            moment_z=immersed.moment_z + volume * z,
+            shell=immersed.shell + np.where(wet, each.area, 0.0),
+        )
+    return immersed

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.analysis.algebra import Setting, propagate, values_of
-from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, require_afloat
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.hydrostatic_table import AppendageShare, HydrostaticTable
-from assoc_hull.analysis.sums import Layout, change_of, sums_of, with_appendages
+from assoc_hull.analysis.sums import Layout, change_of, sums_of
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
@@ -54,8 +54,8 @@ def table_of(
     setting = Setting(header.length, header.breadth, header.rho, header.shell_factor, header.kg)
     layout = Layout(0.5 * header.length, header.transom)
     stations = body.stations(planes)
-    bare = sums_of(body.measure(planes), stations, body.transom(planes), layout)
-    sums = with_appendages(bare, header.appendages, planes)
+    measured = with_appendages(body.measure(planes), header.appendages, planes)
+    sums = sums_of(measured, stations, body.transom(planes), layout)
     errors: dict[str, FloatArray] = {}
     if estimate:
         changes = [change_of(each, stations, layout) for each in body.changes(planes)]

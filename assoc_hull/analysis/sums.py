@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersed import Immersed
 
-__all__ = ["Layout", "Sums", "change_of", "sums_of", "with_appendages"]
+__all__ = ["Layout", "Sums", "change_of", "sums_of"]
 
 
 @attrs.frozen(eq=False)
@@ -157,20 +154,3 @@ def _section(stations: StationAreas, x: float) -> FloatArray:
     ]
     area: FloatArray = stations.area[:, first : first + count] @ np.array(weights)
     return area
-
-
-def with_appendages(sums: Sums, appendages: Sequence[Appendage], planes: Planes) -> Sums:
-    """Add appendages, each where its centroid is under water."""
-    for each in appendages:
-        x, y, z = each.centroid
-        wet = each.immersed(planes)
-        volume = np.where(wet, each.volume, 0.0)
-        sums = attrs.evolve(
-            sums,
-            volume=sums.volume + volume,
-            moment_x=sums.moment_x + volume * x,
-            moment_y=sums.moment_y + volume * y,
-            moment_z=sums.moment_z + volume * z,
-            shell=sums.shell + np.where(wet, each.area, 0.0),
-        )
-    return sums
