@@ -41,6 +41,7 @@ class Box:
     off: float = 0.0
     """Every integral is off by this part, for tests of the estimate."""
     closed: bool = True
+    trouble: tuple[str, ...] = ()
 
     @property
     def limits(self) -> Limits:
@@ -83,6 +84,9 @@ class Box:
         off = {each.name: self.off * getattr(sums, each.name) for each in attrs.fields(Immersed)}
         stations, transom = self.stations(planes), self.transom(planes)
         return [Change(Immersed(**off), self.off * stations.area, self.off * transom)]
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
+        return self.trouble
 
 
 @attrs.frozen
@@ -127,4 +131,7 @@ class Wigley:
         return 0.0 * planes.height
 
     def changes(self, planes: Planes) -> Sequence[Change]:
+        return []
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
         return []
