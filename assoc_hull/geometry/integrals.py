@@ -20,7 +20,14 @@ from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import bernstein, power, segment_curve, sum_per_curve
 
-__all__ = ["AreaMoments", "integrate_stations", "line_integral", "plane_integrals", "section_area"]
+__all__ = [
+    "AreaMoments",
+    "checked_stations",
+    "integrate_stations",
+    "line_integral",
+    "plane_integrals",
+    "section_area",
+]
 
 _POINTS = 6  # exact to degree 11: second moments of cubics
 
@@ -257,6 +264,18 @@ def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
     >>> float(integrate_stations([0, 1, 3, 4], [0, 1, 27, 64]))  # x^3
     64.0
     """
+    place, value = checked_stations(x, values)
+    rows = value.reshape(len(place), -1)
+    step = np.diff(place)[:, None]
+    slope = _spline_slopes(step[:, 0], rows)
+    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
+    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
+    freeze(total)
+    return total
+
+
+def checked_stations(x: ArrayLike, values: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Take positions of stations and their values, as `integrate_stations` does."""
     place, value = np.asarray(x, np.float64), np.asarray(values, np.float64)
     if place.ndim != 1 or len(place) < 2 or value.shape[:1] != place.shape:
         raise BadInputError(
@@ -270,13 +289,7 @@ def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
             "in an integral over stations",
             "sort the stations and leave out repeated ones",
         )
-    rows = value.reshape(len(place), -1)
-    step = np.diff(place)[:, None]
-    slope = _spline_slopes(step[:, 0], rows)
-    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
-    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
-    freeze(total)
-    return total
+    return place, value
 
 
 def _check_axes(axes: tuple[int, int]) -> None:

@@ -1,0 +1,259 @@
+"""What a triangulated body has below floating planes, each triangle cut exactly.
+
+A triangle is below a plane, above it, or cut: then the plane takes off a corner. Over
+triangles all integrands are polynomials, so no value here has an error but rounding.
+
+The flux is that of height above the plane, ``h dz``: it is nil on the plane itself, which so
+needs no lid. A vertex in the plane counts as above it: values are those of a plane that comes
+from below. So a row of vertices in the plane is counted once, and a level top face that the
+plane just reaches is the waterplane.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.triangles import Triangles, unmatched_edges
+
+__all__ = ["TriangleBody", "immersed_triangles", "make_body"]
+
+_AT_ONCE = 2_000_000
+"""So many heights of corners above planes are held at a time."""
+
+_ROUNDING = 1e-9
+"""An open edge this part of the size of the body below the plane is at it."""
+
+
+@attrs.frozen(eq=False)
+class TriangleBody:
+    """Triangles with their integrals.
+
+    Attributes
+    ----------
+    mesh : Triangles
+        The surface, outward.
+    rim : (e, 2) int
+        Vertices of its open edges, as their triangles run.
+    sums : (f, 12)
+        Integrals over each triangle, see `_triangle_sums`.
+    """
+
+    mesh: Triangles
+    rim: IntArray
+    sums: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.rim, self.sums)
+
+
+def make_body(mesh: Triangles) -> TriangleBody:
+    """Prepare a surface, outward all over, for `immersed_triangles`."""
+    return TriangleBody(mesh, unmatched_edges(mesh), _triangle_sums(mesh.corners))
+
+
+def immersed_triangles(body: TriangleBody, planes: Planes) -> Immersed:
+    """Integrate what a body has below each plane.
+
+    Raises
+    ------
+    BadInputError
+        The surface is open below a plane.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.immersed import Planes
+    >>> from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
+    >>> from assoc_hull.geometry.triangles import Triangles
+    >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]])
+    >>> corner = Triangles(xyz, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    >>> level = Planes(np.array([1.0, 3]), np.zeros(2), np.zeros(2))
+    >>> below = immersed_triangles(make_body(corner), level)
+    >>> below.volume.round(12).tolist(), below.area.round(12).tolist()
+    ([3.166666666667, 4.5], [2.0, 0.0])
+    """
+    step = max(1, _AT_ONCE // (3 * len(body.mesh.face)))
+    blocks = [
+        _block(body, Planes(*(each[begin : begin + step].copy() for each in attrs.astuple(planes))))
+        for begin in range(0, max(1, len(planes.height)), step)
+    ]
+    rows = [attrs.astuple(block, recurse=False) for block in blocks]
+    return Immersed(*(np.concatenate(column) for column in zip(*rows, strict=True)))
+
+
+@attrs.frozen(eq=False)
+class _Cuts:
+    """Straight pieces of the edge of waterplanes.
+
+    Attributes
+    ----------
+    plane : (k,) int
+        The plane of each, ascending.
+    ends : (k, 2, 3), m
+        Begin and end, the waterplane to the left.
+    """
+
+    plane: IntArray
+    ends: FloatArray
+
+
+def _block(body: TriangleBody, planes: Planes) -> Immersed:
+    height = _heights(body.mesh.xyz, planes)
+    wet = (height < 0.0)[:, body.mesh.face]
+    count = wet.sum(axis=2, dtype=np.int8)
+    plane, face = np.nonzero((count == 1) | (count == 2))
+    corners, sign = _cut_corners(body.mesh, height, wet, plane, face)
+    sums = (count >= 2).astype(np.float64) @ body.sums
+    sums += _sum_rows(plane, sign[:, None] * _triangle_sums(corners), len(height))
+    turned = np.where(sign[:, None, None] > 0.0, corners[:, :0:-1], corners[:, 1:])
+    cuts = _join(_Cuts(plane, turned), _wet_rim(body, height))
+    shell = sums[:, 10].copy(), sums[:, 11].copy(), np.zeros(len(height))
+    values = (
+        *_solid(sums, planes), *_waterplane(cuts, len(height)), *shell,
+        *_extents(cuts, len(height)),
+    )  # fmt: skip
+    return Immersed(*values)
+
+
+def _heights(xyz: FloatArray, planes: Planes) -> FloatArray:
+    """Give the height of each vertex above each plane, (d, n), m."""
+    x, y, z = xyz.T
+    level = planes.height[:, None] + planes.tan_trim[:, None] * x - planes.tan_heel[:, None] * y
+    return np.asarray(z - level)
+
+
+def _cut_corners(
+    mesh: Triangles, height: FloatArray, wet: np.typing.NDArray[np.bool_], plane: IntArray,
+    face: IntArray,
+) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+    """Give the corner that a plane takes off each cut triangle, (k, 3, 3), tip first; its sign.
+
+    The sign is +1 where the corner is all that is below, -1 where it is what is missing.
+    """
+    below = wet[plane, face]
+    sign = np.where(below.sum(axis=1) == 1, 1.0, -1.0)
+    tip = np.argmax(below == (sign > 0.0)[:, None], axis=1)
+    number = mesh.face[face[:, None], (tip[:, None] + np.arange(3)) % 3]
+    place, level = mesh.xyz[number], height[plane[:, None], number]
+    for side in (1, 2):
+        place[:, side] = _meet(place[:, [0, side]], level[:, [0, side]])
+    return place, sign
+
+
+def _meet(ends: FloatArray, level: FloatArray) -> FloatArray:
+    """Cut edges, (k, 2, 3), with the plane; always from below, so neighbours agree to the bit."""
+    turn = level[:, 0] >= 0.0
+    ends = np.where(turn[:, None, None], ends[:, ::-1], ends)
+    level = np.where(turn[:, None], level[:, ::-1], level)
+    part = level[:, 0] / (level[:, 0] - level[:, 1])
+    return np.asarray(ends[:, 0] + part[:, None] * (ends[:, 1] - ends[:, 0]))
+
+
+def _triangle_sums(corners: FloatArray) -> FloatArray:
+    """Integrate over triangles, (k, 3, 3): 1, x, y, z, xx, xy, yy, xz, yz, zz, area, girth.
+
+    The first ten are over the projection on z = 0, positive for triangles that face up.
+    """
+    vector = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    plan, total = vector[:, 2, None], corners.sum(axis=1)
+    pairs = (0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)
+    first, second = (list(each) for each in zip(*pairs, strict=True))
+    products = (corners[:, :, first] * corners[:, :, second]).sum(axis=1)
+    products += total[:, first] * total[:, second]
+    area = np.sqrt((vector**2).sum(axis=1))
+    girth = np.sqrt((vector[:, 1:] ** 2).sum(axis=1))
+    columns = [plan, plan / 3.0 * total, plan / 12.0 * products, area[:, None], girth[:, None]]
+    return np.concatenate(columns, axis=1)
+
+
+def _sum_rows(plane: IntArray, values: FloatArray, count: int) -> FloatArray:
+    """Add up rows, (k, c), per plane: (count, c)."""
+    columns = [np.bincount(plane, column, count) for column in values.T]
+    return np.stack(columns, axis=1)
+
+
+def _solid(sums: FloatArray, planes: Planes) -> tuple[FloatArray, ...]:
+    """Give the volume and the integrals of x, y and z over it.
+
+    Each is that of the height above the plane, and its square, over the shell in plan.
+    """
+    one, x, y, z, xx, xy, yy, xz, yz, zz = sums[:, :10].T
+    t, a, b = planes.height, planes.tan_trim, -planes.tan_heel
+    volume = z - (t * one + a * x + b * y)
+    moment_x = xz - (t * x + a * xx + b * xy)
+    moment_y = yz - (t * y + a * xy + b * yy)
+    level_z = t * z + a * xz + b * yz
+    level_level = t * (t * one + 2.0 * (a * x + b * y)) + a * a * xx + 2.0 * a * b * xy + b * b * yy
+    above = 0.5 * (zz - 2.0 * level_z + level_level)
+    return volume, moment_x, moment_y, above + t * volume + a * moment_x + b * moment_y
+
+
+def _waterplane(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
+    """Give area, first and second moments of waterplanes by Green's theorem, (count,) each."""
+    (x, y), (to_x, to_y) = cuts.ends[:, 0, :2].T, cuts.ends[:, 1, :2].T
+    swept = 0.5 * (x * to_y - y * to_x)
+    columns = [
+        swept,
+        swept * (x + to_x) / 3.0,
+        swept * (y + to_y) / 3.0,
+        swept * (x * x + x * to_x + to_x * to_x) / 6.0,
+        swept * (2.0 * (x * y + to_x * to_y) + x * to_y + to_x * y) / 12.0,
+        swept * (y * y + y * to_y + to_y * to_y) / 6.0,
+    ]
+    return tuple(np.asarray(np.bincount(cuts.plane, each, count), np.float64) for each in columns)
+
+
+def _extents(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
+    """Give the least and most x, then y, of waterplanes; nan where there is none."""
+    found = np.full((count, 4), np.nan)
+    if len(cuts.plane):
+        first = np.flatnonzero(np.append(True, np.diff(cuts.plane) != 0))
+        low = np.minimum.reduceat(cuts.ends.min(axis=1), first)
+        high = np.maximum.reduceat(cuts.ends.max(axis=1), first)
+        rows = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
+        found[cuts.plane[first]] = rows
+    return tuple(column.copy() for column in found.T)
+
+
+def _join(one: _Cuts, other: _Cuts) -> _Cuts:
+    if not len(other.plane):
+        return one
+    plane = np.concatenate([one.plane, other.plane])
+    order = np.argsort(plane, kind="stable")
+    return _Cuts(plane[order], np.concatenate([one.ends, other.ends])[order])
+
+
+def _wet_rim(body: TriangleBody, height: FloatArray) -> _Cuts:
+    """Give the open edges at the plane: within rounding below it, they bound the waterplane."""
+    level = height[:, body.rim]
+    plane, edge = np.nonzero((level < 0.0).any(axis=2))
+    level, ends = level[plane, edge], body.mesh.xyz[body.rim[edge]]
+    if not len(plane):
+        return _Cuts(plane, ends)
+    size = float(np.ptp(body.mesh.xyz, axis=0).max())
+    half = (level >= 0.0).any(axis=1)
+    meet = _meet(ends[half], level[half])
+    ends[half] = np.where((level[half] >= 0.0)[:, :, None], meet[:, None], ends[half])
+    _refuse_open(plane, ends, level, _ROUNDING * size)
+    return _Cuts(plane, ends[:, ::-1].copy())
+
+
+def _refuse_open(plane: IntArray, ends: FloatArray, level: FloatArray, least: float) -> None:
+    """Refuse openings deeper below a plane than rounding explains."""
+    deep = np.flatnonzero(level.min(axis=1) < -least)
+    if not len(deep):
+        return
+    here = deep[plane[deep] == plane[deep[0]]]
+    worst = here[np.argmin(level[here].min(axis=1))]
+    x, y, z = ends[worst].mean(axis=0).tolist()
+    length = float(np.linalg.norm(ends[here, 1] - ends[here, 0], axis=1).sum())
+    raise BadInputError(
+        f"the mesh is open below the plane: {len(here)} edges, {length:.4g} m in all, lack a "
+        f"triangle; deepest, {-float(level[worst].min()):.4g} m below it, "
+        f"at ({x:.6g}, {y:.6g}, {z:.6g}) m",
+        "in the mesh", "close it there, or choose a plane below",
+    )  # fmt: skip
