@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Iterator
 from typing import Any
 
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
 from assoc_hull.analysis.record_fields import FIELDS, Field
-from assoc_hull.cli.words import wrapped
 
 __all__ = ["document", "table_words"]
 
@@ -49,11 +49,7 @@ def table_words(table: HydrostaticTable, angle: float | None) -> str:
 
 def _head(table: HydrostaticTable) -> Iterator[str]:
     for title, words in table.header.lines():
-        yield (
-            wrapped(title, words.split(", "), indent="")
-            if title == "datum"
-            else (f"{title:14} {words}")
-        )
+        yield textwrap.fill(f"{title:14} {words}", 100, subsequent_indent=" " * 15)
 
 
 def _one(table: HydrostaticTable) -> str:
@@ -124,9 +120,8 @@ def _deck(table: HydrostaticTable, angle: float | None) -> Iterator[str]:
 
 def _shares(table: HydrostaticTable) -> Iterator[str]:
     """Tell what each appendage adds, at the deepest position."""
+    where = " (at the last position)" if len(table) > 1 else ""
     for share in table.shares:
-        yield (
-            f"{share.appendage.name}: adds {share.volume[-1]:g} m3, {share.percent[-1]:.4g} % of the "
-            f"volume, and {share.area[-1]:g} m2 of surface"
-            + (" (at the last position)" if len(table) > 1 else "")
-        )
+        volume, area, part = share.volume[-1], share.area[-1], share.percent[-1]
+        words = f"adds {volume:g} m3, {part:.4g} % of the volume, and {area:g} m2 of surface"
+        yield f"{share.appendage.name}: {words}{where}"
