@@ -3,18 +3,13 @@
 import numpy as np
 
 from assoc_hull.edit.adopt import adopt
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, Ends, HullState, Particulars
 
 __all__ = ["ellipsoid_net", "wigley_net"]
-
-_LINKS = [
-    Association("boundary", "sections"),
-    Association("boundary", "waterlines"),
-    Association("sections", "waterlines"),
-]
 
 A, B, C = 50.0, 8.0, 6.0
 """Semi-axes of the ellipsoid, m; its centre lies at x = A, z = C."""
@@ -77,4 +72,54 @@ def _profile(x: FloatArray) -> LineSource:
     return LineSource.make(
         "boundary", "profile", points, plane=((0, 1, 0), 0.0), boundary=BoundaryKind.END,
         ends=Ends((1, 1), ((-1.0, 0.0, 0.0), (-1.0, 0.0, 0.0))),
+    )  # fmt: skip
+
+
+def wigley_net(stations: int, waterlines: int) -> HullState:
+    """Give the Wigley hull to z = 1.5 T; lines have the formula's own directions at their ends.
+
+    `stations` count the two ends, `waterlines` the base line and z = T.
+    """
+    length, breadth, draught = hull = (100.0, 10.0, 6.25)
+    x, z = np.linspace(0.0, length, stations), np.linspace(0.0, draught, waterlines)
+    deck = 1.5 * draught
+    corners = np.array([[0, 0, deck], [0, 0, 0], [length, 0, 0], [length, 0, deck]], np.float64)
+    sources = [
+        LineSource.make(
+            "boundary", "profile", corners, plane=((0, 1, 0), 0.0), boundary=BoundaryKind.END,
+            kind=[0, PointKind.KNUCKLE, PointKind.KNUCKLE, 0],
+        )
+    ]  # fmt: skip
+    for height in [*z[1:].tolist(), deck]:
+        level = np.full(len(x), height)
+        sheer = float(half_breadth(np.array(0.5 * length), np.array(height), *hull)) * 4.0 / length
+        sources.append(
+            LineSource.make(
+                "boundary" if height == deck else "waterlines",
+                "deck edge" if height == deck else f"WL {height:g}",
+                np.column_stack([x, half_breadth(x, level, *hull), level]),
+                plane=((0, 0, 1), height) if height == deck else None,
+                boundary=BoundaryKind.END if height == deck else None,
+                ends=Ends((1, 1), ((1.0, sheer, 0.0), (1.0, -sheer, 0.0))),
+            )
+        )
+    sources += [
+        _frame(f"ST {i}", float(x[i]), np.append(z, deck), hull) for i in range(1, stations - 1)
+    ]
+    links = [Association("boundary", "sections"), Association("boundary", "waterlines")]
+    links.append(Association("sections", "waterlines"))
+    return adopt(sources, Particulars("Wigley", length, breadth, deck, draught), links)[0]
+
+
+def _frame(name: str, x: float, z: FloatArray, hull: tuple[float, float, float]) -> LineSource:
+    """From the keel up; a tangent point where the wall side begins."""
+    level = np.full(len(z), x)
+    kind = np.zeros(len(z), int)
+    kind[-2] = PointKind.TANGENT
+    flare = float(half_breadth(np.array(x), np.array(hull[2]), *hull)) * 2.0 / hull[2]
+    return LineSource.make(
+        "sections", name, np.column_stack([level, half_breadth(level, z, *hull), z]),
+        kind=kind.tolist(),
+        direction=np.where((kind > 0)[:, None], [0.0, 0.0, 1.0], 0.0),
+        ends=Ends((1, 1), ((0.0, flare, 1.0), (0.0, 0.0, 1.0))),
     )  # fmt: skip
