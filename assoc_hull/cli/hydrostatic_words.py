@@ -54,7 +54,9 @@ def _head(table: HydrostaticTable) -> Iterator[str]:
 
 def _one(table: HydrostaticTable) -> str:
     """Lay out one position: a row per value, with its error and what it is."""
-    columns = [("", "left"), ("", "right"), ("", "left"), ("may be off by", "right"), ("", "left")]
+    columns: list[tuple[str, Any]] = [
+        ("", "left"), ("", "right"), ("", "left"), ("may be off by", "right"), ("", "left")
+    ]  # fmt: skip
     rows = [
         [name, f"{float(values[0]):.4f}", "deg" if name == "heel_deg" else "m", "", ""]
         for name, values in table.draughts.items()
@@ -70,7 +72,7 @@ def _many(table: HydrostaticTable) -> Iterator[str]:
     """Lay out many positions side by side, some at a time: a column each."""
     for first in range(0, len(table), _ACROSS):
         part = range(first, min(first + _ACROSS, len(table)))
-        columns = [("", "left"), ("", "left"), *[("", "right")] * len(part)]
+        columns: list[tuple[str, Any]] = [("", "left"), ("", "left"), *[("", "right")] * len(part)]
         rows = [
             [name, "deg" if name == "heel_deg" else "m", *(f"{values[i]:.4f}" for i in part)]
             for name, values in table.draughts.items()
@@ -85,7 +87,7 @@ def _many(table: HydrostaticTable) -> Iterator[str]:
 
 
 def _number(value: float, field: Field) -> str:
-    return "-" if math.isnan(value) else f"{value:.{field.digits}f}"
+    return "-" if math.isnan(value) else f"{round(value, field.digits) + 0.0:.{field.digits}f}"
 
 
 def _laid_out(columns: list[tuple[str, Any]], rows: list[list[str]]) -> str:
@@ -95,8 +97,8 @@ def _laid_out(columns: list[tuple[str, Any]], rows: list[list[str]]) -> str:
 
     shown = any(title for title, _ in columns)
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, show_header=shown)
-    for title, justify in columns:
-        grid.add_column(title, justify=justify, no_wrap=True)
+    for k, (title, justify) in enumerate(columns):
+        grid.add_column(title, justify=justify, no_wrap=k < len(columns) - 1)
     for row in rows:
         grid.add_row(*row)
     console = Console(width=_WIDTH, color_system=None, force_terminal=False, legacy_windows=False)
