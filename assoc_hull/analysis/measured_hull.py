@@ -25,7 +25,7 @@ class HasState(Protocol):
 def body_of(hull: HasState) -> FloatingBody:
     """Make what can be measured of a hull."""
     # The one place where hydrostatics meets the integrals of a net.
-    from assoc_hull.analysis.flotation import flotation  # type: ignore[import-not-found]
+    from assoc_hull.analysis.flotation import flotation
 
     body: FloatingBody = flotation(hull.state)
     return body

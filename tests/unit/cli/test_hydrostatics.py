@@ -18,7 +18,7 @@ from tests.unit.cli.conftest import Json
 def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
     """Measure a box of the hull's length and breadth instead, whose numbers are known."""
     double = SimpleNamespace(flotation=lambda state: Box(breadth=10.0, depth=8.0, off=1e-6))
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
 
 
 def test_one_position_is_told_with_the_names_of_the_record(hull: Path, facts: Json) -> None:
