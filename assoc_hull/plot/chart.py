@@ -17,7 +17,7 @@ from assoc_hull.plot.sheet import Sheet
 
 __all__ = ["Chart", "Scale", "block_of", "chart_on", "levels", "scale_to", "smooth"]
 
-_LEFT, _RIGHT, _ABOVE = 16.0, 9.0, 12.0  # of the field, for labels, mm at A3
+_LEFT, _RIGHT, _ABOVE = 16.0, 9.0, 14.0  # of the field, for labels, mm at A3
 _STEPS = (1.0, 2.0, 2.5, 5.0)
 
 
