@@ -40,14 +40,14 @@ class Cells:
         Where the anchors of each strip begin; from keel to deck.
     anchor : (a,) int
         The path of each anchor; -1 for a straight one.
-    near : (a, 2, 3) int
-        Three anchors from which the slope of D follows below and above each anchor.
-    lean : (a, 2, 3)
-        By which weights; the slope is for the whole cell, f from 0 to 1.
     tile_start : (n + 1,) int
         Where the tiles of each strip begin; from keel to deck.
-    tile_anchor : (t,) int
-        The anchor (index into `anchor`) below each tile; the next one is above it.
+    first : (t,) int
+        The first of the four anchors, counted within the strip, that shape each tile.
+    blend : (t, 4, 4)
+        By which weights: the coefficient of f^i of D is the sum over j of ``blend[:, i, j]``
+        times what anchor `first` + j leaves its chord by. Weights of anchors that a strip does
+        not have are nil.
     aft, fore : (t,) int
         The bit of `paths` that each tile takes from the rail with v = 0 and v = 1.
     low, high : (t,) int
@@ -64,10 +64,9 @@ class Cells:
     paths: Paths
     anchor_start: IntArray
     anchor: IntArray
-    near: IntArray
-    lean: FloatArray
     tile_start: IntArray
-    tile_anchor: IntArray
+    first: IntArray
+    blend: FloatArray
     aft: IntArray
     fore: IntArray
     low: IntArray
@@ -92,16 +91,15 @@ class CoonsStrips:
         Their paths.
     aft, fore : (t, 4, 3), m
         The rails' parts of each tile.
-    low, high : (t,)
-        Where in its cell each tile begins and ends, from 0 to 1.
+    blend : (t, 4, 4)
+        As that of the cells, but in u, from 0 to 1 along each tile.
     """
 
     cells: Cells
     walked: PathShapes
     aft: FloatArray
     fore: FloatArray
-    low: FloatArray
-    high: FloatArray
+    blend: FloatArray
 
     @classmethod
     def on(cls, cells: Cells, batch: SplineBatch) -> CoonsStrips:
@@ -113,7 +111,7 @@ class CoonsStrips:
         for bit in (cells.aft, cells.fore):
             begin, span = walked.begin[bit], walked.finish[bit] - walked.begin[bit]
             rails.append(stretch(walked.cubic[bit], (low - begin) / span, (high - begin) / span))
-        return cls(cells, walked, rails[0], rails[1], low, high)
+        return cls(cells, walked, rails[0], rails[1], stretch(cells.blend, low, high))
 
     @property
     def count(self) -> int:
@@ -130,54 +128,43 @@ class CoonsStrips:
         cells = self.cells
         curve, tile = _spread(cells.tile_start, strip)
         start = _starts(cells.tile_start, strip)
-        bow, turn = self._bows(strip, v)
-        anchors = _starts(cells.anchor_start, strip)
-        lower = anchors[curve] + cells.tile_anchor[tile] - cells.anchor_start[strip[curve]]
+        bow = self._bows(strip, v)
+        anchor = _starts(cells.anchor_start, strip)[curve] + cells.first[tile]
+        blend = self.blend[tile]
+        rise = blend[:, :, 0, None] * bow[anchor][:, None]
+        for j in (1, 2, 3):
+            rise = rise + blend[:, :, j, None] * bow[anchor + j][:, None]
         at = v[curve][:, None, None]
-        aft, fore = self.aft[tile], self.fore[tile]
-        point = (1.0 - at) * aft + at * fore + self._rise(tile, bow, lower)
-        across = fore - aft + self._rise(tile, turn, lower)
-        deck = np.zeros(len(tile), bool)
+        aft, span = self.aft[tile], (self.fore - self.aft)[tile]
+        point = aft + at * span + rise[:, :, :3]
+        across = span + rise[:, :, 3:]
         if not cells.deck[strip].any():
-            return IsoCurves(start, point, across, deck)
+            return IsoCurves(start, point, across, np.zeros(len(tile), np.bool_))
         return _with_decks(start, point, across, cells.deck[strip])
 
-    def _bows(self, strip: IntArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give by how much each anchor of each strip leaves its chord, and the derivative by v."""
+    def _bows(self, strip: IntArray, v: FloatArray) -> FloatArray:
+        """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
+
+        (b, 6), with three rows of nil behind, so that four can be taken from any.
+        """
         cells = self.cells
         curve, anchor = _spread(cells.anchor_start, strip)
         path = cells.anchor[anchor]
         at, plane = v[curve], cells.plane[strip[curve]]
         first, last = self.walked.ends()
-        bow, turn = np.zeros((len(path), 3), v.dtype), np.zeros((len(path), 3), v.dtype)
+        bow = np.zeros((len(path) + 3, 6), v.dtype)
         for chosen, walk in (
             (np.flatnonzero((path >= 0) & plane), self.walked.at_part),
             (np.flatnonzero((path >= 0) & ~plane), self.walked.at),
         ):
             if not len(chosen):
                 continue
-            which, w = path[chosen], at[chosen]
-            place, slope = walk(which, w)
-            begin, finish = first[which], last[which]
-            bow[chosen] = place - ((1.0 - w)[:, None] * begin + w[:, None] * finish)
-            turn[chosen] = slope - (finish - begin)
-        return bow, turn
-
-    def _rise(self, tile: IntArray, bow: FloatArray, lower: IntArray) -> FloatArray:
-        """Give what the anchors below and above add to each tile, as cubics (s, 4, 3)."""
-        cells = self.cells
-        anchor = cells.tile_anchor[tile]
-        shift = (lower - anchor)[:, None]
-        below, above = bow[lower], bow[lower + 1]
-        step = above - below
-        leave, arrive = (
-            (bow[cells.near[at, side] + shift] * cells.lean[at, side][:, :, None]).sum(axis=1)
-            for at, side in ((anchor, 1), (anchor + 1, 0))
-        )
-        cubic = np.stack(
-            [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step], axis=1
-        )
-        return stretch(cubic, self.low[tile], self.high[tile])
+            which, w = path[chosen], at[chosen][:, None]
+            place, slope = walk(which, at[chosen])
+            begin, chord = first[which], (last - first)[which]
+            bow[chosen, :3] = place - (begin + w * chord)
+            bow[chosen, 3:] = slope - chord
+        return bow
 
 
 def _starts(start: IntArray, strip: IntArray) -> IntArray:

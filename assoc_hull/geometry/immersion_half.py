@@ -14,7 +14,7 @@ from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.immersion_tiles import COLUMNS, Tiles, from_curves, subset
 from assoc_hull.geometry.tile_sums import is_plain, mix, real, sum_by
 
-__all__ = ["Half", "half"]
+__all__ = ["Half", "curves_below", "half"]
 
 
 @attrs.frozen(eq=False)
@@ -112,11 +112,11 @@ def _corrected(
         return plain
     fine = from_curves(prepared.strips.curves(parts.strip, parts.v))
     level = levels[parts.plane]
-    better = _curves(
+    better = curves_below(
         fine, tilt(fine, tilted.trim, tilted.heel), level, parts.plane, parts.weight, len(levels)
     )
     coarse = subset(prepared.tiles, parts.replaced)
-    known = _curves(
+    known = curves_below(
         coarse,
         tilt(coarse, tilted.trim, tilted.heel),
         levels[parts.instead],
@@ -133,10 +133,10 @@ def _wider(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.where(real(sign * one) >= real(sign * other), one, other)
 
 
-def _curves(
+def curves_below(
     tiles: Tiles, tilted: Tilted, level: FloatArray, plane: IntArray, weight: FloatArray, count: int
 ) -> Half:
-    """Integrate curves of which each has its own level."""
+    """Integrate curves of which each has its own level; `plane` says to which sum each belongs."""
     ground = real(level)[tiles.curve]
     tile = np.flatnonzero((tilted.low <= ground) & (tilted.high > ground))
     found = cuts(tilted, tile, level[tiles.curve[tile]])
