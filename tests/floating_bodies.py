@@ -12,8 +12,9 @@ from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersion import Prepared, immersed
 
-__all__ = ["Box", "Wigley", "head"]
+__all__ = ["Box", "StripBody", "Wigley", "head"]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)
 
@@ -41,6 +42,7 @@ class Box:
     off: float = 0.0
     """Every integral is off by this part, for tests of the estimate."""
     closed: bool = True
+    trouble: tuple[str, ...] = ()
 
     @property
     def limits(self) -> Limits:
@@ -83,6 +85,9 @@ class Box:
         off = {each.name: self.off * getattr(sums, each.name) for each in attrs.fields(Immersed)}
         stations, transom = self.stations(planes), self.transom(planes)
         return [Change(Immersed(**off), self.off * stations.area, self.off * transom)]
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
+        return self.trouble
 
 
 @attrs.frozen
@@ -127,4 +132,36 @@ class Wigley:
         return 0.0 * planes.height
 
     def changes(self, planes: Planes) -> Sequence[Change]:
+        return []
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
+        return []
+
+
+@attrs.frozen(eq=False)
+class StripBody:
+    """Strips of an exact hull; its one station is amidships and has no area."""
+
+    strips: Prepared
+    limits: Limits
+
+    @classmethod
+    def of(cls, strips: Prepared, half_breadth: float, top: float) -> StripBody:
+        """A body 100 m long whose deck edge is taken to be straight."""
+        x = np.array([[0.0, 0.0, 0.0], [100.0, 0.0, 0.0]])
+        return cls(strips, Limits(x, x + np.array([0.0, half_breadth, top]), closed=True))
+
+    def measure(self, planes: Planes) -> Immersed:
+        return immersed(self.strips, planes)
+
+    def stations(self, planes: Planes) -> StationAreas:
+        return StationAreas(np.array([50.0]), np.zeros((len(planes.height), 1)), ("ST 10",))
+
+    def transom(self, planes: Planes) -> FloatArray:
+        return 0.0 * planes.height
+
+    def changes(self, planes: Planes) -> Sequence[Change]:
+        return []
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
         return []

@@ -10,6 +10,7 @@ from assoc_hull.analysis.algebra import Setting, propagate, values_of
 from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, require_afloat
 from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.freeboard import freeboard
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.hydrostatic_table import AppendageShare, HydrostaticTable
 from assoc_hull.analysis.sums import Layout, change_of, sums_of
@@ -66,6 +67,7 @@ def table_of(
         tuple(positions),
         values_of(sums, planes, setting),
         errors,
+        tuple(freeboard(body.limits.deck, each, header.length) for each in positions),
         tuple(_share(each, planes, sums.volume) for each in header.appendages),
         tuple(notes),
     )

@@ -78,3 +78,7 @@ class FloatingBody(Protocol):
     def changes(self, planes: Planes) -> Sequence[Change]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         ...
+
+    def doubts(self, planes: Planes) -> Sequence[str]:
+        """Name what makes the integrals doubtful: open sections, routes that disagree."""
+        ...

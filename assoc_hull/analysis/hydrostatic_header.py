@@ -7,13 +7,19 @@ from collections.abc import Iterator
 import attrs
 
 from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.arguments import all_of, checked, flag, not_negative, number, positive
 
 __all__ = ["FRESH", "SALT", "HydrostaticHeader"]
 
 SALT, FRESH = 1.025, 1.000
 """Densities of salt and fresh water, t/m3."""
 
+_WHERE = "in hydrostatics"
 _WATERS = {SALT: "salt water", FRESH: "fresh water"}
+
+
+def _appendages(values: object) -> tuple[Appendage, ...]:
+    return tuple(all_of(values, Appendage, "appendages", _WHERE))
 
 
 @attrs.frozen
@@ -50,13 +56,13 @@ class HydrostaticHeader:
     length: float
     breadth: float
     draught: float
-    rho: float
-    shell_factor: float
-    kg: float | None
-    keel_thickness: float
-    transom: bool
+    rho: float = attrs.field(validator=checked(positive, _WHERE))
+    shell_factor: float = attrs.field(validator=checked(positive, _WHERE))
+    kg: float | None = attrs.field(validator=attrs.validators.optional(checked(number, _WHERE)))
+    keel_thickness: float = attrs.field(validator=checked(not_negative, _WHERE))
+    transom: bool = attrs.field(validator=checked(flag, _WHERE))
     deck: str
-    appendages: tuple[Appendage, ...]
+    appendages: tuple[Appendage, ...] = attrs.field(converter=_appendages)
     fingerprint: str
     date: str | None = None
 
@@ -92,12 +98,12 @@ class HydrostaticHeader:
         )
         yield "wetted surface", "with the transom" if self.transom else "without the transom"
         yield "deck", self.deck
-        yield from self._appendages()
+        yield from self._added()
         if self.date is not None:
             yield "date", self.date
         yield "fingerprint", self.fingerprint
 
-    def _appendages(self) -> Iterator[tuple[str, str]]:
+    def _added(self) -> Iterator[tuple[str, str]]:
         if not self.appendages:
             yield "appendages", "none: bare hull"
         for each in self.appendages:

@@ -10,6 +10,7 @@ import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.analysis.floating import FloatingPosition
+from assoc_hull.analysis.freeboard import Freeboard
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.record import Hydrostatics, record
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -62,6 +63,8 @@ class HydrostaticTable:
         The values of the records by name; nan where a position has none.
     errors : mapping of str to (d,)
         How far they may be off; empty if it was not asked.
+    freeboards : tuple of d Freeboard
+        Where the deck edge is nearest to the water.
     shares : tuple of AppendageShare
         The appendages, apart.
     notes : tuple of str
@@ -73,6 +76,7 @@ class HydrostaticTable:
     positions: tuple[FloatingPosition, ...]
     columns: Mapping[str, FloatArray] = attrs.field(converter=_columns)
     errors: Mapping[str, FloatArray] = attrs.field(converter=_columns)
+    freeboards: tuple[Freeboard, ...] = ()
     shares: tuple[AppendageShare, ...] = ()
     notes: tuple[str, ...] = ()
 

@@ -56,10 +56,10 @@ _FIELDS = (
     Field("lcf", "LCF", "m", "centre of flotation, from AP, + forward", "integral of x dA / A", 4),
     Field("tcf", "TCF", "m", "centre of flotation from the centre plane, + to port",
           "integral of y dA / A", 4),
-    Field("i_t", "I_T", "m4", "transverse second moment of the true waterplane, about the "
-          "longitudinal axis in it through its centroid", "(s^3 / c^2) I_T_proj", 1),
-    Field("i_l", "I_L", "m4", "longitudinal second moment of the true waterplane, about the "
-          "transverse axis in it through its centroid",
+    Field("i_t", "I_T", "m4", "transverse second moment of the true waterplane, about its "
+          "longitudinal axis through its centroid", "(s^3 / c^2) I_T_proj", 1),
+    Field("i_l", "I_L", "m4", "longitudinal second moment of the true waterplane, about its "
+          "transverse axis through its centroid",
           "s (c^2 I_L_proj - 2 tt th I_LT_proj + (tt th / c)^2 I_T_proj)", 0),
     Field("i_lt", "I_LT", "m4", "product of inertia of the true waterplane about these axes",
           "s^2 (I_LT_proj - tt th I_T_proj / c^2)", 1),

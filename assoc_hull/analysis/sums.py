@@ -92,7 +92,7 @@ def sums_of(
     layout : Layout
         Where Lpp / 2 is, and what counts.
     """
-    return _joined(immersed, stations, transom, layout, stations.area.argmax(axis=1))
+    return _joined(immersed, stations, transom, layout, _largest(stations, layout.middle))
 
 
 def change_of(change: Change, stations: StationAreas, layout: Layout) -> Sums:
@@ -107,7 +107,7 @@ def change_of(change: Change, stations: StationAreas, layout: Layout) -> Sums:
     layout : Layout
         As for `sums_of`.
     """
-    most = stations.area.argmax(axis=1)
+    most = _largest(stations, layout.middle)
     areas = np.full_like(stations.area, np.nan) if change.areas is None else change.areas
     unknown = np.full(len(most), np.nan)
     transom = unknown if change.transom is None else change.transom
@@ -137,6 +137,14 @@ def _joined(
         x_a_max=stations.x[most],
         a_midship=_section(stations, layout.middle),
     )
+
+
+def _largest(stations: StationAreas, middle: float) -> IntArray:
+    """Give which station is the largest, (d,): of equal ones that next to Lpp / 2."""
+    most = stations.area.max(axis=1, keepdims=True)
+    off = np.where(stations.area >= most * (1.0 - 1e-12), np.abs(stations.x - middle), np.inf)
+    found: IntArray = off.argmin(axis=1)
+    return found
 
 
 def _section(stations: StationAreas, x: float) -> FloatArray:
