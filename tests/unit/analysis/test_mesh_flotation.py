@@ -180,11 +180,15 @@ def test_moments_are_the_derivatives_of_one_another() -> None:
 
 
 def test_a_batch_is_what_its_planes_give_one_by_one() -> None:
-    """Many planes at once give the values of each alone, more than are held at a time too."""
+    """Planes in any order and inclination give the values of each alone.
+
+    So do more of them than are held at a time.
+    """
     body = prepared(meshes.wigley_walled(61, 25))
-    rows = [(3.0 + 0.01 * i, 0.0001 * i, 0.001 * i) for i in range(250)]
+    rows = [(3.0 + 0.01 * (i * 7 % 250), 0.0, 0.0) for i in range(1500)]
+    rows += [(3.0 + 0.02 * (i * 7 % 50), 0.001 * (i % 5), 0.01 * (i % 3)) for i in range(50)]
     batch = attrs.astuple(body.measure(planes(*rows)), recurse=False)
-    for i in (0, 101, 249):
+    for i in (0, 101, 249, 1400, 1500, 1507, 1549):
         alone = attrs.astuple(body.measure(planes(rows[i])), recurse=False)
         for many, one in zip(batch, alone, strict=True):
             np.testing.assert_allclose(many[i], one[0], rtol=1e-11, atol=1e-9)
