@@ -24,6 +24,9 @@ __all__ = ["TriangleBody", "immersed_triangles", "make_body"]
 _AT_ONCE = 200_000
 """About so many cut triangles are held at a time."""
 
+_FEW = 4
+"""Up to so many planes it is quicker to add up the triangles below each anew."""
+
 _ROUNDING = 1e-9
 """An open edge this part of the size of the body below the plane is at it."""
 
@@ -147,7 +150,7 @@ def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArra
     # From this plane on a triangle is cut, and from that on it is wholly below.
     first = np.searchsorted(height, levels.low, "right")
     whole = np.searchsorted(height, levels.high, "right")
-    sums = np.cumsum(_sum_rows(whole, body.sums, count + 1)[:, :-1], axis=1)
+    sums = _sum_whole(body, whole, count)
     face = np.repeat(np.arange(len(first)), whole - first)
     plane = np.arange(len(face)) - np.repeat(np.cumsum(whole - first) - whole, whole - first)
     corners, sign = _cut_corners(body.mesh, levels.vertex, height[plane], face)
@@ -159,6 +162,13 @@ def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArra
     solid = _solid(sums, height, levels.trim, -levels.heel)
     shell = sums[10], sums[11], np.zeros(count)
     return np.stack([*solid, *_waterplane(cuts, count), *shell, *_extents(cuts, count)])
+
+
+def _sum_whole(body: TriangleBody, whole: IntArray, count: int) -> FloatArray:
+    """Add up the triangles that are below each plane as a whole, (12, count)."""
+    if count <= _FEW:
+        return np.asarray(body.sums @ (whole[:, None] <= np.arange(count)).astype(np.float64))
+    return np.cumsum(_sum_rows(whole, body.sums, count + 1)[:, :-1], axis=1)
 
 
 def _cut_corners(
