@@ -1,0 +1,142 @@
+"""What lies below floating planes: any strips of curves, integrated.
+
+`prepare` integrates every tile of the curves once; `immersed` cuts them by planes and adds
+up. Only tiles that a plane crosses are integrated anew, up to the cut, exactly. Both sides
+are integrals over the port half: starboard's are those of the plane heeled the other way.
+
+V and its moments are fluxes along y through the shell, and under heel through the
+waterplane, whose normal in plan is (-tan_trim, tan_heel, 1).
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.immersed import Planes
+>>> from assoc_hull.geometry.isocurves import IsoCurves
+>>> class Wedge:  # 8 m long, 3 m deep, 2 m wide at either side
+...     count, order = 1, np.array([2])
+...     def curves(self, strip, v):
+...         point, across = np.zeros((2, len(v), 4, 3))
+...         point[:, 0, 0], point[:, 1], across[:, 0, 0] = 8.0 * v, [0.0, 2.0, 3.0], 8.0
+...         return IsoCurves(np.arange(len(v) + 1), point, across, np.zeros(len(v), bool))
+>>> below = immersed(prepare(Wedge()), Planes(np.array([1.5, 2.25]), np.zeros(2), np.zeros(2)))
+>>> below.volume.round(12).tolist(), below.area.round(12).tolist()
+([12.0, 27.0], [16.0, 24.0])
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersion_half import Half, half
+from assoc_hull.geometry.immersion_strips import Prepared, prepare
+from assoc_hull.geometry.tile_sums import is_plain, real
+
+__all__ = ["Prepared", "immersed", "prepare"]
+
+_MOST = 256  # planes at a time, which bounds the memory
+
+
+def immersed(prepared: Prepared, planes: Planes) -> Immersed:
+    """Integrate both sides of a body below floating planes.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        The body.
+    planes : Planes
+        d planes; those of one inclination are worked on together.
+
+    Returns
+    -------
+    Immersed
+        The integrals, (d,) each.
+
+    Notes
+    -----
+    Points on a plane are below it. Extents are those of the cuts of all curves that are
+    integrated, of the ends of the strips and of the places where pieces appear.
+    """
+    height, trim, heel = planes.height, planes.tan_trim, planes.tan_heel
+    parts, places = [], []
+    for rows in _groups(planes):
+        for begin in range(0, len(rows), _MOST):
+            some = rows[begin : begin + _MOST]
+            parts.append(_both_sides(prepared, height[some], trim[some[:1]], heel[some[:1]]))
+            places.append(some)
+    return _joined(parts, places)
+
+
+def _groups(planes: Planes) -> list[IntArray]:
+    """Part planes by inclination, each group by ascending height."""
+    trim, heel = planes.tan_trim, planes.tan_heel
+    if len(trim) == 1 or not (is_plain(trim) and is_plain(heel)):
+        # The derivatives that inclinations carry along may be different ones.
+        return [np.array([row]) for row in range(len(trim))]
+    order = np.lexsort((real(planes.height), heel, trim))
+    new = (np.diff(trim[order]) != 0.0) | (np.diff(heel[order]) != 0.0)
+    return np.split(order, np.flatnonzero(new) + 1)
+
+
+def _joined(parts: list[dict[str, FloatArray]], places: list[IntArray]) -> Immersed:
+    """Put the planes back into their order."""
+    if len(parts) == 1 and len(places[0]) == 1:
+        return Immersed(**parts[0])
+    order = np.argsort(np.concatenate(places))
+    return Immersed(
+        **{name: np.concatenate([part[name] for part in parts])[order] for name in parts[0]}
+    )
+
+
+def _both_sides(
+    prepared: Prepared, height: FloatArray, trim: FloatArray, heel: FloatArray
+) -> dict[str, FloatArray]:
+    """Integrate below planes of one inclination, by ascending height."""
+    port = half(prepared, height, trim, heel)
+    upright = is_plain(heel) and heel[0] == 0.0
+    starboard = port if upright else half(prepared, height, trim, -heel)
+    return _sums(port, starboard, height, trim, heel) | _extents(port, starboard)
+
+
+def _sums(
+    port: Half, starboard: Half, height: FloatArray, trim: FloatArray, heel: FloatArray
+) -> dict[str, FloatArray]:
+    """Add both sides, and what the waterplane has of the fluxes."""
+    both = port.columns + starboard.columns
+    odd = port.columns - starboard.columns
+    area, area_x, area_y = both[7], both[8], odd[9]
+    area_xx, area_xy, area_yy = both[10], odd[11], both[12]
+    moment_z = height * area_y + trim * area_xy - heel * area_yy
+    return {
+        "volume": both[0] + heel * area_y,
+        "moment_x": both[1] + heel * area_xy,
+        "moment_y": odd[2] + 0.5 * heel * area_yy,
+        "moment_z": both[3] + heel * moment_z,
+        "area": area,
+        "area_x": area_x,
+        "area_y": area_y,
+        "area_xx": area_xx,
+        "area_xy": area_xy,
+        "area_yy": area_yy,
+        "shell": both[4],
+        "girth": both[5],
+        "wet_deck": both[6],
+    }
+
+
+def _extents(port: Half, starboard: Half) -> dict[str, FloatArray]:
+    """Give the extents of the waterplane of both sides."""
+    one, other = port.extent, starboard.extent
+    none = ~np.isfinite(real(one[1])) & ~np.isfinite(real(other[1]))
+    rows = {
+        "x_least": -_larger(-one[0], -other[0]),
+        "x_most": _larger(one[1], other[1]),
+        "y_least": -_larger(-one[2], other[3]),
+        "y_most": _larger(one[3], -other[2]),
+    }
+    return {name: np.where(none, np.nan, row) for name, row in rows.items()}
+
+
+def _larger(one: FloatArray, other: FloatArray) -> FloatArray:
+    return np.where(real(one) >= real(other), one, other)

@@ -1,0 +1,92 @@
+"""Strips made ready for floating planes: the curves of the rule along v, integrated."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersion_roots import Tilted, tilt
+from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, subset
+from assoc_hull.geometry.isocurves import Strips
+from assoc_hull.geometry.quadrature import lobatto
+
+__all__ = ["Prepared", "prepare"]
+
+_LEAST_FINE, _FINE = 16, 1  # points of the rule for strips in which something happens
+
+
+@attrs.frozen(eq=False)
+class Prepared:
+    """Strips with the curves on which they are integrated.
+
+    Attributes
+    ----------
+    strips : Strips
+        The body.
+    fine : (strips,) int
+        How many curves each part of a strip gets in which something happens.
+    strip : (k,) int
+        The strip of each curve, ascending.
+    v, weight : (k,)
+        Where it lies, and its share in the integral along v. The first and the last curve
+        of a strip lie at v = 0 and 1.
+    tiles : Tiles
+        The curves.
+    weighted : (7, s)
+        Integrals of the tiles by the weights of their curves.
+    """
+
+    strips: Strips
+    fine: IntArray
+    strip: IntArray
+    v: FloatArray
+    weight: FloatArray
+    tiles: Tiles
+    weighted: FloatArray
+
+    @cached_property
+    def upright(self) -> Tilted:
+        """Heights over the planes of no trim and no heel."""
+        return tilt(self.tiles, np.zeros(1), np.zeros(1))
+
+    @cached_property
+    def ends(self) -> tuple[IntArray, Tiles]:
+        """Curves at v = 0 and 1 of all strips: their strips, and their tiles."""
+        end = np.flatnonzero((self.v == 0.0) | (self.v == 1.0))
+        return self.strip[end], subset(self.tiles, end)
+
+
+def prepare(strips: Strips, factor: int = 1) -> Prepared:
+    """Integrate the tiles of a body's curves.
+
+    Parameters
+    ----------
+    strips : Strips
+        The body.
+    factor : int
+        By how much to raise the order along v: two orders tell the error of one.
+
+    Returns
+    -------
+    Prepared
+        What `immersed` cuts.
+
+    Raises
+    ------
+    BadInputError
+        The factor is not positive.
+    """
+    if factor < 1:
+        raise BadInputError(f"factor {factor}", "for an order along v", "give 1 or more")
+    order = np.asarray(strips.order, np.int64) * factor
+    strip = np.repeat(np.arange(strips.count), order + 1)
+    rules = [lobatto(int(points) + 1) for points in order]
+    nodes = [np.concatenate(parts) for parts in zip(*rules, strict=True)]
+    v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
+    tiles = from_curves(strips.curves(strip, v))
+    fine = np.maximum(_LEAST_FINE, _FINE * order)
+    return Prepared(strips, fine, strip, v, weight, tiles, tiles.whole * weight[tiles.curve])

@@ -1,0 +1,102 @@
+"""Rules for integrals along a strip, from v = 0 to 1.
+
+Where nothing happens inside a strip, Lobatto's rule is used: its first and last curve lie at
+the ends, where it is seen what happens there. Where something does (a piece of the section
+appears), the integrands go like half-integer powers of the distance to that place; with
+``v = sin^2(pi t / 2)`` they are smooth in t, and Gauss's rule in t converges fast.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import Legendre
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["bunched", "gauss", "lobatto"]
+
+
+@lru_cache
+def gauss(count: int) -> tuple[FloatArray, FloatArray]:
+    """Give the nodes and weights of Gauss's rule on [0, 1].
+
+    Parameters
+    ----------
+    count : int
+        Points; exact to the degree 2 count - 1.
+
+    Returns
+    -------
+    (count,), (count,)
+        Nodes and weights.
+
+    Examples
+    --------
+    >>> nodes, weights = gauss(2)
+    >>> round(float((weights * nodes**3).sum()), 12)
+    0.25
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    return _frozen(0.5 + 0.5 * nodes, 0.5 * weights)
+
+
+@lru_cache
+def lobatto(count: int) -> tuple[FloatArray, FloatArray]:
+    """Give the nodes and weights of Lobatto's rule on [0, 1], both ends included.
+
+    Parameters
+    ----------
+    count : int
+        Points, at least two; exact to the degree 2 count - 3.
+
+    Returns
+    -------
+    (count,), (count,)
+        Nodes and weights.
+
+    Examples
+    --------
+    >>> nodes, weights = lobatto(3)  # Simpson's rule
+    >>> nodes.tolist(), weights.round(12).tolist()
+    ([0.0, 0.5, 1.0], [0.166666666667, 0.666666666667, 0.166666666667])
+    """
+    top = Legendre.basis(count - 1)
+    slope, bend = top.deriv(), top.deriv(2)
+    inner = np.sort(np.real(slope.roots()))
+    for _ in range(3):
+        inner = inner - slope(inner) / bend(inner)
+    nodes = np.concatenate([[-1.0], inner, [1.0]])
+    nodes = 0.5 * (nodes - nodes[::-1])
+    weights = 1.0 / (count * (count - 1) * top(nodes) ** 2)
+    return _frozen(0.5 + 0.5 * nodes, weights)
+
+
+@lru_cache
+def bunched(count: int) -> tuple[FloatArray, FloatArray]:
+    """Give a rule on [0, 1] for half-integer powers of the distance to either end.
+
+    Parameters
+    ----------
+    count : int
+        Points.
+
+    Returns
+    -------
+    (count,), (count,)
+        Nodes and weights.
+
+    Examples
+    --------
+    >>> nodes, weights = bunched(12)
+    >>> round(float((weights * np.sqrt(nodes * (1.0 - nodes))).sum() * 8.0 / np.pi), 12)
+    1.0
+    """
+    t, weights = gauss(count)
+    return _frozen(np.sin(0.5 * np.pi * t) ** 2, 0.5 * np.pi * np.sin(np.pi * t) * weights)
+
+
+def _frozen(nodes: FloatArray, weights: FloatArray) -> tuple[FloatArray, FloatArray]:
+    freeze(nodes, weights)
+    return nodes, weights

@@ -1,0 +1,75 @@
+"""The few sums of the immersion that are not element by element, and what decisions see.
+
+All other arithmetic of the immersion is written with plain operators, so it runs on real
+numbers, on complex ones (derivatives by complex step) and on any array type that overloads
+them. The sums below are kept together here, so that one place knows how each type adds up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+
+__all__ = ["is_plain", "mix", "real", "sum_by"]
+
+
+def is_plain(values: object) -> bool:
+    """Tell real numbers from those that carry derivatives along."""
+    return isinstance(values, np.ndarray) and values.dtype == np.float64
+
+
+def real(values: FloatArray) -> FloatArray:
+    """Give the numbers on which decisions are taken, without what derivatives they carry."""
+    part: FloatArray = values.real
+    return part
+
+
+def mix(matrix: FloatArray, values: FloatArray) -> FloatArray:
+    """Combine rows: ``matrix @ values``, of which the matrix is plain.
+
+    Parameters
+    ----------
+    matrix : (m, n)
+        Real factors.
+    values : (..., n, k)
+        Any arithmetic.
+
+    Returns
+    -------
+    (..., m, k)
+        The combinations.
+    """
+    mixed: FloatArray = matrix @ values
+    return mixed
+
+
+def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
+    """Add up columns by owner.
+
+    Parameters
+    ----------
+    values : (c, k)
+        Any arithmetic.
+    owner : (k,) int
+        From 0 to count - 1.
+    count : int
+        Number of owners.
+
+    Returns
+    -------
+    (c, count)
+        The sums, each in the order of its columns.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> sum_by(np.array([[1.0, 2.0, 4.0]]), np.array([1, 0, 1]), 3)
+    array([[2., 5., 0.]])
+    """
+    if count == 1:
+        alone: FloatArray = values.sum(axis=1)[:, None]
+        return alone
+    if np.iscomplexobj(values):
+        return sum_by(values.real, owner, count) + 1j * sum_by(values.imag, owner, count)
+    return np.stack([np.bincount(owner, row, count) for row in values])
