@@ -297,8 +297,8 @@ def _refuse_open(plane: IntArray, ends: FloatArray, level: FloatArray, least: fl
     x, y, z = ends[worst].mean(axis=0).tolist()
     length = float(np.linalg.norm(ends[here, 1] - ends[here, 0], axis=1).sum())
     raise BadInputError(
-        f"the mesh is open below the plane: {len(here)} edges, {length:.4g} m in all, lack a "
-        f"triangle; deepest, {-float(level[worst].min()):.4g} m below it, "
+        f"the mesh is open below the plane: {len(here)} edges, {length:.4g} m in all, are "
+        f"not shared by two triangles; deepest, {-float(level[worst].min()):.4g} m below it, "
         f"at ({x:.6g}, {y:.6g}, {z:.6g}) m",
         "in the mesh", "close it there, or choose a plane below",
     )  # fmt: skip
