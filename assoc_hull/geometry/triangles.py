@@ -17,8 +17,10 @@ __all__ = [
     "merge_vertices",
     "part_contents",
     "part_labels",
+    "sheet_labels",
     "turned",
     "unmatched_edges",
+    "weld_edges",
 ]
 
 BoolArray = np.typing.NDArray[np.bool_]
@@ -167,20 +169,13 @@ def against_neighbours(mesh: Triangles) -> BoolArray:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-    edges, faces = mesh.edges(), len(mesh.face)
-    owner = np.tile(np.arange(faces), 3)
-    keys = mesh.edge_keys()
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
-    count = np.diff(np.append(first, len(keys)))
-    two = first[count == 2]
-    a, b = order[two], order[two + 1]
-    same = edges[a, 0] == edges[b, 0]
+    faces = len(mesh.face)
+    one, other, same = _neighbours(mesh)
     flip = np.zeros(faces, np.bool_)
     if not same.any():
         return flip
     weight = np.where(same, 2.0, 1.0)
-    graph = coo_array((weight, (owner[a], owner[b])), shape=(faces, faces)).tocsr()
+    graph = coo_array((weight, (one, other)), shape=(faces, faces)).tocsr()
     graph = (graph + graph.T).tocsr()
     parts, label = connected_components(graph, directed=False)
     before = np.arange(faces)
@@ -196,6 +191,27 @@ def against_neighbours(mesh: Triangles) -> BoolArray:
         before = before[before]
     most = np.bincount(label, flip, parts) > 0.5 * np.bincount(label, minlength=parts)
     return flip ^ most[label]
+
+
+def _neighbours(mesh: Triangles) -> tuple[IntArray, IntArray, BoolArray]:
+    """Give the pairs of triangles that alone share an edge, and whether both run it one way."""
+    edges, keys = mesh.edges(), mesh.edge_keys()
+    owner = np.tile(np.arange(len(mesh.face)), 3)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
+    two = first[np.diff(np.append(first, len(keys))) == 2]
+    a, b = order[two], order[two + 1]
+    return owner[a], owner[b], edges[a, 0] == edges[b, 0]
+
+
+def sheet_labels(mesh: Triangles) -> IntArray:
+    """Give each triangle the number of its sheet, (f,): those joined by edges of two triangles."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    one, other, _ = _neighbours(mesh)
+    graph = coo_array((np.ones(len(one)), (one, other)), shape=(len(mesh.face),) * 2)
+    return np.asarray(connected_components(graph, directed=False)[1], np.int64)
 
 
 def part_labels(mesh: Triangles) -> IntArray:
@@ -239,3 +255,19 @@ def unmatched_edges(mesh: Triangles) -> IntArray:
     pair = np.sort(ends[order[first[left]]], axis=1)
     pair = np.where(net[left, None] > 0, pair, pair[:, ::-1])
     return np.asarray(np.repeat(pair, np.abs(net[left]), axis=0), np.int64)
+
+
+def weld_edges(mesh: Triangles, reach: float) -> tuple[Triangles, int]:
+    """Make vertices on open edges one that are at most so far apart, m; and count them.
+
+    Triangles may lose a corner by it.
+    """
+    from scipy.spatial import cKDTree
+
+    rim = np.unique(boundary_edges(mesh))
+    pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
+    xyz, pairs = mesh.xyz.copy(), rim[pairs]
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    order = np.argsort(-low, kind="stable")
+    xyz[high[order]] = mesh.xyz[low[order]]
+    return merge_vertices(xyz, mesh.face), len(np.unique(high))
