@@ -13,15 +13,12 @@ from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_triangles import TriangleBody, immersed_triangles, make_body
 from assoc_hull.geometry.triangles import (
     Triangles,
-    against_neighbours,
     check_mesh,
     merge_vertices,
-    part_contents,
-    sheet_labels,
-    turned,
     unmatched_edges,
     weld_edges,
 )
+from assoc_hull.geometry.winding import against_neighbours, part_contents, sheet_labels, turned
 
 __all__ = ["MeshFlotation", "mesh_flotation"]
 

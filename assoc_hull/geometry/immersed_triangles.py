@@ -18,6 +18,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.triangles import Triangles, unmatched_edges
+from assoc_hull.geometry.water_edges import WaterEdges, edge_extents, edge_moments, joined
 
 __all__ = ["TriangleBody", "immersed_triangles", "make_body"]
 
@@ -120,22 +121,6 @@ class _Levels:
         return cls(trim, heel, vertex, low, np.maximum(np.maximum(a, b), c))
 
 
-@attrs.frozen(eq=False)
-class _Cuts:
-    """Straight pieces of the edge of waterplanes.
-
-    Attributes
-    ----------
-    plane : (k,) int
-        The plane of each, ascending.
-    ends : (k, 2, 3), m
-        Begin and end, the waterplane to the left.
-    """
-
-    plane: IntArray
-    ends: FloatArray
-
-
 def _parallel(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArray:
     """Integrate below parallel planes, heights ascending: the fields of `Immersed`, (17, d)."""
     above = np.searchsorted(height, levels.low, "right")
@@ -158,10 +143,10 @@ def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArra
     most = sign < 0.0
     sums += _sum_rows(plane[most], body.sums[:, face[most]], count)
     turned = np.where(sign[:, None, None] > 0.0, corners[:, :0:-1], corners[:, 1:])
-    cuts = _join(_Cuts(plane, turned), _wet_rim(body, levels.vertex, height))
+    cuts = joined(WaterEdges(plane, turned), _wet_rim(body, levels.vertex, height))
     solid = _solid(sums, height, levels.trim, -levels.heel)
     shell = sums[10], sums[11], np.zeros(count)
-    return np.stack([*solid, *_waterplane(cuts, count), *shell, *_extents(cuts, count)])
+    return np.stack([*solid, *edge_moments(cuts, count), *shell, *edge_extents(cuts, count)])
 
 
 def _sum_whole(body: TriangleBody, whole: IntArray, count: int) -> FloatArray:
@@ -239,52 +224,19 @@ def _solid(sums: FloatArray, t: FloatArray, a: float, b: float) -> tuple[FloatAr
     return volume, moment_x, moment_y, above + t * volume + a * moment_x + b * moment_y
 
 
-def _waterplane(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
-    """Give area, first and second moments of waterplanes by Green's theorem, (count,) each."""
-    (x, y), (to_x, to_y) = cuts.ends[:, 0, :2].T, cuts.ends[:, 1, :2].T
-    swept = 0.5 * (x * to_y - y * to_x)
-    columns = [
-        swept,
-        swept * (x + to_x) / 3.0,
-        swept * (y + to_y) / 3.0,
-        swept * (x * x + x * to_x + to_x * to_x) / 6.0,
-        swept * (2.0 * (x * y + to_x * to_y) + x * to_y + to_x * y) / 12.0,
-        swept * (y * y + y * to_y + to_y * to_y) / 6.0,
-    ]
-    return tuple(np.asarray(np.bincount(cuts.plane, each, count), np.float64) for each in columns)
-
-
-def _extents(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
-    """Give the least and most x, then y, of waterplanes; nan where there is none."""
-    found = np.full((count, 4), np.nan)
-    if len(cuts.plane):
-        first = np.flatnonzero(np.append(True, np.diff(cuts.plane) != 0))
-        low = np.minimum.reduceat(cuts.ends.min(axis=1), first)
-        high = np.maximum.reduceat(cuts.ends.max(axis=1), first)
-        rows = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
-        found[cuts.plane[first]] = rows
-    return tuple(column.copy() for column in found.T)
-
-
-def _join(one: _Cuts, other: _Cuts) -> _Cuts:
-    plane = np.concatenate([one.plane, other.plane])
-    order = np.argsort(plane, kind="stable")
-    return _Cuts(plane[order], np.concatenate([one.ends, other.ends])[order])
-
-
-def _wet_rim(body: TriangleBody, vertex: FloatArray, height: FloatArray) -> _Cuts:
+def _wet_rim(body: TriangleBody, vertex: FloatArray, height: FloatArray) -> WaterEdges:
     """Give the open edges at the plane: within rounding below it, they bound the waterplane."""
     level = vertex[body.rim] - height[:, None, None]
     plane, edge = np.nonzero((level < 0.0).any(axis=2))
     level, ends = level[plane, edge], body.mesh.xyz[body.rim[edge]]
     if not len(plane):
-        return _Cuts(plane, ends)
+        return WaterEdges(plane, ends)
     size = float(np.ptp(body.mesh.xyz, axis=0).max())
     half = (level >= 0.0).any(axis=1)
     meet = _meet(ends[half], level[half])
     ends[half] = np.where((level[half] >= 0.0)[:, :, None], meet[:, None], ends[half])
     _refuse_open(plane, ends, level, _ROUNDING * size)
-    return _Cuts(plane, ends[:, ::-1].copy())
+    return WaterEdges(plane, ends[:, ::-1].copy())
 
 
 def _refuse_open(plane: IntArray, ends: FloatArray, level: FloatArray, least: float) -> None:

@@ -6,16 +6,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.triangles import (
-    Triangles,
-    against_neighbours,
-    boundary_edges,
-    check_mesh,
-    part_contents,
-    part_labels,
-    turned,
-    weld_edges,
-)
+from assoc_hull.geometry.triangles import Triangles, boundary_edges, check_mesh, weld_edges
+from assoc_hull.geometry.winding import against_neighbours, part_contents, part_labels, turned
 from assoc_hull.io.offset_report import Notebook
 
 __all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
