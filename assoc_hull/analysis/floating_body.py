@@ -80,7 +80,5 @@ class FloatingBody(Protocol):
         ...
 
     def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
-        """Name what makes the integrals doubtful: open sections; with `numbers` also routes that
-        disagree, for which more is computed.
-        """
+        """Name what makes the integrals doubtful; `numbers` compares them by other routes too."""
         ...
