@@ -126,12 +126,14 @@ class LoftAt:
         return accumulate(self.slots, chord), leave, arrive
 
     def _chords(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Differentiate length (k, n + 1) and direction (k, 3, n + 1) of the chords."""
+        """Differentiate length (k, n + 1) and direction (k, 3, n + 1) of the chords.
+
+        Directions between two curves mean nothing: no row and no rule that counts sees them.
+        """
         count, size = xyz.shape[:2]
         points = np.ascontiguousarray(xyz.swapaxes(1, 2))
         chord, slope = np.zeros((count, size + 1)), np.zeros((count, 3, size + 1))
         step = points[:, :, 1:] - points[:, :, :-1]
-        step *= ~self.slots.is_first[1:]
         along = self.slope[:, 1:-1]
         longer = chord[:, 1:-1]
         longer += (along * step).sum(axis=1)
