@@ -97,7 +97,7 @@ def hydrostatics(
     >>> from assoc_hull.sources import examples
     >>> hull = examples.wigley()
     >>> round(hydrostatics(hull, draught=6.25).volume)  # 4/9 L B T
-    2778
+    2777
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
