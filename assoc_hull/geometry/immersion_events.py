@@ -195,9 +195,9 @@ def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
     ends = prepared.critical(tilted)
     over = real(ends.height) - real(levels)[:, None]
     plane, point = np.nonzero(np.abs(over) < np.abs(real(ends.change)))
-    gap = np.take(levels, plane) - np.take(ends.height, point)
     most = np.take(ends.change, point)
-    part = 1.0 - gap * gap / (most * most)
+    gap = (np.take(levels, plane) - np.take(ends.height, point)) / most
+    part = 1.0 - gap * gap
     curve = ends.curve[point]
     inward = np.where(prepared.v[curve] == 0.0, real(most), -real(most))
     share = part * part * (3.0 - 2.0 * part)

@@ -284,3 +284,12 @@ def test_extents_end_where_the_keel_comes_out() -> None:
 def test_no_planes_have_no_integrals() -> None:
     """An empty batch is a batch."""
     assert rows(immersed(SHIP, planes([])), NAMES).shape == (len(NAMES), 0)
+
+
+@pytest.mark.parametrize(("points", "tolerance"), [(6, 2e-7), (12, 1e-8)])
+def test_the_breadth_between_curves_is_found(points: int, tolerance: float) -> None:
+    """The waterplane of a body is as broad as its greatest waterline breadth, to 1e-7 or so."""
+    form = ship(rocker=0.0, rake=0.0, points=points)
+    found = immersed(prepare(form), planes([4.0, 7.0]))
+    dense = immersed(prepare(ship(rocker=0.0, rake=0.0, points=100)), planes([4.0, 7.0]))
+    assert np.abs(found.y_most - dense.y_most).max() <= tolerance * 8.0
