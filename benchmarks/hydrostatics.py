@@ -38,6 +38,7 @@ MESH = 41
 
 DRAUGHTS = 200
 PEERS = {"trimesh": trimesh_job, "capytaine": capytaine_job}
+NEEDED = {"trimesh": ("trimesh", "shapely", "mapbox_earcut"), "capytaine": ("capytaine",)}
 GOALS = {"trimesh": 8, "capytaine": 500}
 
 
@@ -88,7 +89,7 @@ def _one_position(position: Position, quick: bool) -> list[Figure]:
     jobs = {"ours": ours(position), "our mesh route": mesh_route(MESH, position)}
     rows = {"ours": 0, "our mesh route": MESH}
     for name, make in PEERS.items():
-        if importlib.util.find_spec(name):
+        if all(importlib.util.find_spec(needed) for needed in NEEDED[name]):
             rows[name] = _coarsest(make, position, true)
             jobs[name] = make(rows[name], position)
     few = 1 if quick else 5
@@ -112,7 +113,7 @@ def _told(
 ) -> list[Figure]:
     found = []
     for name, time in times.items():
-        panels = f", {4 * rows[name] ** 2:,} panels" if rows[name] else ""
+        panels = f", {2 * rows[name]} x {rows[name]} panels a side" if rows[name] else ""
         found.append(Figure(f"{where}: {name}{panels}", 1e3 * time, "ms"))
         goal = 2e-6 if name == "ours" else None
         found.append(Figure(f"{where}: {name}: error of V", off[name]["volume"], "", goal, "most"))

@@ -6,13 +6,16 @@ net, no loft: what is tested with them is the integration alone.
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import attrs
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.isocurves import IsoCurves
 
-__all__ = ["box", "ellipsoid", "wigley"]
+__all__ = ["FormStrips", "box", "ellipsoid", "wigley"]
 
 
 @attrs.frozen
@@ -103,3 +106,67 @@ def _hermite(value: FloatArray, slope: FloatArray) -> FloatArray:
     begin, end, out, into = value[:-1], value[1:], slope[:-1], slope[1:]
     rise = end - begin
     return np.stack([begin, out, 3.0 * rise - 2.0 * out - into, out + into - 2.0 * rise], axis=1)
+
+
+@attrs.frozen
+class FormStrips:
+    """A ship-like body, its half cut into equal strips; every tile is exact.
+
+    With t = x / length along the ship, sections are y = breadth(t) * eta(u),
+    z = keel(t) + height(t) * zeta(u) in tiles of a bilge-like profile, from which the curves
+    lean forward by rake(t) * zeta(u). All along t are polynomials.
+    """
+
+    breadth: Polynomial
+    keel: Polynomial
+    height: Polynomial
+    rake: Polynomial
+    tiles: int = 8
+    strips: int = 10
+    points: int = 6
+    length: float = 100.0
+    closed: bool = True
+
+    @property
+    def count(self) -> int:
+        return self.strips
+
+    @property
+    def order(self) -> IntArray:
+        return np.full(self.strips, self.points)
+
+    @cached_property
+    def profile(self) -> tuple[FloatArray, FloatArray]:
+        """Eta and zeta of the tiles: a superellipse in Hermite tiles, then the deck."""
+        angle = np.linspace(0.0, 0.5 * np.pi, self.tiles + 1)
+        step = 0.5 * np.pi / self.tiles
+        bow, sine, cosine = 0.15 * np.sin(2.0 * angle), np.sin(angle), np.cos(angle)
+        eta = _hermite(sine + bow, (cosine + 0.3 * np.cos(2.0 * angle)) * step)
+        zeta = _hermite(1.0 - cosine, sine * step)
+        if not self.closed:
+            return eta, zeta
+        deck = np.array([[1.0, -1.0, 0.0, 0.0]]), np.array([[1.0, 0.0, 0.0, 0.0]])
+        return np.concatenate([eta, deck[0]]), np.concatenate([zeta, deck[1]])
+
+    def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
+        """Curves at v."""
+        eta, zeta = self.profile
+        t, scale, size = (strip + v) / self.strips, 1.0 / self.strips, len(eta)
+        point, across = np.zeros((2, len(v), size, 4, 3))
+        for into, change in ((point, 0), (across, 1)):
+            breadth, keel, height, rake = (
+                (form.deriv() if change else form)(t) * scale**change
+                for form in (self.breadth, self.keel, self.height, self.rake)
+            )
+            into[..., 0] = _times(rake, zeta)
+            into[:, :, 0, 0] += self.length * (scale + 0.0 * t if change else t)[:, None]
+            into[..., 1], into[..., 2] = _times(breadth, eta), _times(height, zeta)
+            into[:, :, 0, 2] += keel[:, None]
+        deck = np.zeros((len(v), size), bool)
+        deck[:, -1] = self.closed
+        return IsoCurves(
+            np.arange(len(v) + 1) * size,
+            point.reshape(-1, 4, 3),
+            across.reshape(-1, 4, 3),
+            deck.ravel(),
+        )

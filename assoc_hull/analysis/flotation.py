@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.doubt import doubts_of
+from assoc_hull.analysis.doubt import doubtful_lines, doubtful_numbers
 from assoc_hull.analysis.estimate import Spread, spread_of
 from assoc_hull.analysis.floating import Limits
 from assoc_hull.analysis.floating_body import Change, StationAreas
@@ -28,6 +28,7 @@ from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.immersion import Prepared, immersed, prepare
 from assoc_hull.model.index import Objects
+from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
 __all__ = ["Flotation", "flotation"]
@@ -106,9 +107,21 @@ class Flotation:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         return self.spread.changes(self.prepared, self.sections, planes)
 
-    def doubts(self, planes: Planes) -> Sequence[str]:
-        """Say what is wrong with the hull, line by line; nothing if it can be trusted."""
-        return doubts_of(self.net, self.layout, self.sections, self.spread, planes)
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
+        """Say what is wrong with the hull, line by line; nothing if it can be trusted.
+
+        Parameters
+        ----------
+        planes : Planes
+            Where it floats.
+        numbers : bool
+            Also compare the numbers with those of other routes, which the estimate needs anyway.
+        """
+        kinds = curve_data(self.state, self.net.curve).kind
+        found = doubtful_lines(self.net, self.layout, self.sections, kinds, planes)
+        if numbers and not found:
+            found += doubtful_numbers(self.sections, self.spread, self.prepared, planes)
+        return tuple(found)
 
 
 _KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()

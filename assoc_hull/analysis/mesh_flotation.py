@@ -13,20 +13,21 @@ from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_triangles import TriangleBody, immersed_triangles, make_body
 from assoc_hull.geometry.triangles import (
     Triangles,
-    against_neighbours,
     check_mesh,
     merge_vertices,
-    part_contents,
-    part_labels,
-    turned,
     unmatched_edges,
+    weld_edges,
 )
+from assoc_hull.geometry.winding import against_neighbours, part_contents, sheet_labels, turned
 
 __all__ = ["MeshFlotation", "mesh_flotation"]
 
 _WHERE = "in the mesh"
 _ROUNDING = 1e-9
-"""Places this part of the size of the hull off the centre plane lie in it."""
+"""Vertices on open edges this part of the size of the hull apart are one."""
+
+_NOTHING = 1e-12
+"""Volumes this part of the cube of the size are those of flat sheets."""
 
 
 @attrs.frozen(eq=False)
@@ -103,6 +104,7 @@ def mesh_flotation(
     """
     mesh = _surface(vertices, faces)
     size = float(np.ptp(mesh.xyz, axis=0).max())
+    mesh = _proper(weld_edges(mesh, _ROUNDING * size)[0])
     one_side = _is_half(mesh, _ROUNDING * size) if half is None else flag(half, "half", _WHERE)
     if one_side:
         mesh = _mirrored(mesh, _ROUNDING * size)
@@ -162,9 +164,9 @@ def _outward(mesh: Triangles) -> tuple[Triangles, int]:
     flip = against_neighbours(mesh)
     agreed = turned(mesh, flip)
     _refuse_one_sided(agreed)
-    label = part_labels(agreed)
+    label = sheet_labels(agreed)
     content = part_contents(agreed, label)
-    sound = np.abs(content) > _ROUNDING * np.abs(content).sum()
+    sound = np.abs(content) > _NOTHING * float(np.ptp(mesh.xyz, axis=0).max()) ** 3
     inward = sound & (content < 0.0)
     if not inward.any():
         return agreed, int(flip.sum())
@@ -191,8 +193,8 @@ def _inside_out(mesh: Triangles, label: IntArray, content: FloatArray) -> BadInp
     worst = int(np.argmin(content))
     x, y, z = mesh.corners[label == worst].mean(axis=(0, 1)).tolist()
     return BadInputError(
-        f"of {len(content)} parts that touch nowhere some face outward and some inward, as the one "
+        f"of {len(content)} parts some face outward and some inward, as the one "
         f"of {int((label == worst).sum())} triangles and {-content[worst]:.4g} m3 about "
         f"({x:.6g}, {y:.6g}, {z:.6g}) m",
-        _WHERE, "turn its triangles round, or leave it out",
+        _WHERE, "turn its triangles round, close it, or leave it out",
     )  # fmt: skip

@@ -30,8 +30,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual_rules import CONSTANT, PARTIAL, Partial
 from assoc_hull.geometry.dual_shapes import MANY, ONE, pick, put, spread
 
-__all__ = ["Dual", "as_array", "real", "sum_by"]
+__all__ = ["Dual", "as_array", "is_plain", "real", "sum_by"]
 
+_SUMS = frozenset({np.add, np.subtract})
 _SUM: Callable[..., Any] = np.sum
 _METHODS: dict[str, Callable[..., Any]] = {"reduce": np.sum, "accumulate": np.cumsum}
 
@@ -216,12 +217,18 @@ def _call(ufunc: np.ufunc, given: Sequence[Any]) -> Any:
     if ufunc not in PARTIAL:
         _refuse(f"numpy.{ufunc.__name__}", "differentiate it by hand")
     count, result = _same_count(given), np.asarray(ufunc(*values))
+    shape = (count, *result.shape)
+    if ufunc in _SUMS and all(isinstance(each, Dual) for each in given):
+        return Dual(result, ufunc(*(spread(each.dot, result.ndim) for each in given)))
     parts = [
         _scaled(ufunc, partial, (*values, result), spread(each.dot, result.ndim))
         for each, partial in zip(given, PARTIAL[ufunc], strict=True)
         if isinstance(each, Dual)
     ]
-    return Dual(result, _whole(sum(parts[1:], parts[0]), (count, *result.shape)))
+    dot = _whole(parts[0], shape)
+    for more in parts[1:]:
+        dot += more
+    return Dual(result, dot)
 
 
 def _scaled(
@@ -330,6 +337,11 @@ def real(given: Any) -> FloatArray:
     [1.0, 2.0]
     """
     return np.asarray(np.real(_value(given)), np.float64)
+
+
+def is_plain(given: Any) -> bool:
+    """Tell whether numbers are plain: neither complex nor with tangents."""
+    return not isinstance(given, Dual) and not np.iscomplexobj(given)
 
 
 def as_array(given: Dual) -> FloatArray:

@@ -88,7 +88,11 @@ def _behind(axis: int) -> int:
 
 def _flat(dot: FloatArray, axis: int | None) -> tuple[FloatArray, int]:
     """Give tangents and axis; without an axis, numpy takes the values in one row."""
-    return (dot.reshape(len(dot), -1), -1) if axis is None else (dot, _behind(axis))
+    return (_ravel(dot), -1) if axis is None else (dot, _behind(axis))
+
+
+def _ravel(dot: FloatArray) -> FloatArray:
+    return dot.reshape(len(dot), int(np.prod(dot.shape[1:])))
 
 
 def _all_of(dot: FloatArray, axis: Axis) -> tuple[int, ...]:
@@ -181,7 +185,7 @@ def _concatenate(dots: Sequence[FloatArray], axis: int | None = 0) -> FloatArray
 
 ONE: Mapping[Callable[..., Any], Rule] = {
     np.sum: _sum, np.mean: _mean, np.cumsum: _cumsum, np.diff: _diff, np.take: _take,
-    np.repeat: _repeat, np.reshape: _reshape, np.ravel: lambda dot: dot.reshape(len(dot), -1),
+    np.repeat: _repeat, np.reshape: _reshape, np.ravel: _ravel,
     np.broadcast_to: _broadcast_to, np.transpose: _transpose, np.moveaxis: _moveaxis,
     np.swapaxes: _swapaxes, np.expand_dims: _expand_dims, np.squeeze: _squeeze, np.flip: _flip,
     np.copy: np.copy, np.zeros_like: np.zeros_like, np.ones_like: np.zeros_like,

@@ -7,8 +7,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersion_half import curves_below
-from assoc_hull.geometry.immersion_roots import tilt
+from assoc_hull.geometry.immersion_half import curve_by_curve
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
 from assoc_hull.geometry.isocurves import IsoCurves
 
@@ -55,14 +54,8 @@ def sections_below(curves: IsoCurves, planes: Planes) -> FloatArray:
 
 def _one(tiles: Tiles, planes: Planes, row: int) -> FloatArray:
     """Take each curve as a strip of its own: its volume per metre is the area."""
-    height, trim = planes.height[row : row + 1], planes.tan_trim[row : row + 1]
-    heel = planes.tan_heel[row : row + 1]
-    every, count = np.arange(tiles.curves), tiles.curves
-    port, starboard = (
-        curves_below(
-            tiles, tilt(tiles, trim, side), height.repeat(count), every, np.ones(count), count
-        ).columns
-        for side in (heel, -heel)
-    )
-    area: FloatArray = port[0] + starboard[0] + heel * (port[9] - starboard[9])
+    level = planes.height[row : row + 1].repeat(tiles.curves)
+    trim, heel = planes.tan_trim[row : row + 1], planes.tan_heel[row : row + 1]
+    port = curve_by_curve(tiles, level, trim, heel)[0]
+    area: FloatArray = port + (curve_by_curve(tiles, level, trim, -heel)[0] if heel[0] else port)
     return area

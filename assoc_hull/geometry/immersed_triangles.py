@@ -18,11 +18,15 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.triangles import Triangles, unmatched_edges
+from assoc_hull.geometry.water_edges import WaterEdges, edge_extents, edge_moments, joined
 
 __all__ = ["TriangleBody", "immersed_triangles", "make_body"]
 
-_AT_ONCE = 2_000_000
-"""So many heights of corners above planes are held at a time."""
+_AT_ONCE = 200_000
+"""About so many cut triangles are held at a time."""
+
+_FEW = 4
+"""Up to so many planes it is quicker to add up the triangles below each anew."""
 
 _ROUNDING = 1e-9
 """An open edge this part of the size of the body below the plane is at it."""
@@ -38,7 +42,7 @@ class TriangleBody:
         The surface, outward.
     rim : (e, 2) int
         Vertices of its open edges, as their triangles run.
-    sums : (f, 12)
+    sums : (12, f)
         Integrals over each triangle, see `_triangle_sums`.
     """
 
@@ -76,69 +80,94 @@ def immersed_triangles(body: TriangleBody, planes: Planes) -> Immersed:
     >>> below.volume.round(12).tolist(), below.area.round(12).tolist()
     ([3.166666666667, 4.5], [2.0, 0.0])
     """
-    step = max(1, _AT_ONCE // (3 * len(body.mesh.face)))
-    blocks = [
-        _block(body, Planes(*(each[begin : begin + step].copy() for each in attrs.astuple(planes))))
-        for begin in range(0, max(1, len(planes.height)), step)
-    ]
-    rows = [attrs.astuple(block, recurse=False) for block in blocks]
-    return Immersed(*(np.concatenate(column) for column in zip(*rows, strict=True)))
+    tilt, group = np.unique(
+        np.stack([planes.tan_trim, planes.tan_heel], axis=1), axis=0, return_inverse=True
+    )
+    values = np.empty((len(attrs.fields(Immersed)), len(planes.height)))
+    for number, (trim, heel) in enumerate(tilt.tolist()):
+        rows = np.flatnonzero(group.reshape(-1) == number)
+        rows = rows[np.argsort(planes.height[rows], kind="stable")]
+        values[:, rows] = _parallel(body, _Levels.make(body.mesh, trim, heel), planes.height[rows])
+    return Immersed(*(row.copy() for row in values))
 
 
 @attrs.frozen(eq=False)
-class _Cuts:
-    """Straight pieces of the edge of waterplanes.
+class _Levels:
+    """Heights at which planes of one inclination meet a mesh, as heights over the origin.
 
     Attributes
     ----------
-    plane : (k,) int
-        The plane of each, ascending.
-    ends : (k, 2, 3), m
-        Begin and end, the waterplane to the left.
+    trim, heel : float
+        Tangents.
+    vertex : (n,), m
+        Of the planes through the vertices.
+    low, high : (f,), m
+        Of the planes that touch the triangles.
     """
 
-    plane: IntArray
-    ends: FloatArray
+    trim: float
+    heel: float
+    vertex: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def make(cls, mesh: Triangles, trim: float, heel: float) -> _Levels:
+        """Find them."""
+        x, y, z = mesh.xyz.T
+        vertex = z - (trim * x - heel * y)
+        a, b, c = (vertex[column] for column in mesh.face.T)
+        low = np.minimum(np.minimum(a, b), c)
+        return cls(trim, heel, vertex, low, np.maximum(np.maximum(a, b), c))
 
 
-def _block(body: TriangleBody, planes: Planes) -> Immersed:
-    height = _heights(body.mesh.xyz, planes)
-    wet = (height < 0.0)[:, body.mesh.face]
-    count = wet.sum(axis=2, dtype=np.int8)
-    plane, face = np.nonzero((count == 1) | (count == 2))
-    corners, sign = _cut_corners(body.mesh, height, wet, plane, face)
-    sums = (count >= 2).astype(np.float64) @ body.sums
-    sums += _sum_rows(plane, sign[:, None] * _triangle_sums(corners), len(height))
+def _parallel(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArray:
+    """Integrate below parallel planes, heights ascending: the fields of `Immersed`, (17, d)."""
+    above = np.searchsorted(height, levels.low, "right")
+    cuts = int((np.searchsorted(height, levels.high, "right") - above).sum())
+    step = max(1, _AT_ONCE * len(height) // max(cuts, 1))
+    starts = range(0, max(1, len(height)), step)
+    return np.concatenate([_block(body, levels, height[i : i + step]) for i in starts], axis=1)
+
+
+def _block(body: TriangleBody, levels: _Levels, height: FloatArray) -> FloatArray:
+    count = len(height)
+    # From this plane on a triangle is cut, and from that on it is wholly below.
+    first = np.searchsorted(height, levels.low, "right")
+    whole = np.searchsorted(height, levels.high, "right")
+    sums = _sum_whole(body, whole, count)
+    face = np.repeat(np.arange(len(first)), whole - first)
+    plane = np.arange(len(face)) - np.repeat(np.cumsum(whole - first) - whole, whole - first)
+    corners, sign = _cut_corners(body.mesh, levels.vertex, height[plane], face)
+    sums += _sum_rows(plane, sign * _triangle_sums(corners), count)
+    most = sign < 0.0
+    sums += _sum_rows(plane[most], body.sums[:, face[most]], count)
     turned = np.where(sign[:, None, None] > 0.0, corners[:, :0:-1], corners[:, 1:])
-    cuts = _join(_Cuts(plane, turned), _wet_rim(body, height))
-    shell = sums[:, 10].copy(), sums[:, 11].copy(), np.zeros(len(height))
-    values = (
-        *_solid(sums, planes), *_waterplane(cuts, len(height)), *shell,
-        *_extents(cuts, len(height)),
-    )  # fmt: skip
-    return Immersed(*values)
+    cuts = joined(WaterEdges(plane, turned), _wet_rim(body, levels.vertex, height))
+    solid = _solid(sums, height, levels.trim, -levels.heel)
+    shell = sums[10], sums[11], np.zeros(count)
+    return np.stack([*solid, *edge_moments(cuts, count), *shell, *edge_extents(cuts, count)])
 
 
-def _heights(xyz: FloatArray, planes: Planes) -> FloatArray:
-    """Give the height of each vertex above each plane, (d, n), m."""
-    x, y, z = xyz.T
-    level = planes.height[:, None] + planes.tan_trim[:, None] * x - planes.tan_heel[:, None] * y
-    return np.asarray(z - level)
+def _sum_whole(body: TriangleBody, whole: IntArray, count: int) -> FloatArray:
+    """Add up the triangles that are below each plane as a whole, (12, count)."""
+    if count <= _FEW:
+        return np.asarray(body.sums @ (whole[:, None] <= np.arange(count)).astype(np.float64))
+    return np.cumsum(_sum_rows(whole, body.sums, count + 1)[:, :-1], axis=1)
 
 
 def _cut_corners(
-    mesh: Triangles, height: FloatArray, wet: np.typing.NDArray[np.bool_], plane: IntArray,
-    face: IntArray,
-) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+    mesh: Triangles, vertex: FloatArray, height: FloatArray, face: IntArray
+) -> tuple[FloatArray, FloatArray]:
     """Give the corner that a plane takes off each cut triangle, (k, 3, 3), tip first; its sign.
 
     The sign is +1 where the corner is all that is below, -1 where it is what is missing.
     """
-    below = wet[plane, face]
+    below = vertex[mesh.face[face]] < height[:, None]
     sign = np.where(below.sum(axis=1) == 1, 1.0, -1.0)
     tip = np.argmax(below == (sign > 0.0)[:, None], axis=1)
     number = mesh.face[face[:, None], (tip[:, None] + np.arange(3)) % 3]
-    place, level = mesh.xyz[number], height[plane[:, None], number]
+    place, level = mesh.xyz[number], vertex[number] - height[:, None]
     for side in (1, 2):
         place[:, side] = _meet(place[:, [0, side]], level[:, [0, side]])
     return place, sign
@@ -156,33 +185,36 @@ def _meet(ends: FloatArray, level: FloatArray) -> FloatArray:
 def _triangle_sums(corners: FloatArray) -> FloatArray:
     """Integrate over triangles, (k, 3, 3): 1, x, y, z, xx, xy, yy, xz, yz, zz, area, girth.
 
-    The first ten are over the projection on z = 0, positive for triangles that face up.
+    The first ten, of the (12, k), are over the projection on z = 0, positive for triangles that
+    face up.
     """
-    vector = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    plan, total = vector[:, 2, None], corners.sum(axis=1)
-    pairs = (0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)
-    first, second = (list(each) for each in zip(*pairs, strict=True))
-    products = (corners[:, :, first] * corners[:, :, second]).sum(axis=1)
-    products += total[:, first] * total[:, second]
-    area = np.sqrt((vector**2).sum(axis=1))
-    girth = np.sqrt((vector[:, 1:] ** 2).sum(axis=1))
-    columns = [plan, plan / 3.0 * total, plan / 12.0 * products, area[:, None], girth[:, None]]
-    return np.concatenate(columns, axis=1)
+    x, y, z = np.ascontiguousarray(corners.transpose(2, 1, 0))
+    side, other = ([w[n] - w[0] for w in (x, y, z)] for n in (1, 2))
+    vector = [0.5 * (side[i] * other[j] - side[j] * other[i]) for i, j in ((1, 2), (2, 0), (0, 1))]
+    across = vector[0] ** 2, vector[1] ** 2 + vector[2] ** 2
+    plan, sums = vector[2], [w.sum(axis=0) for w in (x, y, z)]
+    pairs = (x, 0, x, 0), (x, 0, y, 1), (y, 1, y, 1), (x, 0, z, 2), (y, 1, z, 2), (z, 2, z, 2)
+    products = [(v * w).sum(axis=0) + sums[i] * sums[j] for v, i, w, j in pairs]
+    return np.array(
+        [
+            plan, *(plan / 3.0 * each for each in sums), *(plan / 12.0 * each for each in products),
+            np.sqrt(across[0] + across[1]), np.sqrt(across[1]),
+        ]
+    )  # fmt: skip
 
 
 def _sum_rows(plane: IntArray, values: FloatArray, count: int) -> FloatArray:
-    """Add up rows, (k, c), per plane: (count, c)."""
-    columns = [np.bincount(plane, column, count) for column in values.T]
-    return np.stack(columns, axis=1)
+    """Add up columns, (c, k), per plane: (c, count)."""
+    return np.array([np.bincount(plane, row, count) for row in values], np.float64)
 
 
-def _solid(sums: FloatArray, planes: Planes) -> tuple[FloatArray, ...]:
+def _solid(sums: FloatArray, t: FloatArray, a: float, b: float) -> tuple[FloatArray, ...]:
     """Give the volume and the integrals of x, y and z over it.
 
-    Each is that of the height above the plane, and its square, over the shell in plan.
+    Each is that of the height above the plane ``z = t + a x + b y``, and its square, over the
+    shell in plan.
     """
-    one, x, y, z, xx, xy, yy, xz, yz, zz = sums[:, :10].T
-    t, a, b = planes.height, planes.tan_trim, -planes.tan_heel
+    one, x, y, z, xx, xy, yy, xz, yz, zz = sums[:10]
     volume = z - (t * one + a * x + b * y)
     moment_x = xz - (t * x + a * xx + b * xy)
     moment_y = yz - (t * y + a * xy + b * yy)
@@ -192,54 +224,19 @@ def _solid(sums: FloatArray, planes: Planes) -> tuple[FloatArray, ...]:
     return volume, moment_x, moment_y, above + t * volume + a * moment_x + b * moment_y
 
 
-def _waterplane(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
-    """Give area, first and second moments of waterplanes by Green's theorem, (count,) each."""
-    (x, y), (to_x, to_y) = cuts.ends[:, 0, :2].T, cuts.ends[:, 1, :2].T
-    swept = 0.5 * (x * to_y - y * to_x)
-    columns = [
-        swept,
-        swept * (x + to_x) / 3.0,
-        swept * (y + to_y) / 3.0,
-        swept * (x * x + x * to_x + to_x * to_x) / 6.0,
-        swept * (2.0 * (x * y + to_x * to_y) + x * to_y + to_x * y) / 12.0,
-        swept * (y * y + y * to_y + to_y * to_y) / 6.0,
-    ]
-    return tuple(np.asarray(np.bincount(cuts.plane, each, count), np.float64) for each in columns)
-
-
-def _extents(cuts: _Cuts, count: int) -> tuple[FloatArray, ...]:
-    """Give the least and most x, then y, of waterplanes; nan where there is none."""
-    found = np.full((count, 4), np.nan)
-    if len(cuts.plane):
-        first = np.flatnonzero(np.append(True, np.diff(cuts.plane) != 0))
-        low = np.minimum.reduceat(cuts.ends.min(axis=1), first)
-        high = np.maximum.reduceat(cuts.ends.max(axis=1), first)
-        rows = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
-        found[cuts.plane[first]] = rows
-    return tuple(column.copy() for column in found.T)
-
-
-def _join(one: _Cuts, other: _Cuts) -> _Cuts:
-    if not len(other.plane):
-        return one
-    plane = np.concatenate([one.plane, other.plane])
-    order = np.argsort(plane, kind="stable")
-    return _Cuts(plane[order], np.concatenate([one.ends, other.ends])[order])
-
-
-def _wet_rim(body: TriangleBody, height: FloatArray) -> _Cuts:
+def _wet_rim(body: TriangleBody, vertex: FloatArray, height: FloatArray) -> WaterEdges:
     """Give the open edges at the plane: within rounding below it, they bound the waterplane."""
-    level = height[:, body.rim]
+    level = vertex[body.rim] - height[:, None, None]
     plane, edge = np.nonzero((level < 0.0).any(axis=2))
     level, ends = level[plane, edge], body.mesh.xyz[body.rim[edge]]
     if not len(plane):
-        return _Cuts(plane, ends)
+        return WaterEdges(plane, ends)
     size = float(np.ptp(body.mesh.xyz, axis=0).max())
     half = (level >= 0.0).any(axis=1)
     meet = _meet(ends[half], level[half])
     ends[half] = np.where((level[half] >= 0.0)[:, :, None], meet[:, None], ends[half])
     _refuse_open(plane, ends, level, _ROUNDING * size)
-    return _Cuts(plane, ends[:, ::-1].copy())
+    return WaterEdges(plane, ends[:, ::-1].copy())
 
 
 def _refuse_open(plane: IntArray, ends: FloatArray, level: FloatArray, least: float) -> None:
@@ -252,8 +249,8 @@ def _refuse_open(plane: IntArray, ends: FloatArray, level: FloatArray, least: fl
     x, y, z = ends[worst].mean(axis=0).tolist()
     length = float(np.linalg.norm(ends[here, 1] - ends[here, 0], axis=1).sum())
     raise BadInputError(
-        f"the mesh is open below the plane: {len(here)} edges, {length:.4g} m in all, lack a "
-        f"triangle; deepest, {-float(level[worst].min()):.4g} m below it, "
+        f"the mesh is open below the plane: {len(here)} edges, {length:.4g} m in all, are "
+        f"not shared by two triangles; deepest, {-float(level[worst].min()):.4g} m below it, "
         f"at ({x:.6g}, {y:.6g}, {z:.6g}) m",
         "in the mesh", "close it there, or choose a plane below",
     )  # fmt: skip

@@ -4,8 +4,7 @@
 up. Only tiles that a plane crosses are integrated anew, up to the cut, exactly. Both sides
 are integrals over the port half: starboard's are those of the plane heeled the other way.
 
-V and its moments are fluxes along y through the shell, and under heel through the
-waterplane, whose normal in plan is (-tan_trim, tan_heel, 1).
+V and its moments are fluxes through the shell alone, along a direction in the plane.
 
 Examples
 --------
@@ -36,6 +35,7 @@ from assoc_hull.geometry.tile_sums import is_plain, real
 __all__ = ["Prepared", "immersed", "prepare"]
 
 _MOST = 256  # planes at a time, which bounds the memory
+_ODD = frozenset({"moment_y", "area_y", "area_xy"})
 
 
 def immersed(prepared: Prepared, planes: Planes) -> Immersed:
@@ -96,33 +96,16 @@ def _both_sides(
     port = half(prepared, height, trim, heel)
     upright = is_plain(heel) and heel[0] == 0.0
     starboard = port if upright else half(prepared, height, trim, -heel)
-    return _sums(port, starboard, height, trim, heel) | _extents(port, starboard)
+    return _sums(port.columns, starboard.columns) | _extents(port, starboard)
 
 
-def _sums(
-    port: Half, starboard: Half, height: FloatArray, trim: FloatArray, heel: FloatArray
-) -> dict[str, FloatArray]:
-    """Add both sides, and what the waterplane has of the fluxes."""
-    both = port.columns + starboard.columns
-    odd = port.columns - starboard.columns
-    area, area_x, area_y = both[7], both[8], odd[9]
-    area_xx, area_xy, area_yy = both[10], odd[11], both[12]
-    moment_z = height * area_y + trim * area_xy - heel * area_yy
-    return {
-        "volume": both[0] + heel * area_y,
-        "moment_x": both[1] + heel * area_xy,
-        "moment_y": odd[2] + 0.5 * heel * area_yy,
-        "moment_z": both[3] + heel * moment_z,
-        "area": area,
-        "area_x": area_x,
-        "area_y": area_y,
-        "area_xx": area_xx,
-        "area_xy": area_xy,
-        "area_yy": area_yy,
-        "shell": both[4],
-        "girth": both[5],
-        "wet_deck": both[6],
-    }
+def _sums(port: FloatArray, starboard: FloatArray) -> dict[str, FloatArray]:
+    """Add both sides; what is odd in y changes its sign to starboard."""
+    names = ("volume", "moment_x", "moment_y", "moment_z", "shell", "girth", "wet_deck")
+    plane = ("area", "area_x", "area_y", "area_xx", "area_xy", "area_yy")
+    both, odd = port + starboard, port - starboard
+    rows = zip((*names, *plane), both, odd, strict=True)
+    return {name: alone if name in _ODD else even for name, even, alone in rows}
 
 
 def _extents(port: Half, starboard: Half) -> dict[str, FloatArray]:

@@ -1,4 +1,4 @@
-"""What the cuts of tiles by planes contribute to the integrals of one side of a body.
+"""What curves cut by planes contribute to the integrals of one side of a body.
 
 A tile that ends wet counts whole; at a cut where it leaves the water the part from its
 beginning to the cut is added, at a cut where it goes in that part is taken off. With the
@@ -12,80 +12,138 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_roots import Cuts, Tilted
-from assoc_hull.geometry.immersion_tiles import COLUMNS, Tiles, integrals, powers
-from assoc_hull.geometry.tile_sums import real
+from assoc_hull.geometry.immersion_roots import Tilted, cuts
+from assoc_hull.geometry.immersion_tiles import CHUNK, Tiles, integrals, powers
+from assoc_hull.geometry.tile_sums import is_plain, real, sum_by
 
-__all__ = ["PLANE", "WATERLINE", "Waterline", "along"]
+__all__ = ["Cross", "Half", "add_solid", "cross", "wider"]
 
-PLANE = 6
-"""Columns of a waterline: integrals of 1, x, y, x x, x y, y y over the plane, in plan."""
-
-WATERLINE = COLUMNS + PLANE
-"""Columns of `along`: those of the tiles, then those of the plane."""
-
-_CHUNK = 2048  # cuts of which the work stays in the processor's cache
 _FLAT = 1e-12  # of a slope: less is rounding
 
 
 @attrs.frozen(eq=False)
-class Waterline:
-    """Cuts as points of waterlines.
+class Half:
+    """Integrals of one side below d planes, and extents of its waterplane.
 
     Attributes
     ----------
-    columns : (13, k)
-        Share of each in the integrals (`WATERLINE`), per unit of v.
-    point : (3, k), m
-        x, y and z.
+    columns : (13, d) or (17, d)
+        Sums of the rows of `integrals`, and the integrals of 1, x, y, x x, x y, y y over the
+        plane, in plan.
+    extent : (4, d), m
+        Least and greatest x, least and greatest y; infinite where there is no waterplane.
     """
 
     columns: FloatArray
-    point: FloatArray
+    extent: FloatArray
 
 
-def along(tiles: Tiles, tilted: Tilted, tile: IntArray, found: Cuts) -> Waterline:
-    """Integrate the parts of tiles below their cuts.
+@attrs.frozen(eq=False)
+class Cross:
+    """Shares of cuts in a half, and where the cuts are.
+
+    Attributes
+    ----------
+    half : Half
+        What the parts of tiles below cuts add to it, and the waterlines.
+    plane, curve : (k,) int
+        Of each cut.
+    """
+
+    half: Half
+    plane: IntArray
+    curve: IntArray
+
+
+def cross(
+    tiles: Tiles,
+    tilted: Tilted,
+    pairs: tuple[IntArray, IntArray],
+    level: FloatArray,
+    weight: FloatArray,
+) -> Cross:
+    """Cut tiles by planes and integrate up to the cuts.
 
     Parameters
     ----------
     tiles, tilted : Tiles, Tilted
         The tiles.
-    tile : (k,) int
-        The tile of each cut.
-    found : Cuts
-        The cuts.
+    pairs : (p,) int, (p,) int
+        A tile and a plane that may meet.
+    level : (d,), m
+        Heights of the planes.
+    weight : (k,)
+        Shares of the curves in the integrals along v.
 
     Returns
     -------
-    Waterline
-        One column per cut.
+    Cross
+        The sums over all cuts.
     """
-    if len(tile) <= _CHUNK:
-        return _along(tiles, tilted, tile, found.u, found.sign)
-    pieces = [
-        _along(tiles, tilted, tile[part], found.u[part], found.sign[part])
-        for part in (slice(i, i + _CHUNK) for i in range(0, len(tile), _CHUNK))
+    tile, plane = pairs
+    if len(tile) <= CHUNK:
+        return _cross(tiles, tilted, tile, plane, level, weight)
+    parts = [
+        _cross(tiles, tilted, tile[some], plane[some], level, weight)
+        for some in (slice(i, i + CHUNK) for i in range(0, len(tile), CHUNK))
     ]
-    return Waterline(
-        np.concatenate([piece.columns for piece in pieces], axis=1),
-        np.concatenate([piece.point for piece in pieces], axis=1),
-    )
+    half = parts[0].half
+    for part in parts[1:]:
+        columns = half.columns + part.half.columns
+        half = Half(columns, wider(half.extent, part.half.extent))
+    where = [
+        np.concatenate(each) for each in zip(*((p.plane, p.curve) for p in parts), strict=True)
+    ]
+    return Cross(half, where[0], where[1])
 
 
-def _along(
-    tiles: Tiles, tilted: Tilted, tile: IntArray, u: FloatArray, sign: FloatArray
-) -> Waterline:
-    powered = np.take(tiles.coefficients, tile, axis=2) * powers(u)
-    solid = integrals(powered, tiles.deck[tile])
-    both = powered[:, 0] + powered[:, 1] + powered[:, 2] + powered[:, 3]
-    slope = _slopes(np.take(tiles.coefficients[:3], tile, axis=2), u)
-    x, y = both[0], both[1]
-    forward = both[3] - slope[0] * _ratio(tilted, slope, both[3:])
+def add_solid(half: Half, solid: FloatArray) -> Half:
+    """Add whole tiles, (7, d) or (11, d), to a half."""
+    rows = len(solid)
+    columns = np.concatenate([half.columns[:rows] + solid, half.columns[rows:]])
+    return Half(columns, half.extent)
+
+
+def wider(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Join extents (4, d)."""
+    sign = np.array([[-1.0], [1.0], [-1.0], [1.0]])
+    joined: FloatArray = np.where(real(one) * sign >= real(other) * sign, one, other)
+    return joined
+
+
+def _cross(
+    tiles: Tiles,
+    tilted: Tilted,
+    tile: IntArray,
+    plane: IntArray,
+    level: FloatArray,
+    weight: FloatArray,
+) -> Cross:
+    """Do what `cross` does with pairs that fit the processor's cache."""
+    found = cuts(tilted, tile, np.take(level, plane))
+    tile, plane = tile[found.pair], plane[found.pair]
+    curve = tiles.curve[tile]
+    lean = tiles.lean[tile]
+    coefficients = np.take(tiles.coefficients, tile, axis=2)
+    part = coefficients * powers(found.u)
+    solid = integrals(part, tiles.deck[tile], lean, tilted.heeled)
+    point = part[:, 0] + part[:, 1] + part[:, 2] + part[:, 3]
+    x, y, forward = point[0], point[1], point[3]
+    if lean.any():
+        slope = _slopes(coefficients[:3], found.u)
+        forward = forward - slope[0] * _ratio(tilted, slope, point[3:])
+    columns = np.concatenate([solid, _green(x, y, forward)])
+    columns = columns * (found.sign * np.take(weight, curve))
+    half = Half(sum_by(columns, plane, len(level)), _extent(x, y, plane, len(level)))
+    return Cross(half, plane, curve)
+
+
+def _green(x: FloatArray, y: FloatArray, forward: FloatArray) -> FloatArray:
+    """Give the integrands along v of area and moments of the plane, (6, k)."""
     area = y * forward
     half = 0.5 * y * area
-    plane = [area, x * area, half, x * x * area, x * half, (2.0 / 3.0) * y * half]
-    return Waterline(sign * np.concatenate([solid, np.stack(plane)]), both[:3])
+    along = x * area
+    return np.stack([area, along, half, x * along, x * half, (2.0 / 3.0) * y * half])
 
 
 def _slopes(point: FloatArray, u: FloatArray) -> FloatArray:
@@ -101,3 +159,26 @@ def _ratio(tilted: Tilted, slope: FloatArray, across: FloatArray) -> FloatArray:
     flat = np.abs(real(steep)) <= _FLAT * np.abs(real(slope)).sum(axis=0)
     ratio: FloatArray = np.where(flat, 0.0, climb / np.where(flat, 1.0, steep))
     return ratio
+
+
+def _extent(x: FloatArray, y: FloatArray, plane: IntArray, count: int) -> FloatArray:
+    """Give the extents of points, plane by plane, (4, d)."""
+    rows = [-_most(-x, plane, count), _most(x, plane, count)]
+    return np.stack([*rows, -_most(-y, plane, count), _most(y, plane, count)])
+
+
+def _most(values: FloatArray, plane: IntArray, count: int) -> FloatArray:
+    """Give the greatest value of each plane, minus infinity where there is none."""
+    most = np.full(count, -np.inf)
+    if is_plain(values):
+        if count == 1:
+            most[0] = values.max(initial=-np.inf)
+        else:
+            np.maximum.at(most, plane, values)
+        return most
+    if not len(plane):
+        return most
+    order = np.lexsort((real(values), plane))
+    last = np.searchsorted(plane[order], np.arange(count), "right") - 1
+    some = np.bincount(plane, minlength=count) > 0
+    return np.where(some, np.take(values, order[np.maximum(last, 0)]), most)

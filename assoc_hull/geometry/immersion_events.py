@@ -13,17 +13,38 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
-from assoc_hull.geometry.bernstein import stationary, value
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_places import CLOSE, Brackets, places
-from assoc_hull.geometry.immersion_roots import Tilted, tilt
+from assoc_hull.geometry.immersion_places import CLOSE, Brackets, joined, places, states_at
+from assoc_hull.geometry.immersion_roots import Tilted
 from assoc_hull.geometry.immersion_strips import Prepared
-from assoc_hull.geometry.immersion_tiles import Tiles
 from assoc_hull.geometry.quadrature import bunched
 from assoc_hull.geometry.tile_sums import real
 
 __all__ = ["Parts", "parts_of"]
+
+_LADDER = 7  # curves, ever closer to the end of a strip
+
+
+@attrs.frozen(eq=False)
+class Soon:
+    """Critical points at the ends of strips that are close to planes, all (n,).
+
+    Attributes
+    ----------
+    plane, curve : int
+        Which plane, and which curve of the plain rule.
+    share : from 0 to 1
+        How much of the fine rule the strip takes because of it.
+    nearer : bool
+        Into the strip, the point comes nearer to the plane.
+    """
+
+    plane: IntArray
+    curve: IntArray
+    share: FloatArray
+    nearer: NDArray[np.bool_]
 
 
 @attrs.frozen(eq=False)
@@ -52,7 +73,7 @@ class Parts:
 
 
 def parts_of(
-    prepared: Prepared, trim: FloatArray, heel: FloatArray, levels: FloatArray, state: IntArray
+    prepared: Prepared, tilted: Tilted, levels: FloatArray, state: IntArray
 ) -> Parts | None:
     """Find the strips in which something happens, and rules for them.
 
@@ -60,8 +81,8 @@ def parts_of(
     ----------
     prepared : Prepared
         The body.
-    trim, heel : (1,)
-        Inclination of the planes.
+    tilted : Tilted
+        The inclination of the planes.
     levels : (d,), m
         Their heights.
     state : (d, k) int
@@ -72,18 +93,22 @@ def parts_of(
     Parts or None
         None if nothing happens anywhere.
     """
+    soon = _soon(prepared, tilted, levels)
     changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
     plane, curve = np.nonzero(changed)
-    at, share = _near(prepared, trim, heel, levels)
-    count = prepared.strips.count
-    key = plane * count + prepared.strip[curve]
-    keys = np.unique(np.concatenate([key, at]))
-    if not len(keys):
+    if not len(plane) and not len(soon.plane):
         return None
-    found = places(
-        prepared.strips, real(trim), real(heel), _brackets(prepared, levels, state, plane, curve)
+    inclination = real(tilted.trim), real(tilted.heel)
+    brackets = joined(
+        _brackets(prepared, levels, state, plane, curve),
+        _dips(prepared, inclination, levels, state, soon),
     )
-    return _rules(prepared, keys, _shares(keys, key, at, share), found)
+    found = places(prepared.strips, *inclination, brackets)
+    near = soon.plane * prepared.strips.count + prepared.strip[soon.curve]
+    keys, row = np.unique(np.concatenate([found.row, near]), return_inverse=True)
+    shares = _shares(soon.share, row[len(found) :], len(keys))
+    known = np.isin(keys, found.row)
+    return _rules(prepared, keys, np.where(known, 1.0, shares), found)
 
 
 def _brackets(
@@ -102,14 +127,14 @@ def _brackets(
     )
 
 
-def _shares(keys: IntArray, happens: IntArray, near: IntArray, share: FloatArray) -> FloatArray:
-    """Give the share of the fine rule for each pair of a plane and a strip."""
-    ones = np.ones(len(keys))
-    if not len(near):
-        return ones
-    row = np.minimum(np.searchsorted(near, keys), len(near) - 1)
-    within = np.isin(keys, happens)
-    return np.where(within, ones, np.take(share, row))
+def _shares(share: FloatArray, row: IntArray, count: int) -> FloatArray:
+    """Give the greatest share of each row, nil where there is none."""
+    if not len(row):
+        return np.zeros(count)
+    order = np.lexsort((real(share), row))
+    last = np.searchsorted(row[order], np.arange(count), "right") - 1
+    some = np.bincount(row, minlength=count) > 0
+    return np.where(some, np.take(share, order[np.maximum(last, 0)]), 0.0)
 
 
 def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Brackets) -> Parts:
@@ -149,40 +174,59 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
     )
 
 
-def _near(
-    prepared: Prepared, trim: FloatArray, heel: FloatArray, levels: FloatArray
-) -> tuple[IntArray, FloatArray]:
-    """Find strips into which something may come soon: plane and strip as one key, the share."""
-    strip, tiles = prepared.ends
-    tilted = tilt(tiles, trim, heel)
-    tile, u = _critical(tiles, tilted)
-    origin, first, second, third = np.take(tilted.height, tile, axis=1)
-    height = value(origin, first, second, third, u)
-    across = np.take(tiles.coefficients[3:], tile, axis=2)
-    x_v, y_v, z_v = value(across[:, 0], across[:, 1], across[:, 2], across[:, 3], u)
-    change = z_v - trim * x_v + heel * y_v
-    far = np.abs(real(height) - real(levels)[:, None])
-    plane, point = np.nonzero(far < np.abs(real(change)))
-    key = plane * prepared.strips.count + strip[tiles.curve[tile[point]]]
-    gap, most = levels[plane] - height[point], change[point]
+def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
+    """Find critical points at the ends of strips that a strip's worth of change may wet or dry."""
+    ends = prepared.critical(tilted)
+    over = real(ends.height) - real(levels)[:, None]
+    plane, point = np.nonzero(np.abs(over) < np.abs(real(ends.change)))
+    gap = np.take(levels, plane) - np.take(ends.height, point)
+    most = np.take(ends.change, point)
     part = 1.0 - gap * gap / (most * most)
-    order = np.lexsort((real(part), key))
-    order = order[np.append(key[order][1:] != key[order][:-1], True)] if len(order) else order
-    part = np.take(part, order)
-    return key[order], part * part * (3.0 - 2.0 * part)
+    curve = ends.curve[point]
+    inward = np.where(prepared.v[curve] == 0.0, real(most), -real(most))
+    share = part * part * (3.0 - 2.0 * part)
+    return Soon(plane, curve, share, over[plane, point] * inward < 0.0)
 
 
-def _critical(tiles: Tiles, tilted: Tilted) -> tuple[IntArray, FloatArray]:
-    """Give the places of curves where a piece may appear: ends, knuckles, turning points."""
-    step = tilted.control[1:] - tilted.control[:-1]
-    first, last = tiles.start[:-1], tiles.start[1:] - 1
-    turn = np.flatnonzero(
-        (step[2, :-1] * step[0, 1:] < 0.0) & (tiles.curve[1:] == tiles.curve[:-1])
+def _dips(
+    prepared: Prepared,
+    inclination: tuple[FloatArray, FloatArray],
+    levels: FloatArray,
+    state: IntArray,
+    soon: Soon,
+) -> Brackets:
+    """Look for pieces that begin and end before the first curve inside a strip.
+
+    A critical point at the end of a strip that comes nearer to the plane may pass it and
+    come back: as it does so at the very end, the piece must be found however short it is.
+    """
+    inner = soon.curve + np.where(prepared.v[soon.curve] == 0.0, 1, -1)
+    hidden = soon.nearer & (state[soon.plane, soon.curve] == state[soon.plane, inner])
+    count = len(prepared.strip)
+    key = np.unique((soon.plane * count + soon.curve)[hidden])
+    plane, curve = key // count, key % count
+    inner = curve + np.where(prepared.v[curve] == 0.0, 1, -1)
+    begin, end = prepared.v[curve, None], prepared.v[inner, None]
+    trial = begin + (end - begin) * 0.5 ** np.arange(_LADDER, 0, -1)
+    seen = states_at(
+        prepared.strips,
+        inclination,
+        np.repeat(prepared.strip[curve], _LADDER),
+        trial.ravel(),
+        np.repeat(real(levels)[plane], _LADDER),
+    ).reshape(-1, _LADDER)
+    v = np.concatenate([begin, trial, end], axis=1)
+    kinds = np.concatenate([state[plane, curve, None], seen, state[plane, inner, None]], axis=1)
+    one, rung = np.nonzero(kinds[:, 1:] != kinds[:, :-1])
+    forward = (v[:, 0] == 0.0)[one]
+    low, high = np.where(forward, rung, rung + 1), np.where(forward, rung + 1, rung)
+    strip = prepared.strip[curve[one]]
+    return Brackets(
+        row=plane[one] * prepared.strips.count + strip,
+        strip=strip,
+        level=real(levels)[plane[one]],
+        low=v[one, low],
+        high=v[one, high],
+        below=kinds[one, low],
+        above=kinds[one, high],
     )
-    wavy = np.flatnonzero(~((step >= 0.0).all(axis=0) | (step <= 0.0).all(axis=0)))
-    lower, upper = stationary(*real(tilted.height)[1:, wavy])
-    low, high = lower > 0.0, upper < 1.0
-    tile = np.concatenate([first, last, tiles.knuckle, turn + 1, wavy[low], wavy[high]])
-    none = np.zeros(len(first) + len(tiles.knuckle) + len(turn))
-    u = [none[: len(first)], none[: len(last)] + 1.0, none[len(first) :], lower[low], upper[high]]
-    return tile, np.concatenate(u)

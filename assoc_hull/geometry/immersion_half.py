@@ -2,35 +2,18 @@
 
 from __future__ import annotations
 
-import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_columns import Waterline, along
+from assoc_hull.geometry.immersion_columns import Half, add_solid, cross, wider
 from assoc_hull.geometry.immersion_events import Parts, parts_of
 from assoc_hull.geometry.immersion_places import states
-from assoc_hull.geometry.immersion_roots import Tilted, candidates, cuts, tilt
+from assoc_hull.geometry.immersion_roots import Tilted, candidates, mixed, tilt
 from assoc_hull.geometry.immersion_strips import Prepared
-from assoc_hull.geometry.immersion_tiles import COLUMNS, Tiles, from_curves, subset
+from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, from_curves, integrals, subset
 from assoc_hull.geometry.tile_sums import is_plain, mix, real, sum_by
 
-__all__ = ["Half", "curves_below", "half"]
-
-
-@attrs.frozen(eq=False)
-class Half:
-    """Integrals of one side, and extents of its waterplane.
-
-    Attributes
-    ----------
-    columns : (13, d)
-        The sums, see `immersion_columns`.
-    extent : (4, d), m
-        Least and greatest x, least and greatest y; infinite where there is no waterplane.
-    """
-
-    columns: FloatArray
-    extent: FloatArray
+__all__ = ["Half", "curve_by_curve", "half"]
 
 
 def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatArray) -> Half:
@@ -53,101 +36,86 @@ def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatAr
     tiles = prepared.tiles
     straight = is_plain(trim) and is_plain(heel) and trim[0] == 0.0 == heel[0]
     tilted = prepared.upright if straight else tilt(tiles, trim, heel)
-    tile, plane = candidates(tilted, real(levels))
-    found = cuts(tilted, tile, levels[plane])
-    tile, plane = tile[found.pair], plane[found.pair]
-    line = along(tiles, tilted, tile, found)
-    curve = tiles.curve[tile]
-    columns = sum_by(line.columns * prepared.weight[curve], plane, len(levels))
-    columns = _with_whole(columns, prepared.weighted, tilted, real(levels))
-    extent = _extents(line, plane, len(levels))
-    state = states(tiles, tilted, real(levels)[:, None], plane, curve)
-    parts = parts_of(prepared, trim, heel, levels, state)
-    return _corrected(prepared, Half(columns, extent), levels, tilted, parts)
+    ground = real(levels)
+    cut = cross(tiles, tilted, candidates(tilted, ground), levels, prepared.weight)
+    plain = add_solid(cut.half, _whole(prepared.weighted(tilted.heeled), tilted, ground))
+    state = states(tiles, tilted, ground[:, None], cut.plane, cut.curve)
+    parts = parts_of(prepared, tilted, levels, state)
+    if parts is not None:
+        plain = _corrected(prepared, plain, levels, tilted, parts)
+    return Half(_in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
 
 
-def _with_whole(
-    columns: FloatArray, weighted: FloatArray, tilted: Tilted, levels: FloatArray
+def curve_by_curve(
+    tiles: Tiles, level: FloatArray, trim: FloatArray, heel: FloatArray
 ) -> FloatArray:
-    """Add the tiles that end below each level."""
+    """Integrate the port half of each curve by itself, as if it were a strip of weight 1.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        k curves.
+    level : (k,), m
+        Height of the plane below which each is looked at.
+    trim, heel : (1,)
+        Tangents of the inclination.
+
+    Returns
+    -------
+    (13, k)
+        The columns.
+    """
+    tilted = tilt(tiles, trim, heel)
+    columns = _each(tiles, tilted, level, np.arange(tiles.curves), np.ones(tiles.curves)).columns
+    return _in_plane(columns, heel) if tilted.heeled else columns
+
+
+def _in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:
+    """Turn the flux along y into one along (0, 1, -heel), which does not cross the plane.
+
+    The fluxes whose divergences are 1, x, y and z are y, x y, y^2/2 and y z + heel y^2/2.
+    """
+    volume, x, y, z = columns[:4]
+    volume_z, x_z, y_z, z_z = columns[PLAIN:HEELED]
+    bent = [volume - heel * volume_z, x - heel * x_z, y - heel * y_z]
+    bent.append(z + heel * (y - z_z) - heel * heel * y_z)
+    return np.concatenate([np.stack(bent), columns[4:PLAIN], columns[HEELED:]])
+
+
+def _whole(weighted: FloatArray, tilted: Tilted, levels: FloatArray) -> FloatArray:
+    """Add up the tiles that end below each level."""
     end = tilted.control[3]
     if len(levels) == 1:
         wet = (end <= levels[0]).astype(np.float64)
-        whole = mix(wet[None], weighted.T).T
-    else:
-        each = sum_by(weighted, np.searchsorted(levels, end), len(levels) + 1)
-        whole = mix(np.tri(len(levels), len(levels) + 1), each.T).T
-    return np.concatenate([columns[:COLUMNS] + whole, columns[COLUMNS:]])
-
-
-def _extents(line: Waterline, plane: IntArray, count: int) -> FloatArray:
-    """Give the extents of the cuts, plane by plane."""
-    x, y = line.point[0], line.point[1]
-    rows = [-_most(-x, plane, count), _most(x, plane, count)]
-    return np.stack([*rows, -_most(-y, plane, count), _most(y, plane, count)])
-
-
-def _most(values: FloatArray, plane: IntArray, count: int) -> FloatArray:
-    """Give the greatest value of each plane, minus infinity where there is none."""
-    if is_plain(values):
-        most = np.full(count, -np.inf)
-        if count == 1:
-            most[0] = values.max(initial=-np.inf)
-        else:
-            np.maximum.at(most, plane, values)
-        return most
-    order = np.lexsort((real(values), plane))
-    last = np.searchsorted(plane[order], np.arange(count), "right") - 1
-    known = (last >= 0) & (np.bincount(plane, minlength=count) > 0)
-    if not len(order):
-        return np.full(count, -np.inf)
-    return np.where(known, np.take(values, order[np.maximum(last, 0)]), -np.inf)
+        return mix(wet[None], weighted.T).T
+    each = sum_by(weighted, np.searchsorted(levels, end), len(levels) + 1)
+    return mix(np.tri(len(levels), len(levels) + 1), each.T).T
 
 
 def _corrected(
-    prepared: Prepared, plain: Half, levels: FloatArray, tilted: Tilted, parts: Parts | None
+    prepared: Prepared, plain: Half, levels: FloatArray, tilted: Tilted, parts: Parts
 ) -> Half:
     """Put the fine rule in the place of the plain one where something happens."""
-    if parts is None:
-        return plain
     fine = from_curves(prepared.strips.curves(parts.strip, parts.v))
-    level = levels[parts.plane]
-    better = curves_below(
-        fine, tilt(fine, tilted.trim, tilted.heel), level, parts.plane, parts.weight, len(levels)
-    )
+    better = _each(fine, tilted, levels, parts.plane, parts.weight)
     coarse = subset(prepared.tiles, parts.replaced)
-    known = curves_below(
-        coarse,
-        tilt(coarse, tilted.trim, tilted.heel),
-        levels[parts.instead],
-        parts.instead,
-        parts.share * prepared.weight[parts.replaced],
-        len(levels),
-    )
-    return Half(plain.columns + better.columns - known.columns, _wider(plain.extent, better.extent))
+    weight = parts.share * np.take(prepared.weight, parts.replaced)
+    known = _each(coarse, tilted, levels, parts.instead, weight)
+    return Half(plain.columns + better.columns - known.columns, wider(plain.extent, better.extent))
 
 
-def _wider(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Join extents."""
-    sign = np.array([[-1.0], [1.0], [-1.0], [1.0]])
-    return np.where(real(sign * one) >= real(sign * other), one, other)
-
-
-def curves_below(
-    tiles: Tiles, tilted: Tilted, level: FloatArray, plane: IntArray, weight: FloatArray, count: int
+def _each(
+    tiles: Tiles, inclined: Tilted, levels: FloatArray, plane: IntArray, weight: FloatArray
 ) -> Half:
-    """Integrate curves of which each has its own level; `plane` says to which sum each belongs."""
-    ground = real(level)[tiles.curve]
-    tile = np.flatnonzero((tilted.low <= ground) & (tilted.high > ground))
-    found = cuts(tilted, tile, level[tiles.curve[tile]])
-    tile = tile[found.pair]
-    line = along(tiles, tilted, tile, found)
-    curve = tiles.curve[tile]
-    columns = sum_by(line.columns * weight[curve], plane[curve], count)
+    """Integrate curves of which each belongs to one plane."""
+    tilted = tilt(tiles, inclined.trim, inclined.heel)
+    whose = plane[tiles.curve]
+    ground = real(levels)[whose]
+    tile = mixed(tilted, ground)
+    cut = cross(tiles, tilted, (tile, whose[tile]), levels, weight)
     wet = np.flatnonzero(tilted.control[3] <= ground)
-    owner = tiles.curve[wet]
-    whole = sum_by(np.take(tiles.whole, wet, axis=1) * weight[owner], plane[owner], count)
-    return Half(
-        np.concatenate([columns[:COLUMNS] + whole, columns[COLUMNS:]]),
-        _extents(line, plane[curve], count),
+    whole = integrals(
+        np.take(tiles.coefficients, wet, axis=2), tiles.deck[wet], tiles.lean[wet], tilted.heeled
     )
+    shares = np.take(weight, tiles.curve[wet])
+    return add_solid(cut.half, sum_by(whole * shares, whose[wet], len(levels)))

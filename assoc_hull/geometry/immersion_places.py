@@ -6,18 +6,20 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_roots import Tilted, cuts, tilt
+from assoc_hull.geometry.immersion_critical import critical
+from assoc_hull.geometry.immersion_roots import Tilted, mixed, tilt
+from assoc_hull.geometry.immersion_roots import brackets as changes
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
 from assoc_hull.geometry.isocurves import Strips
 
-__all__ = ["CLOSE", "Brackets", "places", "states"]
+__all__ = ["CLOSE", "Brackets", "joined", "places", "states", "states_at"]
 
 CLOSE = 1e-11
 """Of a strip: how exactly a place is wanted, and the least distance between two."""
 
 _TRIALS = 60
 _SEVERAL = 6  # changes between two neighbouring curves, at most
-_CUT, _KEEL, _KNUCKLE = 4, 2, 1024
+_DECK, _KEEL, _CUT, _KNUCKLE = 1, 2, 4, 1024
 
 
 @attrs.frozen(eq=False)
@@ -79,43 +81,130 @@ def places(strips: Strips, trim: FloatArray, heel: FloatArray, brackets: Bracket
         found.append(close)
         more = np.flatnonzero((close.above != brackets.above) & (close.high < brackets.high))
         brackets = attrs.evolve(brackets.take(more), low=close.high[more], below=close.above[more])
-    merged = zip(*(attrs.astuple(each, recurse=False) for each in found), strict=True)
-    return Brackets(*(np.concatenate(parts) for parts in merged)) if found else brackets
+    return joined(*found) if found else brackets
+
+
+def joined(*several: Brackets) -> Brackets:
+    """Put brackets behind one another."""
+    fields = zip(*(attrs.astuple(each, recurse=False) for each in several), strict=True)
+    return Brackets(*(np.concatenate(parts) for parts in fields))
+
+
+def states_at(
+    strips: Strips,
+    inclination: tuple[FloatArray, FloatArray],
+    strip: IntArray,
+    v: FloatArray,
+    level: FloatArray,
+) -> IntArray:
+    """Tell the states of curves across strips.
+
+    Parameters
+    ----------
+    strips : Strips
+        The body.
+    inclination : (1,), (1,)
+        Tangents of trim and heel, plain.
+    strip, v : (k,) int, (k,)
+        Which curves.
+    level : (k,), m
+        Height of the plane for each.
+
+    Returns
+    -------
+    (k,) int
+        Their `states`.
+    """
+    tiles = from_curves(strips.curves(strip, v))
+    return _seen(tiles, tilt(tiles, *inclination), level)
+
+
+def _seen(tiles: Tiles, tilted: Tilted, level: FloatArray) -> IntArray:
+    """Tell the state of each curve, for a level of its own."""
+    ground = level[tiles.curve]
+    tile = mixed(tilted, ground)
+    found = changes(tilted, tile, ground[tile])
+    curve = tiles.curve[tile[found.pair]]
+    state: IntArray = states(tiles, tilted, level[None], 0 * curve, curve)[0]
+    return state
 
 
 def _closed(strips: Strips, trim: FloatArray, heel: FloatArray, brackets: Brackets) -> Brackets:
     """Close each bracket on the first change of state that is seen."""
+    kind = np.where(brackets.below != brackets.above, brackets.below ^ brackets.above, 0)
     low, high, above = brackets.low.copy(), brackets.high.copy(), brackets.above.copy()
-    quarters = np.array([0.25, 0.5, 0.75])
+    ends = np.stack([low, high], axis=1)
+    row = np.repeat(np.arange(len(low)), 2)
+    _, miss = _look(strips, trim, heel, brackets.take(row), kind[row], ends.ravel())
+    miss = miss.reshape(-1, 2)
     for _ in range(_TRIALS):
         alive = np.flatnonzero(high - low > CLOSE)
         if not len(alive):
             break
-        begin, end = low[alive, None], high[alive, None]
-        trial = begin + (end - begin) * quarters
-        some = brackets.take(np.repeat(alive, 3))
-        seen = _state_at(strips, trim, heel, some, trial.ravel()).reshape(-1, 3)
-        kept = np.cumprod(seen == brackets.below[alive, None], axis=1).sum(axis=1)
-        edges = np.concatenate([begin, trial, end], axis=1)
-        kinds = np.concatenate([seen, above[alive, None]], axis=1)
-        row = np.arange(len(alive))
-        low[alive], high[alive] = edges[row, kept], edges[row, kept + 1]
-        above[alive] = kinds[row, kept]
+        trial = _trials(low[alive], high[alive], miss[alive])
+        row = np.repeat(alive, 3)
+        seen, off = _look(strips, trim, heel, brackets.take(row), kind[row], trial.ravel())
+        same = seen.reshape(-1, 3) == brackets.below[alive, None]
+        kept = np.cumprod(same, axis=1).sum(axis=1)
+        edges = np.concatenate([low[alive, None], trial, high[alive, None]], axis=1)
+        kinds = np.concatenate([seen.reshape(-1, 3), above[alive, None]], axis=1)
+        misses = np.concatenate([miss[alive, :1], off.reshape(-1, 3), miss[alive, 1:]], axis=1)
+        each = np.arange(len(alive))
+        low[alive], high[alive] = edges[each, kept], edges[each, kept + 1]
+        above[alive] = kinds[each, kept]
+        miss[alive] = np.stack([misses[each, kept], misses[each, kept + 1]], axis=1)
     return attrs.evolve(brackets, low=low, high=high, above=above)
 
 
-def _state_at(
-    strips: Strips, trim: FloatArray, heel: FloatArray, brackets: Brackets, v: FloatArray
-) -> IntArray:
-    """Tell the state of one curve for each bracket."""
+def _trials(low: FloatArray, high: FloatArray, miss: FloatArray) -> FloatArray:
+    """Give three places in each bracket: two about where the chord says, one far from it.
+
+    The chord errs by the square of the bracket's length; so if the two enclose the place,
+    the digits double. Without a chord, quarters.
+    """
+    length = high - low
+    one, other = miss[:, 0], miss[:, 1]
+    chord = one * other < 0.0
+    share = np.where(chord, one / np.where(chord, one - other, 1.0), 0.5)
+    half_width = np.where(chord, np.minimum(0.25, 0.25 * length + 0.3 * CLOSE / length), 0.25)
+    before = np.clip(share - half_width, 0.25 * share, None)
+    after = np.clip(share + half_width, None, share + 0.75 * (1.0 - share))
+    far = np.where(share > 0.5, 0.5 * before, 0.5 * (1.0 + after))
+    far = np.where(chord, far, 0.5)
+    inside = np.sort(np.stack([before, after, far], axis=1), axis=1)
+    trial: FloatArray = low[:, None] + length[:, None] * inside
+    return trial
+
+
+def _look(
+    strips: Strips,
+    trim: FloatArray,
+    heel: FloatArray,
+    brackets: Brackets,
+    kind: IntArray,
+    v: FloatArray,
+) -> tuple[IntArray, FloatArray]:
+    """Tell the state of one curve for each bracket, and by what height it misses a change."""
     tiles = from_curves(strips.curves(brackets.strip, v))
     tilted = tilt(tiles, trim, heel)
-    ground = brackets.level[tiles.curve]
-    tile = np.flatnonzero((tilted.low <= ground) & (tilted.high > ground))
-    found = cuts(tilted, tile, ground[tile])
-    curve = tiles.curve[tile[found.pair]]
-    state: IntArray = states(tiles, tilted, brackets.level[None], 0 * curve, curve)[0]
-    return state
+    state = _seen(tiles, tilted, brackets.level)
+    return state, _miss(tiles, tilted, brackets.level, kind)
+
+
+def _miss(tiles: Tiles, tilted: Tilted, level: FloatArray, kind: IntArray) -> FloatArray:
+    """Give the height over the plane of the point at which the state is about to change."""
+    keel = tilted.control[0][tiles.start[:-1]] - level
+    deck = tilted.control[3][tiles.start[1:] - 1] - level
+    miss: FloatArray = np.where(kind & _KEEL, keel, deck)
+    inner = (kind & (_KEEL | _DECK)) == 0
+    if not inner.any():
+        return miss
+    points = critical(tiles, tilted)
+    over = points.height - level[points.curve]
+    nearest = np.lexsort((np.abs(over), points.curve))
+    first = np.searchsorted(points.curve[nearest], np.arange(tiles.curves))
+    miss = np.where(inner, over[nearest[first]], miss)
+    return miss
 
 
 def states(
@@ -142,7 +231,7 @@ def states(
     times = np.bincount(row * count + curve, minlength=rows * count).reshape(rows, count)
     keel = tilted.control[0][tiles.start[:-1]] <= level
     deck = tilted.control[3][tiles.start[1:] - 1] <= level
-    state: IntArray = _CUT * times + _KEEL * keel + deck
+    state: IntArray = _CUT * times + _KEEL * keel + _DECK * deck
     if len(tiles.knuckle):
         owner = tiles.curve[tiles.knuckle]
         at = level[:, owner] if level.shape[1] > 1 else level

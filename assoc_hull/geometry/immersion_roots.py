@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.bernstein import stationary, value
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -18,7 +19,7 @@ from assoc_hull.geometry.immersion_tiles import Tiles
 from assoc_hull.geometry.roots import bracketed_roots
 from assoc_hull.geometry.tile_sums import is_plain, real
 
-__all__ = ["Cuts", "Tilted", "candidates", "cuts", "tilt"]
+__all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "mixed", "tilt", "turns"]
 
 
 @attrs.frozen(eq=False)
@@ -35,6 +36,8 @@ class Tilted:
         Bernstein coefficients of q as plain numbers; the last is the first of the next tile.
     low, high : (s,), m
         Least and greatest of these.
+    wavy : (s,) bool
+        By these the tile may run up and down.
     """
 
     trim: FloatArray
@@ -43,6 +46,33 @@ class Tilted:
     control: FloatArray
     low: FloatArray
     high: FloatArray
+    wavy: NDArray[np.bool_]
+
+    @property
+    def heeled(self) -> bool:
+        """There is heel, or a derivative by it is wanted."""
+        return not is_plain(self.heel) or bool(self.heel[0] != 0.0)
+
+
+@attrs.frozen(eq=False)
+class Changes:
+    """Parts of tiles with one change of sign each, all (k,).
+
+    Attributes
+    ----------
+    pair : int
+        Of the pairs of a tile and a level that were asked.
+    low, high : from 0 to 1
+        Ends of the part on the tile.
+    at_low, at_high : m
+        Heights over the level there; one is positive, the other is not.
+    """
+
+    pair: IntArray
+    low: FloatArray
+    high: FloatArray
+    at_low: FloatArray
+    at_high: FloatArray
 
 
 @attrs.frozen(eq=False)
@@ -95,7 +125,12 @@ def tilt(tiles: Tiles, trim: FloatArray, heel: FloatArray) -> Tilted:
     control[3, last] = first[last] + second[last] + third[last] + fourth[last]
     low = np.minimum(np.minimum(control[0], control[1]), np.minimum(control[2], control[3]))
     high = np.maximum(np.maximum(control[0], control[1]), np.maximum(control[2], control[3]))
-    return Tilted(trim, heel, height, control, low, high)
+    one, two, three = control[1:] - control[:-1]
+    falls, rises = (
+        (one < 0.0) | (two < 0.0) | (three < 0.0),
+        (one > 0.0) | (two > 0.0) | (three > 0.0),
+    )
+    return Tilted(trim, heel, height, control, low, high, falls & rises)
 
 
 def candidates(tilted: Tilted, levels: FloatArray) -> tuple[IntArray, IntArray]:
@@ -123,6 +158,74 @@ def candidates(tilted: Tilted, levels: FloatArray) -> tuple[IntArray, IntArray]:
     return tile, np.arange(len(tile)) + (first - before)[tile]
 
 
+def mixed(tilted: Tilted, level: FloatArray) -> IntArray:
+    """Find the tiles that may meet their own level.
+
+    Parameters
+    ----------
+    tilted : Tilted
+        The tiles.
+    level : (s,), m
+        Plain; one for each.
+
+    Returns
+    -------
+    (p,) int
+        The tiles.
+    """
+    return np.flatnonzero((tilted.low <= level) & (tilted.high > level))
+
+
+def turns(tilted: Tilted, tile: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Say where tiles may have their least or greatest height inside.
+
+    Parameters
+    ----------
+    tilted : Tilted
+        The tiles.
+    tile : (p,) int
+        Which.
+
+    Returns
+    -------
+    lower, upper : (p,)
+        As in `stationary`: 0 and 1 stand for nowhere.
+    """
+    _, first, second, third = np.take(real(tilted.height), tile, axis=1)
+    return stationary(first, second, third)
+
+
+def brackets(tilted: Tilted, tile: IntArray, level: FloatArray) -> Changes:
+    """Bracket all changes of sign.
+
+    Parameters
+    ----------
+    tilted : Tilted
+        The tiles.
+    tile : (p,) int
+        Which tile,
+    level : (p,), m
+        and where; plain.
+
+    Returns
+    -------
+    Changes
+        The brackets, in each of which a tile runs up or down only.
+    """
+    control = np.take(tilted.control, tile, axis=1) - level
+    wave = tilted.wavy[tile]
+    through = np.flatnonzero(~wave & ((control[0] <= 0.0) != (control[3] <= 0.0)))
+    none = np.zeros(len(through))
+    plain = Changes(through, none, none + 1.0, control[0][through], control[3][through])
+    rest = np.flatnonzero(wave)
+    if not len(rest):
+        return plain
+    split = _split(tilted, tile[rest], level[rest], control[:, rest])
+    others = (rest[split.pair], split.low, split.high, split.at_low, split.at_high)
+    both = zip(attrs.astuple(plain, recurse=False), others, strict=True)
+    return Changes(*(np.concatenate(each) for each in both))
+
+
 def cuts(tilted: Tilted, tile: IntArray, level: FloatArray) -> Cuts:
     """Cut tiles at levels.
 
@@ -138,43 +241,31 @@ def cuts(tilted: Tilted, tile: IntArray, level: FloatArray) -> Cuts:
     Returns
     -------
     Cuts
-        Every change of sign, each in the arithmetic of the heights.
+        Every change of sign, in the arithmetic of the heights.
     """
-    ground = real(level)
-    control = np.take(tilted.control, tile, axis=1) - ground
+    found = brackets(tilted, tile, real(level))
+    tile, level = tile[found.pair], np.take(level, found.pair)
     cubic = np.take(real(tilted.height), tile, axis=1)
-    cubic[0] -= ground
-    step = control[1:] - control[:-1]
-    plain = (step >= 0.0).all(axis=0) | (step <= 0.0).all(axis=0)
-    wet = control[0] <= 0.0
-    through = np.flatnonzero(plain & (wet != (control[3] <= 0.0)))
-    ends = np.zeros(len(through)), np.ones(len(through)), control[0][through], control[3][through]
-    brackets: tuple[FloatArray, ...] = ends
-    pair = through
-    rest = np.flatnonzero(~plain)
-    if len(rest):
-        row, *others = _split(cubic[:, rest], control[0, rest], control[3, rest])
-        pair = np.concatenate([pair, rest[row]])
-        brackets = tuple(np.concatenate(both) for both in zip(brackets, others, strict=True))
-    low, high, at_low, at_high = brackets
-    u = bracketed_roots(cubic[:, pair], low, high, at_low, at_high)
-    sign = np.where(at_low <= 0.0, 1.0, -1.0)
-    return Cuts(pair, _polished(tilted, tile[pair], level[pair], u), sign)
+    cubic[0] -= real(level)
+    u = bracketed_roots(cubic, found.low, found.high, found.at_low, found.at_high)
+    sign = np.where(found.at_low <= 0.0, 1.0, -1.0)
+    return Cuts(found.pair, _polished(tilted, tile, level, u), sign)
 
 
-def _split(
-    cubic: FloatArray, begin: FloatArray, end: FloatArray
-) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Give all brackets with one root: row, both parameters, both values."""
-    origin, first, second, third = cubic
+def _split(tilted: Tilted, tile: IntArray, level: FloatArray, control: FloatArray) -> Changes:
+    """Bracket changes of sign between the turns of tiles."""
+    origin, first, second, third = np.take(real(tilted.height), tile, axis=1)
     lower, upper = stationary(first, second, third)
-    at_lower = np.where(lower > 0.0, value(origin, first, second, third, lower), begin)
-    at_upper = np.where(upper < 1.0, value(origin, first, second, third, upper), end)
+    below = origin - level
+    at_lower = np.where(lower > 0.0, value(below, first, second, third, lower), control[0])
+    at_upper = np.where(upper < 1.0, value(below, first, second, third, upper), control[3])
     edge = np.stack([0.0 * lower, lower, upper, 0.0 * lower + 1.0])
-    height = np.stack([begin, at_lower, at_upper, end])
+    height = np.stack([control[0], at_lower, at_upper, control[3]])
     wet = height <= 0.0
-    row, part = np.nonzero((wet[1:] != wet[:-1]).T)
-    return row, edge[part, row], edge[part + 1, row], height[part, row], height[part + 1, row]
+    pair, part = np.nonzero((wet[1:] != wet[:-1]).T)
+    return Changes(
+        pair, edge[part, pair], edge[part + 1, pair], height[part, pair], height[part + 1, pair]
+    )
 
 
 def _polished(tilted: Tilted, tile: IntArray, level: FloatArray, u: FloatArray) -> FloatArray:

@@ -9,8 +9,9 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersion_critical import Critical, critical
 from assoc_hull.geometry.immersion_roots import Tilted, tilt
-from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, subset
+from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, integrals, subset
 from assoc_hull.geometry.isocurves import Strips
 from assoc_hull.geometry.quadrature import lobatto
 
@@ -36,8 +37,6 @@ class Prepared:
         of a strip lie at v = 0 and 1.
     tiles : Tiles
         The curves.
-    weighted : (7, s)
-        Integrals of the tiles by the weights of their curves.
     """
 
     strips: Strips
@@ -46,7 +45,15 @@ class Prepared:
     v: FloatArray
     weight: FloatArray
     tiles: Tiles
-    weighted: FloatArray
+    _plain: FloatArray
+
+    def weighted(self, heeled: bool) -> FloatArray:
+        """Integrals of the tiles, by the weights of their curves: (7, s), with heel (11, s)."""
+        return self._heeled if heeled else self._plain
+
+    @cached_property
+    def _heeled(self) -> FloatArray:
+        return _weighted(self.tiles, self.weight, heeled=True)
 
     @cached_property
     def upright(self) -> Tilted:
@@ -55,9 +62,23 @@ class Prepared:
 
     @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:
-        """Curves at v = 0 and 1 of all strips: their strips, and their tiles."""
+        """Curves at v = 0 and 1 of all strips: which they are, and their tiles."""
         end = np.flatnonzero((self.v == 0.0) | (self.v == 1.0))
-        return self.strip[end], subset(self.tiles, end)
+        return end, subset(self.tiles, end)
+
+    @cached_property
+    def upright_ends(self) -> Critical:
+        """Critical points of these curves, for no trim and no heel."""
+        return self._ends_critical(self.upright)
+
+    def critical(self, tilted: Tilted) -> Critical:
+        """Critical points of the curves at both ends of all strips."""
+        return self.upright_ends if tilted is self.upright else self._ends_critical(tilted)
+
+    def _ends_critical(self, inclined: Tilted) -> Critical:
+        curve, tiles = self.ends
+        found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
+        return attrs.evolve(found, curve=curve[found.curve])
 
 
 def prepare(strips: Strips, factor: int = 1) -> Prepared:
@@ -89,4 +110,9 @@ def prepare(strips: Strips, factor: int = 1) -> Prepared:
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
     tiles = from_curves(strips.curves(strip, v))
     fine = np.maximum(_LEAST_FINE, _FINE * order)
-    return Prepared(strips, fine, strip, v, weight, tiles, tiles.whole * weight[tiles.curve])
+    return Prepared(strips, fine, strip, v, weight, tiles, _weighted(tiles, weight, heeled=False))
+
+
+def _weighted(tiles: Tiles, weight: FloatArray, heeled: bool) -> FloatArray:
+    whole = integrals(tiles.coefficients, tiles.deck, tiles.lean, heeled)
+    return whole * np.take(weight, tiles.curve)

@@ -2,9 +2,17 @@
 
 A tile is a cubic P(u) with a cubic P_v(u), u from 0 to 1. With the normal ``N = P_u x P_v``
 it contributes to a volume ``int y N_y du``: the divergence theorem with the flux along y,
-which the centre plane does not see. Six Gauss points integrate every such product of cubics
-without error (degree 11), and also the part of a tile from 0 to a root. Areas are not
-polynomial: the same six points are accurate for them, as tiles are short.
+which neither the centre plane nor a plane without heel sees. Below a plane with heel the flux
+runs along the direction (0, 1, -tan_heel) in that plane, which takes integrals with N_z, too:
+``int y (N_y - tan_heel N_z) du``. So no integral over the waterplane enters a volume, and the
+derivative of a volume by the plane's height is the waterplane's area curve by curve.
+
+Six Gauss points integrate every such product of cubics without error (degree 11), and also
+the part of a tile from 0 to a cut. Areas are not polynomial: the same six points are accurate
+for them, as tiles are short.
+
+Most curves are sections: x and x_v are the same all along. Then N_y is x_v z_u, and half of
+the work can be left out.
 """
 
 from __future__ import annotations
@@ -16,15 +24,24 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
-from assoc_hull.geometry.tile_sums import mix
+from assoc_hull.geometry.tile_sums import mix, real, root
 
-__all__ = ["COLUMNS", "Tiles", "from_curves", "integrals", "powers", "subset"]
+__all__ = ["CHUNK", "HEELED", "PLAIN", "Tiles", "from_curves", "integrals", "powers", "subset"]
 
-COLUMNS = 7
-"""Columns of `integrals`: y N_y, x y N_y, y^2/2 N_y, y z N_y, |N|, girth, |N| on deck."""
+CHUNK = 2048
+"""Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
+
+PLAIN, HEELED = 7, 11
+"""Rows of `integrals`: y N_y, x y N_y, y^2/2 N_y, y z N_y, |N|, girth, |N| on deck; with heel
+the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
-_SMOOTH = 0.05  # rad: below this angle two tiles meet without a knuckle
+_SMOOTH = 0.5  # rad: below this angle two tiles meet without a knuckle
+
+_NODES, _WEIGHTS = gauss(_POINTS)
+_VALUE = _NODES[:, None] ** np.arange(4)
+_SLOPE = np.arange(4) * _NODES[:, None] ** np.maximum(np.arange(4) - 1, 0)
+_BOTH = np.concatenate([_VALUE, _SLOPE])
 
 
 @attrs.frozen(eq=False)
@@ -35,35 +52,29 @@ class Tiles:
     ----------
     coefficients : (6, 4, s), m
         Of x, y, z, x_v, y_v, z_v in 1, u, u^2, u^3.
-    whole : (7, s)
-        The tiles' integrals (`COLUMNS`), per unit of v.
     curve : (s,) int
         The curve of each tile.
     start : (k + 1,) int
         Where the tiles of each curve begin.
     deck : (s,) bool
         The tile is closed deck.
+    lean : (s,) bool
+        x or x_v are not the same all along the tile.
     knuckle : (n,) int
         Tiles that begin at a knuckle.
     """
 
     coefficients: FloatArray
-    whole: FloatArray
     curve: IntArray
     start: IntArray
     deck: NDArray[np.bool_]
+    lean: NDArray[np.bool_]
     knuckle: IntArray
 
     @property
     def curves(self) -> int:
         """Number of curves."""
         return len(self.start) - 1
-
-
-_NODES, _WEIGHTS = gauss(_POINTS)
-_VALUE = _NODES[:, None] ** np.arange(4)
-_SLOPE = np.arange(4) * _NODES[:, None] ** np.maximum(np.arange(4) - 1, 0)
-_BOTH = np.concatenate([_VALUE, _SLOPE])
 
 
 def powers(u: FloatArray) -> FloatArray:
@@ -73,7 +84,7 @@ def powers(u: FloatArray) -> FloatArray:
 
 
 def from_curves(curves: IsoCurves) -> Tiles:
-    """Take over curves and integrate their tiles.
+    """Take over curves.
 
     Parameters
     ----------
@@ -83,20 +94,15 @@ def from_curves(curves: IsoCurves) -> Tiles:
     Returns
     -------
     Tiles
-        The same tiles with their integrals.
+        The same tiles, laid out for work on many at once.
     """
     point, across = curves.point.transpose(2, 1, 0), curves.across.transpose(2, 1, 0)
-    coefficients = np.concatenate([point, across])
-    sizes = np.diff(curves.start)
-    owner = np.repeat(np.arange(curves.count), sizes)
-    return Tiles(
-        coefficients,
-        integrals(coefficients, curves.deck),
-        owner,
-        curves.start,
-        curves.deck,
-        _knuckles(coefficients, owner),
-    )
+    # Row by row in memory: all that follows runs along rows.
+    coefficients = np.concatenate([point, across]).copy("C")
+    owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
+    lean = (real(coefficients[0::3, 1:]) != 0.0).any(axis=(0, 1))
+    knuckle = _knuckles(real(coefficients), owner)
+    return Tiles(coefficients, owner, curves.start, curves.deck, lean, knuckle)
 
 
 def subset(tiles: Tiles, curve: IntArray) -> Tiles:
@@ -122,48 +128,93 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     sharp[tiles.knuckle] = True
     return Tiles(
         np.take(tiles.coefficients, rows, axis=2),
-        np.take(tiles.whole, rows, axis=1),
         owner,
         start,
         tiles.deck[rows],
+        tiles.lean[rows],
         np.flatnonzero(sharp[rows]),
     )
 
 
-def integrals(coefficients: FloatArray, deck: NDArray[np.bool_]) -> FloatArray:
+def integrals(
+    coefficients: FloatArray, deck: NDArray[np.bool_], lean: NDArray[np.bool_], heeled: bool
+) -> FloatArray:
     """Integrate over tiles, or over parts of them that are given as tiles.
 
     Parameters
     ----------
     coefficients : (6, 4, k), m
         As in `Tiles`.
-    deck : (k,) bool
-        The tile is deck.
+    deck, lean : (k,) bool
+        As in `Tiles`.
+    heeled : bool
+        Integrals with N_z are wanted.
 
     Returns
     -------
-    (7, k)
-        The columns `COLUMNS`, per unit of v.
+    (7, k) or (11, k)
+        The rows `PLAIN` or `HEELED`, per unit of v.
     """
-    both, across = mix(_BOTH, coefficients[:3]), mix(_VALUE, coefficients[3:])
-    x, y, z = both[0, :_POINTS], both[1, :_POINTS], both[2, :_POINTS]
-    x_u, y_u, z_u = both[0, _POINTS:], both[1, _POINTS:], both[2, _POINTS:]
-    x_v, y_v, z_v = across[0], across[1], across[2]
+    if len(deck) > CHUNK:
+        parts = [slice(i, i + CHUNK) for i in range(0, len(deck), CHUNK)]
+        done = [
+            integrals(coefficients[..., some], deck[some], lean[some], heeled) for some in parts
+        ]
+        return np.concatenate(done, axis=1)
+    sums = (_general if lean.any() else _sections)(coefficients, heeled)
+    return np.stack([*sums[:6], sums[4] * deck, *sums[6:]])
+
+
+def _sections(coefficients: FloatArray, heeled: bool) -> list[FloatArray]:
+    """Integrate over tiles of constant x and x_v."""
+    (y, z), (y_u, z_u) = _values_slopes(coefficients[1:3])
+    y_v, z_v = mix(_VALUE, coefficients[4:])
+    x, x_v = coefficients[0, 0], coefficients[3, 0]
+    flux, stretch = y * z_u, y_u * y_u + z_u * z_u
+    n_x = y_u * z_v - z_u * y_v
+    volume = x_v * mix(_WEIGHTS, flux)
+    sums = [
+        volume,
+        x * volume,
+        0.5 * x_v * mix(_WEIGHTS, y * flux),
+        x_v * mix(_WEIGHTS, z * flux),
+        mix(_WEIGHTS, root(n_x * n_x + (x_v * x_v) * stretch)),
+        np.where(real(x_v) < 0.0, -x_v, x_v) * mix(_WEIGHTS, root(stretch)),
+    ]
+    if heeled:
+        rise = y * y_u
+        volume = -x_v * mix(_WEIGHTS, rise)
+        sums += [volume, x * volume, -0.5 * x_v * mix(_WEIGHTS, y * rise)]
+        sums.append(-x_v * mix(_WEIGHTS, z * rise))
+    return sums
+
+
+def _general(coefficients: FloatArray, heeled: bool) -> list[FloatArray]:
+    """Integrate over any tiles."""
+    (x, y, z), (x_u, y_u, z_u) = _values_slopes(coefficients[:3])
+    x_v, y_v, z_v = mix(_VALUE, coefficients[3:])
     n_x, n_y, n_z = y_u * z_v - z_u * y_v, z_u * x_v - x_u * z_v, x_u * y_v - y_u * x_v
-    flux = y * n_y
-    round_about = n_y * n_y + n_z * n_z
-    size = np.sqrt(n_x * n_x + round_about)
-    values = np.stack([flux, x * flux, 0.5 * y * flux, z * flux, size, np.sqrt(round_about)])
-    sums = mix(_WEIGHTS[None], values)[:, 0]
-    return np.concatenate([sums, (sums[4] * deck)[None]])
+    flux, round_about = y * n_y, n_y * n_y + n_z * n_z
+    size = root(n_x * n_x + round_about)
+    values = [flux, x * flux, 0.5 * y * flux, z * flux, size, root(round_about)]
+    if heeled:
+        flux = y * n_z
+        values += [flux, x * flux, 0.5 * y * flux, z * flux]
+    return [mix(_WEIGHTS, each) for each in values]
+
+
+def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give values and slopes at the Gauss points, (c, 6, k) each, of cubics (c, 4, k)."""
+    both = mix(_BOTH, point)
+    return both[:, :_POINTS], both[:, _POINTS:]
 
 
 def _knuckles(coefficients: FloatArray, curve: IntArray) -> IntArray:
     """Find the tiles that begin at a knuckle: places where the direction jumps."""
-    point = coefficients[:3].real
-    before, after = point[:, 1] + 2.0 * point[:, 2] + 3.0 * point[:, 3], point[:, 1]
-    before, after = before[:, :-1], after[:, 1:]
-    along = (before * after).sum(axis=0)
-    lengths = (before * before).sum(axis=0) * (after * after).sum(axis=0)
+    point = coefficients[:3]
+    into = point[:, 1, :-1] + 2.0 * point[:, 2, :-1] + 3.0 * point[:, 3, :-1]
+    out = point[:, 1, 1:]
+    along = (into * out).sum(axis=0)
+    lengths = (into * into).sum(axis=0) * (out * out).sum(axis=0)
     bent = along < np.cos(_SMOOTH) * np.sqrt(lengths)
     return np.flatnonzero(bent & (curve[1:] == curve[:-1])) + 1

@@ -11,7 +11,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["is_plain", "mix", "real", "sum_by"]
+__all__ = ["is_plain", "mix", "real", "root", "sum_by"]
 
 
 def is_plain(values: object) -> bool:
@@ -23,6 +23,14 @@ def real(values: FloatArray) -> FloatArray:
     """Give the numbers on which decisions are taken, without what derivatives they carry."""
     part: FloatArray = values.real
     return part
+
+
+def root(values: FloatArray) -> FloatArray:
+    """Give square roots; where there is nothing to take one of, nil and no derivative."""
+    if is_plain(values):
+        return np.sqrt(values)
+    some = real(values) > 0.0
+    return np.where(some, np.sqrt(np.where(some, values, 1.0)), 0.0)
 
 
 def mix(matrix: FloatArray, values: FloatArray) -> FloatArray:

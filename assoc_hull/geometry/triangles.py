@@ -1,4 +1,4 @@
-"""Triangulated surfaces: what they are, which way round they run, where they are open."""
+"""Triangulated surfaces: what they are, and where they are open."""
 
 from __future__ import annotations
 
@@ -10,18 +10,14 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = [
     "Triangles",
-    "against_neighbours",
     "boundary_edges",
     "check_mesh",
     "grid_triangles",
     "merge_vertices",
-    "part_contents",
-    "part_labels",
-    "turned",
     "unmatched_edges",
+    "weld_edges",
 ]
 
-BoolArray = np.typing.NDArray[np.bool_]
 _WHERE = "the mesh"
 
 
@@ -157,74 +153,6 @@ def boundary_edges(mesh: Triangles) -> IntArray:
     return np.asarray(mesh.edges()[np.sort(alone)])
 
 
-def turned(mesh: Triangles, flip: BoolArray) -> Triangles:
-    """Turn some triangles, (f,) bool, the other way round."""
-    return Triangles(mesh.xyz, np.where(flip[:, None], mesh.face[:, ::-1], mesh.face))
-
-
-def against_neighbours(mesh: Triangles) -> BoolArray:
-    """Say which triangles run against the majority of their connected part."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order, connected_components
-
-    edges, faces = mesh.edges(), len(mesh.face)
-    owner = np.tile(np.arange(faces), 3)
-    keys = mesh.edge_keys()
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
-    count = np.diff(np.append(first, len(keys)))
-    two = first[count == 2]
-    a, b = order[two], order[two + 1]
-    same = edges[a, 0] == edges[b, 0]
-    flip = np.zeros(faces, np.bool_)
-    if not same.any():
-        return flip
-    weight = np.where(same, 2.0, 1.0)
-    graph = coo_array((weight, (owner[a], owner[b])), shape=(faces, faces)).tocsr()
-    graph = (graph + graph.T).tocsr()
-    parts, label = connected_components(graph, directed=False)
-    before = np.arange(faces)
-    first = np.unique(label, return_index=True)[1]
-    for root in first.tolist():
-        path, source = breadth_first_order(graph, root, directed=True)
-        before[path[1:]] = source[path[1:]]
-    moved = np.flatnonzero(before != np.arange(faces))
-    flip[moved] = np.asarray(graph[moved, before[moved]]).ravel() == 2.0
-    # How often the way back to the root turns: each pass doubles the steps looked back.
-    while (before != before[before]).any():
-        flip ^= flip[before]
-        before = before[before]
-    most = np.bincount(label, flip, parts) > 0.5 * np.bincount(label, minlength=parts)
-    return flip ^ most[label]
-
-
-def part_labels(mesh: Triangles) -> IntArray:
-    """Give each triangle the number of its part, (f,); parts touch nowhere."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    ends = mesh.edges().T
-    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(len(mesh.xyz),) * 2)
-    label = connected_components(graph, directed=False)[1]
-    return np.asarray(label[mesh.face[:, 0]], np.int64)
-
-
-def part_contents(mesh: Triangles, label: IntArray) -> FloatArray:
-    """Give the volume in each part, m3, negative where triangles face inward.
-
-    Exact for closed parts. For others the flux is taken from the middle of the part, which an
-    opening in any side falsifies least.
-    """
-    corner = mesh.corners
-    low = np.full((int(label.max()) + 1, 3), np.inf)
-    high = -low
-    np.minimum.at(low, label, corner.min(axis=1))
-    np.maximum.at(high, label, corner.max(axis=1))
-    away = corner.mean(axis=1) - 0.5 * (low + high)[label]
-    flux = (mesh.area_vectors() * away).sum(axis=1) / 3.0
-    return np.asarray(np.bincount(label, flux), np.float64)
-
-
 def unmatched_edges(mesh: Triangles) -> IntArray:
     """Give the edges that run one way more often than the other, (e, 2), as often as they do.
 
@@ -239,3 +167,19 @@ def unmatched_edges(mesh: Triangles) -> IntArray:
     pair = np.sort(ends[order[first[left]]], axis=1)
     pair = np.where(net[left, None] > 0, pair, pair[:, ::-1])
     return np.asarray(np.repeat(pair, np.abs(net[left]), axis=0), np.int64)
+
+
+def weld_edges(mesh: Triangles, reach: float) -> tuple[Triangles, int]:
+    """Make vertices on open edges one that are at most so far apart, m; and count them.
+
+    Triangles may lose a corner by it.
+    """
+    from scipy.spatial import cKDTree
+
+    rim = np.unique(boundary_edges(mesh))
+    pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
+    xyz, pairs = mesh.xyz.copy(), rim[pairs]
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    order = np.argsort(-low, kind="stable")
+    xyz[high[order]] = mesh.xyz[low[order]]
+    return merge_vertices(xyz, mesh.face), len(np.unique(high))

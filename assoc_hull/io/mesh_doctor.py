@@ -6,16 +6,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.triangles import (
-    Triangles,
-    against_neighbours,
-    boundary_edges,
-    check_mesh,
-    merge_vertices,
-    part_contents,
-    part_labels,
-    turned,
-)
+from assoc_hull.geometry.triangles import Triangles, boundary_edges, check_mesh, weld_edges
+from assoc_hull.geometry.winding import against_neighbours, part_contents, part_labels, turned
 from assoc_hull.io.offset_report import Notebook
 
 __all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
@@ -99,21 +91,13 @@ def _labels(mesh: Triangles) -> IntArray:
 
 def _weld(mesh: Triangles, book: Notebook) -> Triangles:
     """Make vertices on open edges one that differ by rounding."""
-    from scipy.spatial import cKDTree
-
-    rim = np.unique(boundary_edges(mesh))
     reach = _ROUNDING * _size(mesh)
-    pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
-    if not len(pairs):
+    welded, count = weld_edges(mesh, reach)
+    if not count:
         return mesh
-    xyz = mesh.xyz.copy()
-    pairs = rim[pairs]
-    low, high = pairs.min(axis=1), pairs.max(axis=1)
-    order = np.argsort(-low, kind="stable")
-    xyz[high[order]] = mesh.xyz[low[order]]
-    what = f"{len(np.unique(high))} vertices at most {1e3 * reach:.3g} mm off another joined to it"
+    what = f"{count} vertices at most {1e3 * reach:.3g} mm off another joined to it"
     book.repair("weld", _WHERE, what, reach)
-    return _drop_degenerate(merge_vertices(xyz, mesh.face), Notebook())
+    return _drop_degenerate(welded, Notebook())
 
 
 def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
@@ -140,7 +124,7 @@ def _wind(mesh: Triangles, book: Notebook) -> Triangles:
         what = f"{count} of {len(mesh.face)} triangles run against their neighbours; turned round"
         book.repair("winding", _WHERE, what, count)
         mesh = turned(mesh, flip)
-    if part_contents(mesh, np.zeros(len(mesh.face), np.int64))[0] < 0.0:
+    if part_contents(mesh, np.zeros(len(mesh.face), np.int64)).sum() < 0.0:
         book.repair("inside-out", _WHERE, "all normals pointed inward; turned round")
         mesh = turned(mesh, np.ones(len(mesh.face), np.bool_))
     return mesh

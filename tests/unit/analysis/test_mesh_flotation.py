@@ -180,11 +180,15 @@ def test_moments_are_the_derivatives_of_one_another() -> None:
 
 
 def test_a_batch_is_what_its_planes_give_one_by_one() -> None:
-    """Many planes at once give the values of each alone, more than are held at a time too."""
+    """Planes in any order and inclination give the values of each alone.
+
+    So do more of them than are held at a time.
+    """
     body = prepared(meshes.wigley_walled(61, 25))
-    rows = [(3.0 + 0.01 * i, 0.0001 * i, 0.001 * i) for i in range(250)]
+    rows = [(3.0 + 0.01 * (i * 7 % 250), 0.0, 0.0) for i in range(1500)]
+    rows += [(3.0 + 0.02 * (i * 7 % 50), 0.001 * (i % 5), 0.01 * (i % 3)) for i in range(50)]
     batch = attrs.astuple(body.measure(planes(*rows)), recurse=False)
-    for i in (0, 101, 249):
+    for i in (0, 101, 249, 1400, 1500, 1507, 1549):
         alone = attrs.astuple(body.measure(planes(rows[i])), recurse=False)
         for many, one in zip(batch, alone, strict=True):
             np.testing.assert_allclose(many[i], one[0], rtol=1e-11, atol=1e-9)
@@ -248,6 +252,40 @@ def test_an_opening_below_the_plane_is_refused_with_its_place_and_length() -> No
     assert opened.measure(planes((4.0, 0.0, 0.0))).volume[0] == pytest.approx(8000.0, rel=1e-12)
 
 
+def test_halves_that_differ_by_rounding_are_one_hull() -> None:
+    """A seam whose sides are 1e-13 m apart is closed; one that gapes by a millimetre is open."""
+    half = meshes.wigley_half(21, 9)
+    level = planes((5.0, 0.0, 0.0))
+    wanted = prepared(half).measure(level).volume
+    for gap in (1e-13, 1e-3):
+        face = np.concatenate([half.face, half.face[:, ::-1] + len(half.xyz)])
+        away = np.where(half.xyz[:, 1:2] == 0.0, gap, half.xyz[:, 1:2]) * [0.0, 1.0, 0.0]
+        xyz = half.xyz * [1.0, 0.0, 1.0]
+        whole = mesh_flotation(np.concatenate([xyz + away, xyz - away]), face)
+        assert not whole.half
+        if gap < 1e-9:
+            np.testing.assert_allclose(whole.measure(level).volume, wanted, rtol=1e-12)
+        else:
+            with pytest.raises(BadInputError, match="open below the plane"):
+                whole.measure(level)
+
+
+def test_shells_that_are_not_sewn_are_told_by_their_openings() -> None:
+    """Sides of a box that touch nowhere all count as outward, and are refused as open."""
+    one = box(2, 2, 2)
+    corners = one.corners + 1e-3 * np.sign(one.area_vectors())[:, None]
+    apart = mesh_flotation(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    assert apart.turned == 0
+    with pytest.raises(BadInputError, match="not shared by two triangles"):
+        apart.measure(planes((4.0, 0.0, 0.0)))
+
+
+def test_no_plane_gives_no_value() -> None:
+    """An empty batch is an empty result."""
+    found = prepared(box(1, 1, 1)).measure(Planes(np.zeros(0), np.zeros(0), np.zeros(0)))
+    assert found.volume.shape == found.x_least.shape == (0,)
+
+
 def test_a_drowned_open_deck_is_refused() -> None:
     """A plane above the edge of an open deck gives no numbers, at an angle neither."""
     body = prepared(meshes.wigley_half(21, 9))
@@ -257,12 +295,19 @@ def test_a_drowned_open_deck_is_refused() -> None:
 
 
 def test_parts_that_disagree_about_outward_are_refused() -> None:
-    """Of two boxes one inside out: refused with its triangles, volume and place."""
+    """Of two boxes one inside out: refused with its triangles, volume and place.
+
+    It does not matter whether they touch at an edge.
+    """
     one = box(1, 1, 1)
-    xyz = np.concatenate([one.xyz, one.xyz + np.array([200.0, 0.0, 0.0])])
     face = np.concatenate([one.face, one.face[:, ::-1] + len(one.xyz)])
-    with pytest.raises(BadInputError, match=r"12 triangles and 2.4e\+04 m3 about \(250, 0, 6\)"):
-        mesh_flotation(xyz, face)
+    for away, y in (([200.0, 0.0, 0.0], "0"), ([100.0, 20.0, 0.0], "20")):
+        xyz = np.concatenate([one.xyz, one.xyz + np.array(away)])
+        place = rf"\({away[0] + 50:g}, {y}, 6\)"
+        with pytest.raises(BadInputError, match=rf"12 triangles and 2.4e\+04 m3 about {place}"):
+            mesh_flotation(xyz, face)
+    both = mesh_flotation(xyz, np.concatenate([one.face, one.face + len(one.xyz)]))
+    assert both.measure(planes((1.0, 0.0, 0.0))).volume[0] == pytest.approx(4000.0, rel=1e-12)
 
 
 def test_a_surface_of_one_side_is_refused() -> None:
