@@ -16,6 +16,7 @@ __all__ = ["Freeboard", "deck_edge_angle", "freeboard"]
 
 _STEEPEST = 89.0  # degrees
 _STEP = 10.0
+_FINE = 1e-8
 
 
 @attrs.frozen
@@ -104,14 +105,14 @@ def deck_edge_angle(
 
     if spare(0.0) <= 0.0:
         return 0.0
-    least = freeboard(body.limits.deck, upright, length)
-    low, high = 0.0, float(np.degrees(np.arctan2(least.least, abs(least.place[1]) + 1e-9)))
-    high = min(1.1 * high, _STEEPEST)
+    deck = body.limits.deck
+    turn = np.arctan2(freeboard(deck, upright, length).least, np.abs(deck[:, 1]).max() + 1e-9)
+    low, high = 0.0, min(1.2 * float(np.degrees(turn)), _STEEPEST)
     while spare(high) > 0.0:
         if high >= _STEEPEST:
             return None
         low, high = high, min(high + _STEP, _STEEPEST)
-    return float(brentq(spare, low, high, xtol=1e-9, rtol=1e-12))
+    return float(brentq(spare, low, high, xtol=_FINE))
 
 
 def _touching_volume(
