@@ -86,7 +86,7 @@ class Box:
         stations, transom = self.stations(planes), self.transom(planes)
         return [Change(Immersed(**off), self.off * stations.area, self.off * transom)]
 
-    def doubts(self, planes: Planes) -> Sequence[str]:
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
         return self.trouble
 
 
@@ -134,7 +134,7 @@ class Wigley:
     def changes(self, planes: Planes) -> Sequence[Change]:
         return []
 
-    def doubts(self, planes: Planes) -> Sequence[str]:
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
         return []
 
 
@@ -163,5 +163,5 @@ class StripBody:
     def changes(self, planes: Planes) -> Sequence[Change]:
         return []
 
-    def doubts(self, planes: Planes) -> Sequence[str]:
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
         return []

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.estimate import Coarse, Spread, by_waterplanes
+from assoc_hull.analysis.estimate import Coarse
 from assoc_hull.analysis.net.cells import Layout
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.analysis.net.sections import Sections
@@ -21,7 +21,6 @@ from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_sections import sections_below
-from assoc_hull.geometry.immersion import Prepared, immersed
 
 __all__ = ["doubtful_lines", "doubtful_numbers"]
 
@@ -73,13 +72,25 @@ def doubtful_lines(
 
 
 def doubtful_numbers(
-    sections: Sections, spread: Spread, prepared: Prepared, planes: Planes
+    sections: Sections,
+    coarse: Sequence[Coarse],
+    routes: tuple[FloatArray, FloatArray],
+    planes: Planes,
 ) -> list[str]:
-    """Say where the comparisons of the estimate disagree by more than lines do on a ship."""
-    return [
-        *_unexpected(sections, spread.sections, planes),
-        *_routes(spread, prepared, planes),
-    ]
+    """Say where comparisons disagree by more than lines do on a ship.
+
+    Parameters
+    ----------
+    sections : Sections
+        The sections as drawn.
+    coarse : sequence of Coarse
+        The hull without some of them.
+    routes : ((d,), (d,)), m3
+        The volume below each plane, by sections and by waterplanes.
+    planes : Planes
+        d planes.
+    """
+    return [*_unexpected(sections, coarse, planes), *_routes(*routes)]
 
 
 def _lost(layout: Layout) -> Iterator[str]:
@@ -206,14 +217,12 @@ def _expected(coarse: Coarse, x: FloatArray, place: float, planes: Planes) -> Fl
     return found
 
 
-def _routes(spread: Spread, prepared: Prepared, planes: Planes) -> Iterator[str]:
+def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:
     """Compare the volume by sections with that by waterplanes."""
-    known = immersed(prepared, planes)
-    other = by_waterplanes(prepared, planes, known, spread.places).volume
-    off = np.abs(other - known.volume) / known.volume
+    off = np.abs(waterplanes - sections) / np.maximum(sections, 1e-300)
     if (off > _AGREED).any():
         k = int(off.argmax())
         yield (
-            f"the volume is {known.volume[k]:.2f} m3 by sections and {other[k]:.2f} m3 by "
+            f"the volume is {sections[k]:.2f} m3 by sections and {waterplanes[k]:.2f} m3 by "
             "waterplanes"
         )

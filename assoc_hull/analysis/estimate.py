@@ -19,8 +19,6 @@ Source: L.F. Richardson, J.A. Gaunt, "The deferred approach to the limit", Phil.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -80,25 +78,33 @@ class Spread:
         Without every other line along the ship.
     closed : bool
         The deck is closed.
-    low : float, m
-        The lowest place of the hull over any plane of its inclination is found from `places`.
-    places : (n, 3), m
-        The defining points.
     """
 
     fine: Prepared
     sections: tuple[Coarse, ...]
     lines: Coarse
     closed: bool
-    places: FloatArray
 
-    def changes(self, prepared: Prepared, own: Sections, planes: Planes) -> list[Change]:
-        """Give the change of each comparison; see the module."""
-        known = immersed(prepared, planes)
+    def changes(
+        self, known: Immersed, route: Immersed, own: Sections, planes: Planes
+    ) -> list[Change]:
+        """Give the change of each comparison; see the module.
+
+        Parameters
+        ----------
+        known : Immersed
+            What is published.
+        route : Immersed
+            What `by_waterplanes` gives.
+        own : Sections
+            The sections.
+        planes : Planes
+            d planes.
+        """
         share = _PART / max(len(self.sections), 1)
         found = [
             Change(_times(_less(immersed(self.fine, planes), known), 1.0)),
-            Change(_less(by_waterplanes(prepared, planes, known, self.places), known)),
+            Change(_less(route, known)),
         ]
         found += [
             Change(_times(_less(immersed(each.prepared, planes), known), share))
@@ -142,7 +148,6 @@ def spread_of(state: HullState, net: Net, strips: CoonsStrips, closed: bool) -> 
         tuple(coarse(every_other_section(net, first)) for first in (0, 1)),
         coarse(every_other_line(net)),
         closed,
-        net.batch.xyz,
     )
 
 
@@ -212,9 +217,3 @@ def _times(one: Immersed, factor: float) -> Immersed:
     return Immersed(
         **{field.name: factor * getattr(one, field.name) for field in attrs.fields(Immersed)}
     )
-
-
-def differences(parts: Sequence[Change]) -> FloatArray:
-    """Add up the amounts of the changes of volume, (d,), m3."""
-    found: FloatArray = np.sum([np.abs(part.immersed.volume) for part in parts], axis=0)
-    return found

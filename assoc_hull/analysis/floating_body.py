@@ -79,6 +79,6 @@ class FloatingBody(Protocol):
         """Give by how much the integrals may be off; the amounts of several items add up."""
         ...
 
-    def doubts(self, planes: Planes) -> Sequence[str]:
-        """Name what makes the integrals doubtful: open sections, routes that disagree."""
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
+        """Name what makes the integrals doubtful; `numbers` compares them by other routes too."""
         ...

@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.doubt import doubtful_lines, doubtful_numbers
-from assoc_hull.analysis.estimate import Spread, spread_of
+from assoc_hull.analysis.estimate import Spread, by_waterplanes, spread_of
 from assoc_hull.analysis.floating import Limits
 from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.analysis.net.cells import Layout, lay_out
@@ -57,6 +57,7 @@ class Flotation:
     net: Net
     layout: Layout
     strips: CoonsStrips
+    _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
     def prepared(self) -> Prepared:
@@ -105,7 +106,9 @@ class Flotation:
 
     def changes(self, planes: Planes) -> Sequence[Change]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
-        return self.spread.changes(self.prepared, self.sections, planes)
+        return self.spread.changes(
+            self.measure(planes), self._by_waterplanes(planes), self.sections, planes
+        )
 
     def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
         """Say what is wrong with the hull, line by line; nothing if it can be trusted.
@@ -120,8 +123,18 @@ class Flotation:
         kinds = curve_data(self.state, self.net.curve).kind
         found = doubtful_lines(self.net, self.layout, self.sections, kinds, planes)
         if numbers and not found:
-            found += doubtful_numbers(self.sections, self.spread, self.prepared, planes)
+            routes = self.measure(planes).volume, self._by_waterplanes(planes).volume
+            found += doubtful_numbers(self.sections, self.spread.sections, routes, planes)
         return tuple(found)
+
+    def _by_waterplanes(self, planes: Planes) -> Immersed:
+        """Give volume and moments by the vertical route; the last answer is kept."""
+        key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
+        if key not in self._route:
+            known = self.measure(planes)
+            self._route.clear()
+            self._route[key] = by_waterplanes(self.prepared, planes, known, self.net.batch.xyz)
+        return self._route[key]
 
 
 _KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()

@@ -214,7 +214,7 @@ def _table(
     choice(on_error, "on_error", ("refuse", "report"), _WHERE)
     flag(estimate, "estimate", _WHERE)
     table = table_of(body, positions, header, shape=shape, estimate=estimate)
-    doubts = tuple(body.doubts(planes_of(positions, header.length)))
+    doubts = tuple(body.doubts(planes_of(positions, header.length), estimate))
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""
         remedy = "mend the hull, or take the numbers with on_error='report'"

@@ -28,13 +28,15 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual_rules import CONSTANT, PARTIAL, Partial
-from assoc_hull.geometry.dual_shapes import MANY, ONE, pick, put, spread
+from assoc_hull.geometry.dual_shapes import MANY, ONE, pick, put, spread, times
 
 __all__ = ["Dual", "as_array", "is_plain", "real", "sum_by"]
 
 _SUMS = frozenset({np.add, np.subtract})
 _SUM: Callable[..., Any] = np.sum
-_METHODS: dict[str, Callable[..., Any]] = {"reduce": np.sum, "accumulate": np.cumsum}
+_METHODS: dict[str, Callable[..., Any]] = {
+    "reduce": np.sum, "accumulate": np.cumsum, "reduceat": np.add.reduceat,
+}  # fmt: skip
 
 
 class Dual(NDArrayOperatorsMixin):
@@ -68,6 +70,13 @@ class Dual(NDArrayOperatorsMixin):
                 "in Dual",
                 "give (...) and (k, ...)",
             )
+
+    @classmethod
+    def _made(cls, value: FloatArray, dot: FloatArray) -> Self:
+        """Make one of what is known to fit."""
+        made = object.__new__(cls)
+        made.value, made.dot = np.asarray(value), dot
+        return made
 
     @classmethod
     def constant(cls, value: ArrayLike, count: int) -> Self:
@@ -110,7 +119,7 @@ class Dual(NDArrayOperatorsMixin):
         return (self[i] for i in range(len(self)))
 
     def __getitem__(self, key: Any) -> Dual:
-        return Dual(self.value[key], pick(self.dot, key, self.ndim))
+        return Dual._made(self.value[key], pick(self.dot, key, self.ndim))
 
     def __setitem__(self, key: Any, new: Any) -> None:
         here = self.value[key].ndim
@@ -163,8 +172,6 @@ class Dual(NDArrayOperatorsMixin):
             found = _call(ufunc, inputs)
         elif ufunc is np.add and method in _METHODS:
             found = _one(_METHODS[method], *inputs, **({"axis": 0} | more))
-        elif ufunc is np.add and method == "reduceat":
-            found = _sum_runs(*inputs, **more)
         else:
             _refuse(f"numpy.{ufunc.__name__}, {method} {sorted(more)}", "differentiate it by hand")
         if out is None:
@@ -251,7 +258,7 @@ def _one(function: Callable[..., Any], given: Any, *args: Any, **kwargs: Any) ->
     if not isinstance(given, Dual) or any(isinstance(each, Dual) for each in args):
         _refuse(f"an argument of numpy.{function.__name__} that varies", "give a constant")
     dot = ONE[function](given.dot, *args, **kwargs)
-    return Dual(function(given.value, *args, **kwargs), dot)
+    return Dual._made(function(given.value, *args, **kwargs), dot)
 
 
 def _many(function: Callable[..., Any], given: Sequence[Any], *args: Any, **kwargs: Any) -> Dual:
@@ -282,28 +289,11 @@ def _matmul(left: Any, right: Any) -> Dual:
     row, column = one.ndim == 1, other.ndim == 1
     dots = []
     if isinstance(left, Dual):
-        dots.append(_times(left.dot, other[None], row, column))
+        dots.append(times(left.dot, other[None], row, column))
     if isinstance(right, Dual):
-        dots.append(_times(one[None], right.dot, row, column))
+        dots.append(times(one[None], right.dot, row, column))
     count = _same_count((left, right))
     return Dual(value, sum(dots[1:], dots[0]).reshape(count, *value.shape))
-
-
-def _times(left: FloatArray, right: FloatArray, row: bool, column: bool) -> FloatArray:
-    """Multiply matrices with a leading axis of tangents each; a row or column is made one."""
-    left, right = left[:, None] if row else left, right[..., None] if column else right
-    most = max(left.ndim, right.ndim) - 1
-    product: FloatArray = np.matmul(spread(left, most), spread(right, most))
-    return product
-
-
-def _sum_runs(values: Any, indices: Any, axis: int = 0) -> Dual:
-    """Sum runs of rows, as `numpy.add.reduceat` does."""
-    if not isinstance(values, Dual) or isinstance(indices, Dual):
-        _refuse("an index of numpy.add.reduceat that varies", "give a constant")
-    behind = axis if axis < 0 else axis + 1
-    sums = np.add.reduceat(values.dot, indices, axis=behind)
-    return Dual(np.add.reduceat(values.value, indices, axis=axis), sums)
 
 
 _SPECIAL: dict[Callable[..., Any], Callable[..., Any]] = {

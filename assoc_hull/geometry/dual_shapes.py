@@ -21,7 +21,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["MANY", "ONE", "pick", "put", "spread"]
+__all__ = ["MANY", "ONE", "pick", "put", "spread", "times"]
 
 Axis = int | tuple[int, ...] | None
 Rule = Callable[..., FloatArray]
@@ -81,6 +81,14 @@ def _axes_of(part: Any) -> int:
     return array.ndim if array.dtype == np.bool_ else 1
 
 
+def times(left: FloatArray, right: FloatArray, row: bool, column: bool) -> FloatArray:
+    """Multiply matrices with a leading axis of tangents each; a row or column is made one."""
+    left, right = left[:, None] if row else left, right[..., None] if column else right
+    most = max(left.ndim, right.ndim) - 1
+    product: FloatArray = np.matmul(spread(left, most), spread(right, most))
+    return product
+
+
 def _behind(axis: int) -> int:
     """Give the axis of the tangents that is this one of the values."""
     return axis if axis < 0 else axis + 1
@@ -112,6 +120,10 @@ def _mean(dot: FloatArray, axis: Axis = None, *, keepdims: bool = False) -> Floa
 def _cumsum(dot: FloatArray, axis: int | None = None) -> FloatArray:
     rows, along = _flat(dot, axis)
     return np.cumsum(rows, axis=along)
+
+
+def _sum_runs(dot: FloatArray, indices: Any, axis: int = 0) -> FloatArray:
+    return np.add.reduceat(dot, indices, axis=_behind(axis))
 
 
 def _diff(dot: FloatArray, n: int = 1, axis: int = -1) -> FloatArray:
@@ -184,8 +196,8 @@ def _concatenate(dots: Sequence[FloatArray], axis: int | None = 0) -> FloatArray
 
 
 ONE: Mapping[Callable[..., Any], Rule] = {
-    np.sum: _sum, np.mean: _mean, np.cumsum: _cumsum, np.diff: _diff, np.take: _take,
-    np.repeat: _repeat, np.reshape: _reshape, np.ravel: _ravel,
+    np.sum: _sum, np.mean: _mean, np.cumsum: _cumsum, np.add.reduceat: _sum_runs,
+    np.diff: _diff, np.take: _take, np.repeat: _repeat, np.reshape: _reshape, np.ravel: _ravel,
     np.broadcast_to: _broadcast_to, np.transpose: _transpose, np.moveaxis: _moveaxis,
     np.swapaxes: _swapaxes, np.expand_dims: _expand_dims, np.squeeze: _squeeze, np.flip: _flip,
     np.copy: np.copy, np.zeros_like: np.zeros_like, np.ones_like: np.zeros_like,

@@ -118,18 +118,16 @@ def set_known(
     names : sequence of str or None
         What error messages call the curves.
     leave, arrive : (3, n)
-        Written to.
+        Nil; written to.
 
     Raises
     ------
     BadInputError
         If a needed direction is nil or not finite.
     """
-    leave[:] = 0.0
     tangents = np.flatnonzero(state == _GIVEN)
     if len(tangents):
-        leave[:, tangents] = _unit_directions(data, slots, tangents, names)
-    arrive[:] = leave
+        leave[:, tangents] = arrive[:, tangents] = _unit_directions(data, slots, tangents, names)
     loose = np.flatnonzero(state == _LOOSE)
     if len(loose):
         ahead, behind = loose[~slots.is_last[loose]], loose[~slots.is_first[loose]]
@@ -143,16 +141,16 @@ def set_known(
 def _unit_directions(
     data: CurveData, slots: Slots, tangents: IntArray, names: Sequence[str] | None
 ) -> FloatArray:
-    vectors = data.direction.copy()
-    vectors[slots.first] = data.end_vector[:, 0]
-    vectors[slots.last] = data.end_vector[:, 1]
-    given = vectors[tangents].T
+    curve, first, last = (each[tangents] for each in (slots.curve, slots.is_first, slots.is_last))
+    ends = data.end_vector[curve]
+    vectors = np.where(first[:, None], ends[:, 0], data.direction[tangents])
+    given = np.where(last[:, None], ends[:, 1], vectors).T
     squares = given * given
     length = np.sqrt(squares[0] + squares[1] + squares[2])
     size = real(length)
     if not size.min() > 0.0 or not size.max() < np.inf:
-        worst = int(tangents[np.flatnonzero(~((size > 0.0) & (size < np.inf)))[0]])
-        vector = real(vectors)[worst].tolist()
+        place = int(np.flatnonzero(~((size > 0.0) & (size < np.inf)))[0])
+        worst, vector = int(tangents[place]), real(given)[:, place].tolist()
         raise BadInputError(
             f"the direction {vector} given at point {worst} is nil or not finite",
             f"in {curve_name(int(slots.curve[worst]), names)}",

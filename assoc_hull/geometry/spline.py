@@ -101,6 +101,7 @@ def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
     block = np.empty((9, len(data.xyz)))
     points, leave, arrive = block[:3], block[3:6], block[6:]
     points[:] = data.xyz.T
+    block[3:] = 0.0
     with Workspace() as workspace:
         chord, slope = _chords(data, points, slots, names, workspace)
         state = states_of(data, slots)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
+from bisect import bisect_left, bisect_right
+from functools import cached_property
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.paths import Bit
-from assoc_hull.geometry.segments import on_knots
 from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
@@ -63,9 +66,15 @@ class Net:
     def __attrs_post_init__(self) -> None:
         freeze(self.curve, self.end, self.border, self.x, self.centre, self.meets, self.place)
 
+    @cached_property
+    def knots(self) -> tuple[list[float], ...]:
+        """The chord parameters of the knots of each curve, m."""
+        knot, start = self.batch.knot.tolist(), self.batch.start.tolist()
+        return tuple(knot[a:b] for a, b in itertools.pairwise(start))
+
     def length(self, curve: int) -> float:
         """Give the chord length of a curve, m."""
-        return float(self.batch.knot[self.batch.start[curve + 1] - 1])
+        return self.knots[curve][-1]
 
 
 def gather(state: HullState) -> Net:
@@ -125,21 +134,24 @@ def _crossings(
 def walk(net: Net, part: Part) -> list[Bit]:
     """Give the bits of segments that a part of a curve consists of."""
     curve, begin, finish = part
-    low, high = min(begin, finish), max(begin, finish)
-    first = int(net.batch.start[curve])
-    knot = net.batch.knot[first : net.batch.start[curve + 1]]
-    inner = knot[(knot > low + _SNAP) & (knot < high - _SNAP)]
-    if high - low <= _SNAP:
-        inner, high = inner[:0], low
-    edges = np.concatenate([[_snapped(knot, low)], inner, [_snapped(knot, high)]])
-    middle = 0.5 * (edges[1:] + edges[:-1])
-    segment, _, length = on_knots(net.batch, np.full(len(middle), curve), middle)
-    a = np.clip((edges[:-1] - net.batch.knot[segment]) / length, 0.0, 1.0)
-    b = np.clip((edges[1:] - net.batch.knot[segment]) / length, 0.0, 1.0)
-    bits = list(zip((segment - curve).tolist(), a.tolist(), b.tolist(), strict=True))
-    return bits if begin <= finish else [(s, high, low) for s, low, high in reversed(bits)]
+    knot = net.knots[curve]
+    low, high = (_snapped(knot, t) for t in (min(begin, finish), max(begin, finish)))
+    first = min(bisect_right(knot, low), len(knot) - 1) - 1
+    last = max(bisect_left(knot, high), first + 1) - 1
+    base = int(net.batch.start[curve]) - curve
+    bits = []
+    for i in range(first, last + 1):
+        length = knot[i + 1] - knot[i]
+        a = max((low - knot[i]) / length, 0.0)
+        b = 1.0 if i < last else min((high - knot[i]) / length, 1.0)
+        bits.append((base + i, a, b))
+    return bits if begin <= finish else [(s, b, a) for s, a, b in reversed(bits)]
 
 
-def _snapped(knot: FloatArray, t: float) -> float:
-    near = float(knot[np.abs(knot - t).argmin()])
-    return near if abs(near - t) <= _SNAP else t
+def _snapped(knot: list[float], t: float) -> float:
+    """Take the knot for a parameter that is as good as there."""
+    i = bisect_left(knot, t)
+    for near in knot[max(i - 1, 0) : i + 1]:
+        if abs(near - t) <= _SNAP:
+            return near
+    return t
