@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from scipy.optimize import brentq
 
 from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, Limits, planes_of
@@ -14,8 +15,8 @@ from assoc_hull.geometry.immersed import Planes
 __all__ = ["Freeboard", "deck_edge_angle", "freeboard"]
 
 _STEEPEST = 89.0  # degrees
-_PARTS = 16
-_ROUNDS = 10  # 16^-10 of the first interval: 5e-12 degrees
+_STEP = 10.0
+_FINE = 1e-8
 
 
 @attrs.frozen
@@ -95,38 +96,38 @@ def deck_edge_angle(
     """
     upright = attrs.evolve(position, heel_deg=0.0)
     planes = planes_of([upright], length)
+    slope = float(planes.tan_trim[0])
     want = float(with_appendages(body.measure(planes), appendages, planes).volume[0])
-    low, high, slope = 0.0, _STEEPEST, float(planes.tan_trim[0])
-    for _ in range(_ROUNDS):
-        heel = np.linspace(low, high, _PARTS + 1)
-        dry = _touching_volume(body, heel, slope, length, appendages) > want
-        if dry.all():
+
+    def spare(heel: float) -> float:
+        """Give what the hull displaces below the plane that touches its deck edge, less that."""
+        return _touching_volume(body, heel, slope, length, appendages) - want
+
+    if spare(0.0) <= 0.0:
+        return 0.0
+    deck = body.limits.deck
+    turn = np.arctan2(freeboard(deck, upright, length).least, np.abs(deck[:, 1]).max() + 1e-9)
+    low, high = 0.0, min(1.2 * float(np.degrees(turn)), _STEEPEST)
+    while spare(high) > 0.0:
+        if high >= _STEEPEST:
             return None
-        first = int(np.argmin(dry))
-        if first == 0:
-            return low
-        low, high = float(heel[first - 1]), float(heel[first])
-    return 0.5 * (low + high)
+        low, high = high, min(high + _STEP, _STEEPEST)
+    return float(brentq(spare, low, high, xtol=_FINE))
 
 
 def _touching_volume(
     body: FloatingBody,
-    heel: FloatArray,
+    heel: float,
     slope: float,
     length: float,
     appendages: tuple[Appendage, ...],
-) -> FloatArray:
-    """Give the volume below the plane that touches the deck edge from below at each heel."""
-    level = Planes(np.zeros(len(heel)), np.full(len(heel), slope), np.tan(np.radians(heel)))
+) -> float:
+    """Give the volume below the plane that touches the deck edge from below at a heel."""
+    turned = np.array([slope]), np.array([np.tan(np.radians(heel))])
     limits = body.limits
     edge = Limits(limits.bottom, limits.deck, closed=False)
-    least, most = edge.mean_draughts(level, length)
-    meets = most > least
-    volume = np.zeros(len(heel))
-    touching = Planes(
-        (most - 0.5 * length * slope)[meets], level.tan_trim[meets], level.tan_heel[meets]
-    )
-    if meets.any():
-        found = with_appendages(body.measure(touching), appendages, touching)
-        volume[meets] = found.volume
-    return volume
+    least, most = edge.mean_draughts(Planes(np.zeros(1), *turned), length)
+    if most[0] <= least[0]:
+        return 0.0
+    touching = Planes(most - 0.5 * length * slope, *turned)
+    return float(with_appendages(body.measure(touching), appendages, touching).volume[0])

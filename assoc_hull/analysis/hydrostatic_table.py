@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from types import MappingProxyType
 
 import attrs
 import numpy as np
@@ -14,6 +13,7 @@ from assoc_hull.analysis.freeboard import Freeboard
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.record import Hydrostatics, record
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.named import Named
 
 __all__ = ["AppendageShare", "HydrostaticTable"]
 
@@ -21,7 +21,7 @@ __all__ = ["AppendageShare", "HydrostaticTable"]
 def _columns(values: Mapping[str, FloatArray]) -> Mapping[str, FloatArray]:
     for each in values.values():
         freeze(each)
-    return MappingProxyType(dict(values))
+    return Named("value", values)
 
 
 @attrs.frozen(eq=False)

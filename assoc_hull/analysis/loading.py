@@ -30,6 +30,9 @@ _TRIALS = 100
 _FINE = 1e-13
 """Where steps are this part of the range, the rounding of the volume is all that is left."""
 
+_SMALL = 1e-7
+"""Steps of this part of the range that no longer shrink are those of what rounds integrals."""
+
 _STEEPEST = 0.25
 """Tangent of the largest trim that is tried."""
 
@@ -132,18 +135,22 @@ def immersion(body: FloatingBody, load: Load, length: float) -> FloatingPosition
 def _newton(
     value: Callable[[float], tuple[float, float]], start: float, low: float, high: float
 ) -> float:
-    """Find the root of a rising function, given with its slope, in a bracket."""
-    fine = _FINE * (high - low)
-    root, trial = start, 0
-    while trial < _TRIALS and high - low > fine:
+    """Find the root of a rising function, given with its slope, in a bracket.
+
+    It is found when steps are no more than rounding, or small and no longer shrink.
+    """
+    fine, small = _FINE * (high - low), _SMALL * (high - low)
+    root, last = start, np.inf
+    for trial in range(1, _TRIALS):
         height, slope = value(root)
         low, high = (root, high) if height < 0.0 else (low, root)
         step = -height / slope if slope > 0.0 else np.inf
-        trial += 1
-        if abs(step) <= fine:
+        if abs(step) <= fine or (abs(step) <= small and abs(step) >= 0.5 * last):
             return root + step
-        new = root + step
-        root = new if low < new < high and trial % 4 else 0.5 * (low + high)
+        new, last = root + step, abs(step)
+        root = new if low < new < high and trial % 8 else 0.5 * (low + high)
+        if high - low <= fine:
+            break
     return root
 
 

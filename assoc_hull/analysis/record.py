@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 import attrs
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.record_fields import FIELDS
+from assoc_hull.model.named import Named
 
 __all__ = ["Hydrostatics", "record"]
 
@@ -19,7 +19,7 @@ _MAY_LACK = frozenset({"kmt", "kml", "gmt", "gml"})
 
 
 def _frozen(values: Mapping[str, float | None]) -> Mapping[str, float | None]:
-    return MappingProxyType(dict(values))
+    return Named("value", values)
 
 
 @attrs.frozen(eq=False)
@@ -131,6 +131,7 @@ def record(
     >>> import numpy as np
     >>> from assoc_hull.analysis.record import record
     >>> from assoc_hull.analysis.record_fields import FIELDS
+    from assoc_hull.model.named import Named
     >>> found = record({name: np.array([1.0]) for name in FIELDS}, {}, 0)
     >>> found.volume, found.error["volume"]
     (1.0, None)
