@@ -22,7 +22,7 @@ from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.arguments import choice, flag, number, numbers
 from assoc_hull.errors import BadInputError
 
-__all__ = ["hydrostatic_table", "hydrostatics"]
+__all__ = ["hydrostatic_table", "hydrostatics", "position_of", "trusted_table"]
 
 _WHERE = "in hydrostatics"
 
@@ -105,8 +105,8 @@ def hydrostatics(
     }  # fmt: skip
     body = body_of(hull)
     header = header_of(hull, body, terms)
-    position = _position(header, draught, draughts, heel_deg, draught_to)
-    return _table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
+    position = position_of(header, draught, draughts, heel_deg, draught_to)
+    return trusted_table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
 
 
 def hydrostatic_table(
@@ -171,7 +171,7 @@ def hydrostatic_table(
         for trim in slopes
     ]
     shape = (len(levels), len(slopes))
-    return _table(body, positions, header, shape, on_error, estimate=estimate)
+    return trusted_table(body, positions, header, shape, on_error, estimate=estimate)
 
 
 def _keel(header: HydrostaticHeader, draught_to: str) -> float:
@@ -180,7 +180,7 @@ def _keel(header: HydrostaticHeader, draught_to: str) -> float:
     return header.keel_thickness if draught_to == "keel" else 0.0
 
 
-def _position(
+def position_of(
     header: HydrostaticHeader,
     draught: float | None,
     draughts: tuple[float, float] | None,
@@ -201,7 +201,7 @@ def _position(
     return FloatingPosition(aft - keel, fore - keel, heel_deg)
 
 
-def _table(
+def trusted_table(
     body: FloatingBody,
     positions: Sequence[FloatingPosition],
     header: HydrostaticHeader,

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.paths import Paths, PathShapes, shapes, stretch
+from assoc_hull.geometry.tile_sums import nil
 
 __all__ = ["Cells", "CoonsStrips"]
 
@@ -152,7 +153,7 @@ class CoonsStrips:
         path = cells.anchor[anchor]
         at, plane = v[curve], cells.plane[strip[curve]]
         first, last = self.walked.ends()
-        bow = np.zeros((len(path) + 3, 6), v.dtype)
+        bow = nil((len(path) + 3, 6), v, first)
         for chosen, walk in (
             (np.flatnonzero((path >= 0) & plane), self.walked.at_part),
             (np.flatnonzero((path >= 0) & ~plane), self.walked.at),
@@ -189,8 +190,8 @@ def _with_decks(
     last = start[1:][deck]
     edge, move = point[last - 1].sum(axis=1), across[last - 1].sum(axis=1)
     in_ = np.array([0.0, -1.0, 0.0])
-    nil = np.zeros_like(edge)
-    added = [np.stack([each, each * in_, nil, nil], axis=1) for each in (edge, move)]
+    none = np.zeros_like(edge)
+    added = [np.stack([each, each * in_, none, none], axis=1) for each in (edge, move)]
     owner = np.repeat(np.arange(len(deck)), np.diff(start))
     owner = np.concatenate([owner, np.flatnonzero(deck)])
     order = np.argsort(owner, kind="stable")

@@ -6,20 +6,21 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_critical import critical
+from assoc_hull.geometry.immersion_critical import critical, nearest
 from assoc_hull.geometry.immersion_roots import Tilted, mixed, tilt
 from assoc_hull.geometry.immersion_roots import brackets as changes
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
 from assoc_hull.geometry.isocurves import Strips
 
-__all__ = ["CLOSE", "Brackets", "joined", "places", "states", "states_at"]
+__all__ = ["CLOSE", "DECK", "KEEL", "Brackets", "joined", "places", "states", "states_at"]
 
 CLOSE = 1e-12
 """Of a strip: how exactly a place is wanted, and the least distance between two."""
 
 _TRIALS = 60
 _SEVERAL = 6  # changes between two neighbouring curves, at most
-_DECK, _KEEL, _CUT, _KNUCKLE = 1, 2, 4, 1024
+DECK, KEEL, _CUT, _KNUCKLE = 1, 2, 4, 1024
+"""Of a state: keel or deck end are wet, how often the curve is cut, how many knuckles are wet."""
 
 
 @attrs.frozen(eq=False)
@@ -195,15 +196,13 @@ def _miss(tiles: Tiles, tilted: Tilted, level: FloatArray, kind: IntArray) -> Fl
     """Give the height over the plane of the point at which the state is about to change."""
     keel = tilted.control[0][tiles.start[:-1]] - level
     deck = tilted.control[3][tiles.start[1:] - 1] - level
-    miss: FloatArray = np.where(kind & _KEEL, keel, deck)
-    inner = (kind & (_KEEL | _DECK)) == 0
+    miss: FloatArray = np.where(kind & KEEL, keel, deck)
+    inner = (kind & (KEEL | DECK)) == 0
     if not inner.any():
         return miss
     points = critical(tiles, tilted)
-    over = points.height - level[points.curve]
-    nearest = np.lexsort((np.abs(over), points.curve))
-    first = np.searchsorted(points.curve[nearest], np.arange(tiles.curves))
-    miss = np.where(inner, over[nearest[first]], miss)
+    closest = nearest(points, level, tiles.curves)
+    miss = np.where(inner, points.height[closest] - level, miss)
     return miss
 
 
@@ -231,7 +230,7 @@ def states(
     times = np.bincount(row * count + curve, minlength=rows * count).reshape(rows, count)
     keel = tilted.control[0][tiles.start[:-1]] <= level
     deck = tilted.control[3][tiles.start[1:] - 1] <= level
-    state: IntArray = _CUT * times + _KEEL * keel + _DECK * deck
+    state: IntArray = _CUT * times + KEEL * keel + DECK * deck
     if len(tiles.knuckle):
         owner = tiles.curve[tiles.knuckle]
         at = level[:, owner] if level.shape[1] > 1 else level

@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.segments import power, segment_start
+from assoc_hull.geometry.tile_sums import is_plain, real
 
 __all__ = ["Bit", "PathShapes", "Paths", "shapes"]
 
@@ -93,7 +94,7 @@ class PathShapes:
 
     def at(self, path: IntArray, w: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give places and derivatives by the fraction, (k, 3) each, m."""
-        return self._on(self._bit(path, w, self.begin), w)
+        return self._on(self._bit(path, w, real(self.begin)), w)
 
     def at_part(
         self, path: IntArray, part: FloatArray, axis: int = 0
@@ -115,11 +116,11 @@ class PathShapes:
             The places, and their derivatives by `part`.
         """
         first, last = (end[:, axis] for end in self.ends())
-        span = np.where(last == first, 1.0, last - first)
+        span = np.where(real(last) == real(first), 1.0, last - first)
         where = self.paths.start[:-1].repeat(np.diff(self.paths.start))
         owner = np.arange(self.paths.count).repeat(np.diff(self.paths.start))
-        reached = (self.cubic[:, 0, axis] - self.cubic[where, 0, axis]) / span[owner]
-        bit = self._bit(path, part, reached)
+        begins = real(self.cubic)[:, 0, axis]
+        bit = self._bit(path, part, (begins - begins[where]) / real(span)[owner])
         target = first[path] + part * span[path]
         cubic = self.cubic[bit]
         u = _solve(cubic[:, :, axis], target)
@@ -137,7 +138,7 @@ class PathShapes:
         owner = np.arange(self.paths.count).repeat(np.diff(start))
         # Fractions of one path lie between its number and the next: one search for all.
         key = 2.0 * owner + np.clip(begins, 0.0, 1.0)
-        found = np.searchsorted(key, 2.0 * path + w, side="right") - 1
+        found = np.searchsorted(key, 2.0 * path + real(w), side="right") - 1
         return np.clip(found, start[path], start[path + 1] - 1)
 
     def _on(self, bit: IntArray, w: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -169,7 +170,7 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     base = base[owner]
     cubic = stretch(power(batch)[paths.segment], paths.low, paths.high)
     # A path that is a point has one bit, from 0 to 1 like any other.
-    point = whole == 0.0
+    point = real(whole) == 0.0
     whole = np.where(point, 1.0, whole)
     finish = np.where(point, 1.0, (total[1:] - base) / whole)
     return PathShapes(paths, cubic, (total[:-1] - base) / whole, finish)
@@ -192,6 +193,18 @@ def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
 
 
 def _solve(cubic: FloatArray, target: FloatArray) -> FloatArray:
+    """Find where monotone cubics (k, 4) reach a value, in the arithmetic of both."""
+    u = _solve_plain(real(cubic), real(target))
+    if is_plain(cubic) and is_plain(target):
+        return u
+    missed = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + cubic[:, 0] - target
+    rate = real((3.0 * cubic[:, 3] * u + 2.0 * cubic[:, 2]) * u + cubic[:, 1])
+    # What is left of the residual is rounding: only its derivative is wanted.
+    found: FloatArray = u - (missed - real(missed)) / np.where(rate == 0.0, 1.0, rate)
+    return found
+
+
+def _solve_plain(cubic: FloatArray, target: FloatArray) -> FloatArray:
     """Find where monotone cubics (k, 4) reach a value: Newton's rule within a bracket."""
     shifted = cubic[:, 0] - target
     slope = cubic[:, 1] + cubic[:, 2] + cubic[:, 3]
