@@ -26,7 +26,9 @@ from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.tile_sums import differs, mix, real, root
 
-__all__ = ["CHUNK", "HEELED", "PLAIN", "Tiles", "from_curves", "integrals", "powers", "subset"]
+__all__ = [
+    "CHUNK", "HEELED", "PLAIN", "Tiles", "bends", "from_curves", "integrals", "powers", "subset",
+]  # fmt: skip
 
 CHUNK = 2048
 """Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
@@ -210,11 +212,42 @@ def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
     return both[:, :_POINTS], both[:, _POINTS:]
 
 
+def bends(tiles: Tiles) -> tuple[FloatArray, FloatArray]:
+    """Tell how far each tile but the first is from beginning at a knuckle.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        s tiles.
+
+    Returns
+    -------
+    over, change : (s - 1,)
+        The cosine of the angle to the tile before, less that from which on it is a knuckle,
+        and its change along the strip; at the beginning of a curve they mean nothing.
+    """
+    sides, moving = _directions(tiles.coefficients[:3]), _directions(tiles.coefficients[3:])
+    units, rates = [], []
+    for side, move in zip(sides, moving, strict=True):
+        length = root((side * side).sum(axis=0))
+        length = np.where(real(length) > 0.0, length, 1.0)
+        units.append(side / length)
+        rates.append(move / length)
+    cosine = (units[0] * units[1]).sum(axis=0)
+    change = ((units[1] - cosine * units[0]) * rates[0]).sum(axis=0)
+    change = change + ((units[0] - cosine * units[1]) * rates[1]).sum(axis=0)
+    return cosine - np.cos(_SMOOTH), change
+
+
+def _directions(point: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the directions in which tiles end, and in which the next ones begin, (3, s - 1)."""
+    into = point[:, 1, :-1] + 2.0 * point[:, 2, :-1] + 3.0 * point[:, 3, :-1]
+    return into, point[:, 1, 1:]
+
+
 def _knuckles(coefficients: FloatArray, curve: IntArray) -> IntArray:
     """Find the tiles that begin at a knuckle: places where the direction jumps."""
-    point = coefficients[:3]
-    into = point[:, 1, :-1] + 2.0 * point[:, 2, :-1] + 3.0 * point[:, 3, :-1]
-    out = point[:, 1, 1:]
+    into, out = _directions(coefficients[:3])
     along = (into * out).sum(axis=0)
     lengths = (into * into).sum(axis=0) * (out * out).sum(axis=0)
     bent = along < np.cos(_SMOOTH) * np.sqrt(lengths)
