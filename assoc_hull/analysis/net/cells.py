@@ -15,11 +15,12 @@ from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.geometry.coons import Cells
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
+from assoc_hull.geometry.tile_sums import nil
 
-__all__ = ["Layout", "lay_out"]
+__all__ = ["Layout", "blends", "lay_out"]
 
 _ORDER, _END_ORDER = 3, 6
 """Gauss points along a strip between sections, and along one at an end of the ship, where
@@ -46,12 +47,24 @@ class Layout:
         What could not be understood.
     edge : (n,) bool
         The upper side of the strip lies off the centre plane: a deck edge.
+    cell_start : (n + 1,) int
+        Where the cells of each strip begin.
+    rails : (c, 2) int
+        The paths of each cell along its rails, with v = 0 and 1.
+    cell : (t,) int
+        The cell of each tile.
     """
 
     cells: Cells
     frames: tuple[Frame, ...]
     lost: tuple[Unbounded, ...]
     edge: NDArray[np.bool_]
+    cell_start: IntArray
+    rails: IntArray
+    cell: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.edge, self.cell_start, self.rails, self.cell)
 
     def deck_edge(self, net: Net) -> FloatArray:
         """Give places along the deck edge, (k, 3), m; the top of the hull if it has none."""
@@ -117,8 +130,10 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
     edge = np.array([_is_edge(net, frame) for frame in found], np.bool_)
-    cells = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
-    return Layout(cells, tuple(found), tuple(lost), edge)
+    cells, cell = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
+    rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
+    start = np.array(draft.cell_start, np.int64)
+    return Layout(cells, tuple(found), tuple(lost), edge, start, rails, cell)
 
 
 def _top(frame: Frame) -> list[Part]:
@@ -155,10 +170,8 @@ def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
     column = np.minimum(column, count - 1)
     cell = np.arange(count - 1)
     one = np.eye(count)
-    below, above = (np.take_along_axis(one[cell + k], column, 1) * inside for k in (0, 1))
-    leave, arrive = (
-        np.take_along_axis(slope[cell + k] * width[:, None], column, 1) * inside for k in (0, 1)
-    )
+    below, above = (one[(cell + k)[:, None], column] * inside for k in (0, 1))
+    leave, arrive = (slope[(cell + k)[:, None], column] * width[:, None] * inside for k in (0, 1))
     step = above - below
     cubic = [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step]
     return first, np.stack(cubic, axis=1)
@@ -168,8 +181,9 @@ def _slopes(height: FloatArray) -> FloatArray:
     """Give by which weights slopes at places follow from values there, (a, a)."""
     count = len(height)
     if count == 2:
-        return np.tile(np.array([-1.0, 1.0]) / (height[1] - height[0]), (2, 1))
-    found = np.zeros((count, count))
+        both: FloatArray = np.array([[-1.0, 1.0], [-1.0, 1.0]]) / (height[1] - height[0])
+        return both
+    found: FloatArray = nil((count, count), height)
     at = np.arange(count)
     three = np.clip(at, 1, count - 2)[:, None] + np.array([-1, 0, 1])
     p = height[three]
@@ -195,7 +209,8 @@ def _between(rail: tuple[Part, ...], low: Spot, high: Spot) -> list[Part]:
 
 def _cells(
     net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, deck: NDArray[np.bool_]
-) -> Cells:
+) -> tuple[Cells, IntArray]:
+    """Cut the cells into tiles; also give the cell of each tile."""
     tiles: list[tuple[int, int, int, int, int]] = []
     tile_start, cell = [0], list[int]()
     for i in range(len(found)):
@@ -212,7 +227,7 @@ def _cells(
         np.bool_,
     )
     column = [table[:, i].copy() for i in range(5)]
-    return Cells(
+    cells = Cells(
         walked.paths,
         anchor_start,
         anchor,
@@ -227,6 +242,7 @@ def _cells(
         deck,
         np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
     )
+    return cells, np.array(cell, np.int64)
 
 
 def _tiles(walked: PathShapes, aft: int, fore: int) -> list[tuple[int, int, int, int]]:

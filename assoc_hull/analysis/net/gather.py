@@ -50,6 +50,8 @@ class Net:
         The two curves of each crossing that defines one of them at least.
     place : (k, 2), m
         Where on each of the two it lies.
+    row : (k,) int
+        The point that it is.
     """
 
     batch: SplineBatch
@@ -62,9 +64,11 @@ class Net:
     centre: NDArray[np.bool_]
     meets: IntArray
     place: FloatArray
+    row: IntArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.curve, self.end, self.border, self.x, self.centre, self.meets, self.place)
+        freeze(self.row)
 
     @cached_property
     def knots(self) -> tuple[list[float], ...]:
@@ -96,7 +100,7 @@ def gather(state: HullState) -> Net:
     across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
     offset = table.offset.data[lines]
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    meets, place = _crossings(state, curves, batch)
+    row, meets, place = _crossings(state, curves, batch)
     return Net(
         batch,
         curves,
@@ -108,13 +112,14 @@ def gather(state: HullState) -> Net:
         flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
         meets,
         place,
+        row,
     )
 
 
 def _crossings(
     state: HullState, curves: IntArray, batch: SplineBatch
-) -> tuple[IntArray, FloatArray]:
-    """Give which two curves of the net cross in each defining crossing, and where on them."""
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Give the defining crossings, which two curves of the net cross there, and where on them."""
     number = np.full(state.curves.count + 1, -1, np.int64)
     number[curves] = np.arange(len(curves))
     table = state.rows
@@ -128,7 +133,7 @@ def _crossings(
     both = number[table.curve.data[rows]]
     place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
-    return both[good], place[good]
+    return rows[good], both[good], place[good]
 
 
 def walk(net: Net, part: Part) -> list[Bit]:

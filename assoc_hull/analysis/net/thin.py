@@ -92,6 +92,7 @@ def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
         centre=net.centre[stay],
         meets=meets,
         place=place,
+        row=net.row[good],
     )
 
 
