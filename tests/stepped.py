@@ -27,7 +27,7 @@ KINKED = {"a_max", "x_a_max", "cx", "cp", "bwl", "lwl", "cb_lwl", "cp_lwl"}
 """What comes of a greatest value: several stations or breadths may be equally great."""
 
 _FAR = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
-_AHEAD = {0: -1.5, 1: 2.0, 2: -0.5}
+_AHEAD = {1: -1.0, 2: 1.0}
 
 
 @attrs.frozen(eq=False)
@@ -65,15 +65,15 @@ class Floats:
 
     def central(self, parameter: Parameter, step: float) -> dict[str, float]:
         """Derivatives by differences of plain numbers; nan where there is a kink."""
-        values = {i: self._at(parameter, i * step) for i in range(-2, 3)}
+        values = {i: self._at(parameter, i * step) for i in (-2, -1, 1, 2)}
         found = {}
         for name in FIELDS:
             far, ahead, back = (
                 sum(weight * values[sign * i][name] for i, weight in rule.items()) / (sign * step)
                 for rule, sign in ((_FAR, 1), (_AHEAD, 1), (_AHEAD, -1))
             )
-            size = max(abs(far), abs(values[0][name]) * 1e-3)
-            kink = name in KINKED and abs(ahead - back) > 1e-3 * size
+            size = max(abs(far), abs(values[1][name]) * 1e-3)
+            kink = name in KINKED and np.ptp([far, ahead, back]) > 1e-3 * size
             found[name] = np.nan if kink else far
         return found
 
