@@ -288,6 +288,15 @@ def test_they_are_those_of_a_whole_edit() -> None:
     agree(hull, found, 0, moved, differences, 1e-6)
 
 
+def test_a_plane_through_knots_has_derivatives(hulls: dict[str, Hull]) -> None:
+    """On a waterline all cuts are ends of tiles; there the wetted surface grows as elsewhere."""
+    rates = [
+        hydrostatic_derivatives(hulls["wigley"], [DRAUGHT], draught=draught).of("wetted_surface")[0]
+        for draught in (5.0 - 1e-4, 5.0, 5.0 + 1e-4)
+    ]
+    assert_allclose(rates[1], 0.5 * (rates[0] + rates[2]), rtol=1e-5)
+
+
 def test_a_parameter_alone_is_as_among_others(hulls: dict[str, Hull]) -> None:
     """In any order, of any number."""
     hull = hulls["wigley"]
