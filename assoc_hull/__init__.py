@@ -14,6 +14,9 @@ from typing import TYPE_CHECKING
 import assoc_hull.examples  # else its first import would bind this name again
 
 if TYPE_CHECKING:
+    from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.equilibrium import immersion
+    from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
     from assoc_hull.errors import (
         AssocHullError,
         BadInputError,
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
         ForeignPointError,
         FreedomError,
         NoMeetingError,
+        OutOfRangeError,
         PointRoleError,
         RefusedEditError,
         RingError,
@@ -38,6 +42,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
 
 __all__ = [
+    "Appendage",
     "AssocHullError",
     "Association",
     "BadInputError",
@@ -53,6 +58,7 @@ __all__ = [
     "Line",
     "LineSource",
     "NoMeetingError",
+    "OutOfRangeError",
     "Particulars",
     "Plane",
     "Point",
@@ -65,6 +71,9 @@ __all__ = [
     "UnknownNameError",
     "__version__",
     "examples",
+    "hydrostatic_table",
+    "hydrostatics",
+    "immersion",
     "open",
     "read",
 ]
@@ -72,6 +81,9 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
+    "analysis.appendage": ("Appendage",),
+    "analysis.equilibrium": ("immersion",),
+    "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
     "errors": (
         "AssocHullError",
         "BadInputError",
@@ -79,6 +91,7 @@ _HOMES = {
         "ForeignPointError",
         "FreedomError",
         "NoMeetingError",
+        "OutOfRangeError",
         "PointRoleError",
         "RefusedEditError",
         "RingError",

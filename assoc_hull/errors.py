@@ -29,6 +29,7 @@ __all__ = [
     "MissingExtraError",
     "NameTakenError",
     "NoMeetingError",
+    "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",
     "RingError",
@@ -68,6 +69,39 @@ class BadInputError(AssocHullError, ValueError):
 @attrs.define(slots=False, eq=False)
 class WrongTypeError(BadInputError, TypeError):
     """A value of another type than can be used."""
+
+
+@attrs.define(slots=False, eq=False)
+class OutOfRangeError(AssocHullError, ValueError):
+    """A number lies outside the range that has a meaning for this hull.
+
+    Attributes
+    ----------
+    name, where : str
+        Of the number: what it is, and for what else given.
+    value : float
+        As it was given.
+    least, most : float
+        The admissible range.
+    unit : str
+        Of the three numbers.
+    why : str
+        What is wrong with the value.
+    """
+
+    name: str
+    value: float
+    where: str
+    why: str
+    least: float
+    most: float
+    unit: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.name} of {self.value:.8g} {self.unit} {self.why}, {self.where}; give one from "
+            f"{self.least:.8g} to {self.most:.8g} {self.unit}"
+        )
 
 
 @attrs.define(slots=False, eq=False)

@@ -107,6 +107,7 @@ def read(
     axes: str | None = None,
     tolerance: float | None = None,
     join: float | None = None,
+    deck: str | None = None,
 ) -> Hull:
     """Read any supported format, told by content: a saved hull, offsets, lines, or a mesh.
 
@@ -114,7 +115,8 @@ def read(
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
     (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
     options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF, BRITFAIR,
-    DELFTship, GHS) all but planes and axes. Tables of offsets may be CSV or XLSX.
+    DELFTship, GHS) all but planes and axes. Tables of offsets may be CSV or XLSX. No form tells
+    whether there is a deck between the deck edges: `deck` does, "open" (the default) or "closed".
 
     Raises
     ------
@@ -133,18 +135,20 @@ def read(
     }  # fmt: skip
     options = {name: value for name, value in named.items() if value is not None}
     if holds_hull(file):
-        _refuse_options(options, file)
+        _refuse_options(options if deck is None else options | {"deck": deck}, file)
         hull = open(file)
         hull.detach()
         return hull
+    deck = "open" if deck is None else deck
+    sizes: dict[str, Any] = {"length": length, "breadth": breadth, "draught": draught}
     if holds_lines(file):
-        state, made = read_slices(file, length=length, breadth=breadth, draught=draught, **options)
+        state, made = read_slices(file, **sizes, deck=deck, **options)
         hull = Hull(state)
         hull.adoption = made.adoption
         return hull
     _refuse_options(options, file)
-    table, _ = read_offsets(file, length=length, breadth=breadth, draught=draught)
-    state, report = net_from_table(table)
+    table, _ = read_offsets(file, **sizes)
+    state, report = net_from_table(table, deck=deck)
     hull = Hull(state)
     hull.adoption = report
     return hull

@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 
 from benchmarks.clock import Figure
 
-NAMES = ("full_reloft", "one_edit", "drags", "start", "session")
+NAMES = ("full_reloft", "one_edit", "drags", "start", "session", "hydrostatics")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -114,3 +114,38 @@ def ellipsoid_sheet(family: str, offset: float) -> FloatArray:
     angle = np.linspace(0.0, np.pi, 400)
     shrink = np.sqrt(1.0 - local**2)
     return np.asarray(shrink * np.column_stack([axes[0] * np.cos(angle), axes[1] * np.sin(angle)]))
+
+
+def box(x: FloatArray, y: FloatArray, z: FloatArray) -> Triangles:
+    """A closed box with rows of vertices at the places given, ascending."""
+    sides: list[FloatArray] = []
+    for axis, rows in enumerate((x, y, z)):
+        u, v = ((y, z), (z, x), (x, y))[axis]
+        for end, turned in ((rows[0], True), (rows[-1], False)):
+            first, second = np.meshgrid(u, v, indexing="ij")
+            grid = np.empty((*first.shape, 3))
+            grid[:, :, axis], grid[:, :, axis - 2], grid[:, :, axis - 1] = end, first, second
+            # The triangles of a grid face against the cross product of its directions.
+            sides.append(grid if turned else grid.transpose(1, 0, 2))
+    parts = [grid_triangles(side) for side in sides]
+    start = np.cumsum([0, *(len(part.xyz) for part in parts)])
+    face = np.concatenate([p.face + n for p, n in zip(parts, start, strict=False)])
+    return merge_vertices(np.concatenate([part.xyz for part in parts]), face)
+
+
+def wigley_walled(nx: int, nz: int) -> Triangles:
+    """Half a Wigley hull, wall-sided above z = T up to 4 m more, open at the top."""
+    rows = np.append(np.linspace(0.0, T, nz), np.linspace(T, T + 4.0, 5)[1:])
+    x, z = np.meshgrid(np.linspace(0.0, L, nx), rows, indexing="ij")
+    return grid_triangles(np.stack([x, wigley_y(x, np.minimum(z, T)), z], axis=2))
+
+
+def ellipsoid_port(nx: int, nt: int) -> Triangles:
+    """The port half of a whole ellipsoid of half-axes 50, 8 and 6 m about (50, 0, 6)."""
+    u, t = np.meshgrid(np.linspace(0.0, np.pi, nx), np.linspace(0.0, np.pi, nt), indexing="ij")
+    radius = np.sin(u)
+    radius[[0, -1]] = 0.0
+    y = 8.0 * radius * np.sin(t)
+    y[:, [0, -1]] = 0.0
+    places = [50.0 - 50.0 * np.cos(u), y, 6.0 - 6.0 * radius * np.cos(t)]
+    return grid_triangles(np.stack(places, axis=2))

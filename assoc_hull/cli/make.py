@@ -21,6 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.io.progress import Tell
 from assoc_hull.io.saving import holds_hull
+from assoc_hull.model.state import DECKS
 from assoc_hull.sources import examples
 from assoc_hull.sources import open as open_hull
 
@@ -73,6 +74,10 @@ def _add_import(commands: Commands) -> None:
         ("length", "between perpendiculars"), ("breadth", "moulded"), ("draught", "design"),
     ):  # fmt: skip
         parser.add_argument(f"--{name}", type=float, metavar="M", help=f"{name}, {what}, m")
+    parser.add_argument(
+        "--deck", choices=DECKS,
+        help="closed: a deck lies between the deck edges; open by default",
+    )  # fmt: skip
     units = ("auto", "m", "mm", "cm", "ft", "in", "normalised")
     parser.add_argument("--unit", choices=units, default="auto", help="of the numbers in the file")
     for name, count in (("stations", 41), ("waterlines", 20), ("buttocks", 12)):
@@ -193,7 +198,7 @@ def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, A
 def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
     """Take a hull that was saved; its history comes along where the file has one."""
     plain_unit, plain_zero = arguments.unit == "auto", arguments.station_zero == "auto"
-    names = (*_OF_SLICES, "length", "breadth", "draught", "report", "picture")
+    names = (*_OF_SLICES, "length", "breadth", "draught", "deck", "report", "picture")
     given = [name for name in names if getattr(arguments, name) is not None]
     given += ["unit"] * (not plain_unit) + ["station-zero"] * (not plain_zero)
     if given:
@@ -210,7 +215,7 @@ def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
 def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.slice_read import read_slices
 
-    names = ("length", "breadth", "draught", "unit", *_OF_SLICES)
+    names = ("length", "breadth", "draught", "deck", "unit", *_OF_SLICES)
     given = {name: getattr(arguments, name) for name in names}
     options = {name: value for name, value in given.items() if value is not None}
     state, report = read_slices(arguments.file, tell=tell, **options)
@@ -235,7 +240,7 @@ def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any],
     table, offsets = read_offsets(
         arguments.file, **{name: getattr(arguments, name) for name in names}
     )
-    state, adoption = net_from_table(table)
+    state, adoption = net_from_table(table, deck=arguments.deck or DECKS[0])
     hull = Hull(state)
     hull.adoption = adoption
     rounding = [

@@ -12,6 +12,7 @@ from assoc_hull.cli import (
     export,
     graph,
     history,
+    hydrostatics,
     look,
     make,
     plot,
@@ -61,7 +62,9 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
-    modules = (demo, make, look, edit, history, replay, why, graph, plot, export, shell)
+    modules = (
+        demo, make, look, edit, history, replay, why, graph, hydrostatics, plot, export, shell
+    )  # fmt: skip
     for module in modules:
         module.add(commands)
     return parser

@@ -79,7 +79,7 @@ def hull_words(hull: Hull, *, names: bool = False) -> str:
     driven = roles.get("drives a", 0) + roles.get("drives b", 0)
     lines = [
         f"{ship.name}: length {ship.length:.3f} m, breadth {ship.breadth:.3f} m, "
-        f"depth {ship.depth:.3f} m, draught {ship.draught:.3f} m",
+        f"depth {ship.depth:.3f} m, draught {ship.draught:.3f} m, deck {ship.deck}",
         wrapped("lines", (f"{len(g['lines'])} {name}" for name, g in facts["groups"].items())),
         f"  crossings    {sum(roles.values())}: {roles.get('shared', 0)} shared, {driven} driven, "
         f"{roles.get('watched', 0)} watched",

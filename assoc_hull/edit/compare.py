@@ -74,12 +74,15 @@ class Comparison:
         None where there are not sections enough.
     names : (str, str)
         Name of the ship in both.
+    decks : (str, str)
+        The deck in both: open or closed.
     """
 
     states: tuple[str, str]
     lines: tuple[LineDifference, ...]
     numbers: dict[str, tuple[float | None, float | None]]
     names: tuple[str, str]
+    decks: tuple[str, str]
 
     def __str__(self) -> str:
         many = "1 line differs" if len(self.lines) == 1 else f"{len(self.lines)} lines differ"
@@ -88,8 +91,9 @@ class Comparison:
         for name, (old, new) in self.numbers.items():
             change = "" if old is None or new is None else f" ({new - old:+.6g})"
             told.append(f"  {name}: {_plain(old)} -> {_plain(new)}{change}")
-        if self.names[0] != self.names[1]:
-            told.append(f"  name: {self.names[0]} -> {self.names[1]}")
+        for name, (was, now) in (("name", self.names), ("deck", self.decks)):
+            if was != now:
+                told.append(f"  {name}: {was} -> {now}")
         return "\n".join(told)
 
 
@@ -118,8 +122,9 @@ def compare(before: HullState, after: HullState, states: tuple[str, str]) -> Com
     order = sorted(found, key=lambda each: (-each.distance, each.what, each.line))
     one, two = _numbers(before), _numbers(after)
     numbers = {name: (one[name], two[name]) for name in one if one[name] != two[name]}
-    names = before.particulars.name, after.particulars.name
-    return Comparison(states, tuple(order), numbers, names)
+    ship, other = before.particulars, after.particulars
+    words = (ship.name, other.name), (ship.deck, other.deck)
+    return Comparison(states, tuple(order), numbers, *words)
 
 
 Pieces = tuple[str, list[SplineBatch]]

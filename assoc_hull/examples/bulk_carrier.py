@@ -65,7 +65,7 @@ def bulk_carrier_207k_adopted() -> tuple[HullState, AdoptionReport]:
     sources += [waterline(height, x) for height in _WATERLINES]
     sources += [piece for y in _GIVEN for piece in buttock(y, z)]
     ship = Particulars(
-        "Bulk carrier 207,000 TDW", form.LENGTH, form.BREADTH, form.DEPTH, form.DRAUGHT
+        "Bulk carrier 207,000 TDW", form.LENGTH, form.BREADTH, form.DEPTH, form.DRAUGHT, "closed"
     )
     return adopt(sources, ship, _ASSOCIATIONS, _TOLERANCES)
 

@@ -10,7 +10,7 @@ from assoc_hull.examples.border import fair_border
 from assoc_hull.examples.contours import centre_profile, end_contours
 from assoc_hull.examples.flats import flat_of_bottom, flat_of_side
 from assoc_hull.io.offset_lines import net_of_lines
-from assoc_hull.io.offset_net import Completion, net_from_offsets
+from assoc_hull.io.offset_net import Completion, net_from_offsets, particulars_of_table
 from assoc_hull.io.offset_table import OffsetTable
 from assoc_hull.model.state import HullState
 from assoc_hull.tolerance import Tolerances
@@ -19,7 +19,7 @@ __all__ = ["net_from_table"]
 
 
 def net_from_table(
-    table: OffsetTable, tolerances: Tolerances | None = None
+    table: OffsetTable, tolerances: Tolerances | None = None, *, deck: str = "open"
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt a table of offsets; profile, ends and flats as for the Series 60 example.
 
@@ -32,6 +32,8 @@ def net_from_table(
         Offsets in metres.
     tolerances : Tolerances or None
         Defaults if None.
+    deck : {"open", "closed"}
+        Closed: there is a deck between the deck edges; a table does not tell.
 
     Returns
     -------
@@ -40,15 +42,16 @@ def net_from_table(
     Raises
     ------
     BadInputError
-        A table that holds too little for a net.
+        A table that holds too little for a net, or another word for the deck.
     """
+    ship = particulars_of_table(table, deck)
     try:
         completion = _completion(table)
     except BadInputError as error:
-        state, report = net_of_lines(table, tolerances)
+        state, report = net_of_lines(table, ship, tolerances)
         note = f"profile, ends and flats are left open: {error.what}"
         return state, attrs.evolve(report, notes=(note, *report.notes))
-    return net_from_offsets(table, completion, tolerances=tolerances)
+    return net_from_offsets(table, completion, ship, tolerances)
 
 
 def _completion(table: OffsetTable) -> Completion:

@@ -53,7 +53,7 @@ def series60_adopted(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
     BadInputError
         Another block coefficient.
     """
-    return net_from_table(todd_table(cb)[0], _TOLERANCES)
+    return net_from_table(todd_table(cb)[0], _TOLERANCES, deck="closed")
 
 
 def series60(cb: float = 0.70) -> HullState:

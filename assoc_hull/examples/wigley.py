@@ -89,7 +89,7 @@ def wigley(
         LineSource.make("waterlines", f"WL {height:g}", _level(x, float(height), hull))
         for height in z[1:]
     ]
-    ship = Particulars("Wigley", length, breadth, (1.0 + _FREEBOARD) * draught, draught)
+    ship = Particulars("Wigley", length, breadth, (1.0 + _FREEBOARD) * draught, draught, "closed")
     links = [Association("boundary", "sections"), Association("boundary", "waterlines")]
     links += [Association("sections", "waterlines")]
     for group in ("boundary", "sections", "waterlines"):

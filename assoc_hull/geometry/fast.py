@@ -23,9 +23,9 @@ from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.fast_loft import loft_curves
 from assoc_hull.geometry.fast_meet import meet_curves, place_meetings
 from assoc_hull.geometry.fast_roots import find_roots
+from assoc_hull.geometry.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.monotone import CONTACT, Parts, Roots
 from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
-from assoc_hull.geometry.spline import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.tridiagonal import MOST_LEVELS
 from assoc_hull.geometry.workspace import Workspace
 from assoc_hull.tolerance import Tolerances

@@ -14,7 +14,7 @@ from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, from_curves, integrals, subset
 from assoc_hull.geometry.tile_sums import is_plain, mix, real, sum_by
 
-__all__ = ["Half", "half"]
+__all__ = ["Half", "curve_by_curve", "half"]
 
 
 def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatArray) -> Half:
@@ -46,6 +46,30 @@ def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatAr
     if parts is not None:
         plain = _corrected(prepared, plain, levels, tilted, parts)
     return Half(_in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
+
+
+def curve_by_curve(
+    tiles: Tiles, level: FloatArray, trim: FloatArray, heel: FloatArray
+) -> FloatArray:
+    """Integrate the port half of each curve by itself, as if it were a strip of weight 1.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        k curves.
+    level : (k,), m
+        Height of the plane below which each is looked at.
+    trim, heel : (1,)
+        Tangents of the inclination.
+
+    Returns
+    -------
+    (13, k)
+        The columns.
+    """
+    tilted = tilt(tiles, trim, heel)
+    columns = _each(tiles, tilted, level, np.arange(tiles.curves), np.ones(tiles.curves)).columns
+    return _in_plane(columns, heel) if tilted.heeled else columns
 
 
 def _in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:

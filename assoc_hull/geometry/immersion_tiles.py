@@ -36,7 +36,7 @@ PLAIN, HEELED = 7, 11
 the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
-_SMOOTH = 0.05  # rad: below this angle two tiles meet without a knuckle
+_SMOOTH = 0.5  # rad: below this angle two tiles meet without a knuckle
 
 _NODES, _WEIGHTS = gauss(_POINTS)
 _VALUE = _NODES[:, None] ** np.arange(4)

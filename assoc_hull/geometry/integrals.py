@@ -10,17 +10,27 @@ CAD/CAM (Korea) 13(6), 2008, which uses three points throughout.
 
 from __future__ import annotations
 
+from typing import Any
+
 import attrs
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.polynomials import differentiate, horner
+from assoc_hull.geometry.dual import Dual, real
+from assoc_hull.geometry.polynomials import differentiate, horner, varied_roots
 from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import bernstein, power, segment_curve, sum_per_curve
 
-__all__ = ["AreaMoments", "integrate_stations", "line_integral", "plane_integrals", "section_area"]
+__all__ = [
+    "AreaMoments",
+    "checked_stations",
+    "integrate_stations",
+    "line_integral",
+    "plane_integrals",
+    "section_area",
+]
 
 _POINTS = 6  # exact to degree 11: second moments of cubics
 
@@ -160,9 +170,9 @@ def plane_integrals(
     sums = sum_per_curve(batch, _sectors(power(batch)[:, :, list(axes)]))
     if close:
         begin, end = batch.xyz[batch.start[:-1]], batch.xyz[batch.start[1:] - 1]
-        line = np.zeros((batch.count, 4, 2))
-        line[:, 0], line[:, 1] = end[:, list(axes)], (begin - end)[:, list(axes)]
-        sums = sums + _sectors(line)
+        nil = np.zeros(begin.shape)
+        line = np.stack([end, begin - end, nil, nil], axis=1)
+        sums = sums + _sectors(line[:, :, list(axes)])
     return AreaMoments(*(sums[:, column].copy() for column in range(6)))
 
 
@@ -178,9 +188,10 @@ def section_area(
     Parameters
     ----------
     batch : SplineBatch
-        Section curves, from keel to deck or from deck to keel.
+        Section curves, from keel to deck or from deck to keel. Its arrays may be complex or
+        `Dual`, as `DualSplines.batch` gives them: then so is the area.
     level : float or (m,), m
-        Height of the water, one for all or one for each curve.
+        Height of the water, one for all or one for each curve; may be complex or `Dual`.
     axes : (int, int)
         Which coordinates are the half breadth and the height.
 
@@ -208,21 +219,23 @@ def section_area(
     [2.0]
     """
     _check_axes(axes)
-    heights = np.asarray(level, np.float64)
-    if heights.shape not in ((), (batch.count,)) or not np.isfinite(heights).all():
+    heights: Any = level if isinstance(level, Dual) else np.asarray(level)
+    if heights.shape not in ((), (batch.count,)) or not np.isfinite(real(level)).all():
         raise BadInputError(
             f"levels of shape {heights.shape}, or not finite",
             f"for {batch.count} section curves",
             "give one height for all or one for each",
         )
     top = np.broadcast_to(heights, (batch.count,))[segment_curve(batch)]
-    control = bernstein(batch)[:, :, axes[1]]
-    whole = (control <= top[:, None]).all(axis=1)
-    cut = np.flatnonzero(~whole & (control <= top[:, None]).any(axis=1))
+    below: NDArray[np.bool_] = real(bernstein(batch))[:, :, axes[1]] <= real(top)[:, None]
+    whole = np.asarray(below.all(axis=1))
+    cut = ~whole & below.any(axis=1)
     plane = power(batch)[:, :, list(axes)]
-    strips = _strips(plane, np.zeros(len(top)), np.where(whole, 1.0, 0.0))
-    strips[cut] = _cut_strips(plane[cut], top[cut])
-    area: FloatArray = np.abs(sum_per_curve(batch, strips))
+    uncut = _strips(plane[~cut], np.zeros(int((~cut).sum())), np.where(whole[~cut], 1.0, 0.0))
+    strips = np.concatenate([uncut, _cut_strips(plane[cut], top[cut])])
+    order = np.argsort(np.concatenate([np.flatnonzero(~cut), np.flatnonzero(cut)]))
+    sums = sum_per_curve(batch, strips[order])
+    area = np.where(np.signbit(real(sums)), -sums, sums)
     freeze(area)
     return area
 
@@ -257,6 +270,18 @@ def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
     >>> float(integrate_stations([0, 1, 3, 4], [0, 1, 27, 64]))  # x^3
     64.0
     """
+    place, value = checked_stations(x, values)
+    rows = value.reshape(len(place), -1)
+    step = np.diff(place)[:, None]
+    slope = _spline_slopes(step[:, 0], rows)
+    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
+    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
+    freeze(total)
+    return total
+
+
+def checked_stations(x: ArrayLike, values: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Take positions of stations and their values, as `integrate_stations` does."""
     place, value = np.asarray(x, np.float64), np.asarray(values, np.float64)
     if place.ndim != 1 or len(place) < 2 or value.shape[:1] != place.shape:
         raise BadInputError(
@@ -270,13 +295,7 @@ def integrate_stations(x: ArrayLike, values: ArrayLike) -> FloatArray:
             "in an integral over stations",
             "sort the stations and leave out repeated ones",
         )
-    rows = value.reshape(len(place), -1)
-    step = np.diff(place)[:, None]
-    slope = _spline_slopes(step[:, 0], rows)
-    parts = step * (rows[:-1] + rows[1:]) / 2.0 + step**2 * (slope[:-1] - slope[1:]) / 12.0
-    total: FloatArray = parts.sum(axis=0).reshape(value.shape[1:])
-    freeze(total)
-    return total
+    return place, value
 
 
 def _check_axes(axes: tuple[int, int]) -> None:
@@ -330,15 +349,17 @@ def _strips(plane: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
 
 def _cut_strips(plane: FloatArray, top: FloatArray) -> FloatArray:
     """Integrate y dz over the parts of each cubic at or below its level, (c,)."""
-    height = plane[:, :, 1].copy()
-    height[:, 0] -= top
+    height = np.concatenate([plane[:, :1, 1] - top[:, None], plane[:, 1:, 1]], axis=1)
     end = np.ones((len(top), 1))
-    edge = np.concatenate([0.0 * end, unit_roots(height), end], axis=1)
-    below = horner(height, 0.5 * (edge[:, :-1] + edge[:, 1:])) <= 0.0
+    edge = np.concatenate([0.0 * end, unit_roots(real(height)), end], axis=1)
+    below = horner(real(height), 0.5 * (edge[:, :-1] + edge[:, 1:])) <= 0.0
+    crossing = np.zeros(edge.shape, bool)
+    crossing[:, 1:-1] = below[:, :-1] != below[:, 1:]
+    edge = varied_roots(height, edge, crossing)
     total = np.zeros(len(top))
     for part in range(edge.shape[1] - 1):
         strip = _strips(plane, edge[:, part], edge[:, part + 1])
-        total += np.where(below[:, part], strip, 0.0)
+        total = total + np.where(below[:, part], strip, 0.0)
     return total
 
 

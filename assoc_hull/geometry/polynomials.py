@@ -1,16 +1,19 @@
 """Polynomials in power form, many at once: values and derivatives.
 
 Rows stand for polynomials, ascending powers along the second axis. The result of one row is
-the same to the last bit whatever the other rows are.
+the same to the last bit whatever the other rows are. Coefficients and parameters may be
+complex or carry tangents (`assoc_hull.geometry.dual.Dual`); so then do the results.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.dual import is_plain, real
 
-__all__ = ["differentiate", "horner"]
+__all__ = ["differentiate", "horner", "varied_roots"]
 
 
 def differentiate(coefficients: FloatArray) -> FloatArray:
@@ -68,3 +71,37 @@ def horner(coefficients: FloatArray, u: FloatArray) -> FloatArray:
     result: FloatArray = value
     freeze(result)
     return result
+
+
+def varied_roots(coefficients: FloatArray, u: FloatArray, simple: NDArray[np.bool_]) -> FloatArray:
+    """Let roots vary with the coefficients of their polynomials, as ``p(u) = 0`` wants.
+
+    Parameters
+    ----------
+    coefficients : (s, d + 1)
+        Ascending powers along the second axis.
+    u : (s, k)
+        Roots for the plain values of the coefficients, k for each polynomial.
+    simple : (s, k) bool
+        Which of them are to vary: simple roots; other places stay.
+
+    Returns
+    -------
+    (s, k)
+        The same values; with tangents or an imaginary part if the coefficients have any.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.dual import Dual
+    >>> from assoc_hull.geometry.polynomials import varied_roots
+    >>> square = Dual([[-4.0, 0.0, 1.0]], [[[-1.0, 0.0, 0.0]]])  # u^2 = 4 + e, u = 2 + e / 4
+    >>> varied_roots(square, np.array([[2.0]]), np.array([[True]])).dot.tolist()
+    [[[0.25]]]
+    """
+    if is_plain(coefficients):
+        return u
+    left = horner(coefficients, u)
+    slope = np.where(simple, horner(differentiate(real(coefficients)), u), np.inf)
+    roots: FloatArray = u - (left - real(left)) / slope
+    return roots

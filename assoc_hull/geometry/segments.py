@@ -2,7 +2,8 @@
 
 A curve with k points has k - 1 segments; the segments of all curves lie one behind the
 other, in the order of the curves. Each has its own parameter u, from 0 to 1. Every result
-for one curve is the same to the last bit whatever other curves are in the batch.
+for one curve is the same to the last bit whatever other curves are in the batch. `power` and
+`bernstein` also take arrays that are complex or carry tangents.
 """
 
 from __future__ import annotations

@@ -24,45 +24,22 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError, CoincidentPointsError, TooFewPointsError
 from assoc_hull.geometry.backend import compiled
-from assoc_hull.geometry.curves import (
-    CurveData,
-    EndKind,
-    FloatArray,
-    IntArray,
-    PointKind,
-    SplineBatch,
-)
+from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.evaluation import derivative, evaluate, sample
+from assoc_hull.geometry.loft_rules import (
+    OPEN,
+    add_curvature,
+    curve_name,
+    curved_weights,
+    is_curved,
+    set_known,
+    states_of,
+)
 from assoc_hull.geometry.tridiagonal import Slots, accumulate, slots_of, solve
 from assoc_hull.geometry.workspace import Workspace
 from assoc_hull.tolerance import Tolerances
 
-__all__ = [
-    "LEAST_COSINE",
-    "NO_DIRECTION",
-    "derivative",
-    "evaluate",
-    "loft",
-    "sample",
-]
-
-_SOLVED, _GIVEN, _LOOSE, _CURVED = 0, 1, 2, 3
-"""What fixes the derivative at a point: the tridiagonal rows (continuous curvature), a
-given direction, the local rule for knuckle sides and free ends, a given curvature."""
-
-_OPEN = np.array([1.0, 0.0, 0.0, 1.0])
-"""Whether the derivative of each state is an unknown of the tridiagonal rows."""
-
-_STATE_OF_KIND = np.zeros(3, np.int8)
-_STATE_OF_KIND[[PointKind.SMOOTH, PointKind.TANGENT, PointKind.KNUCKLE]] = _SOLVED, _GIVEN, _LOOSE
-_STATE_OF_END = np.zeros(3, np.int8)
-_STATE_OF_END[[EndKind.FREE, EndKind.TANGENT, EndKind.CURVATURE]] = _LOOSE, _GIVEN, _CURVED
-
-LEAST_COSINE = 0.2
-"""Below this cosine of neighbour direction and chord the local rule would fold back."""
-
-NO_DIRECTION = 1e-20
-"""Squared relative length of a parabola's derivative that is taken as no direction at all."""
+__all__ = ["derivative", "evaluate", "loft", "sample"]
 
 _COINCIDENT = Tolerances().coincident
 
@@ -124,10 +101,11 @@ def _loft(data: CurveData, names: Sequence[str] | None) -> SplineBatch:
     block = np.empty((9, len(data.xyz)))
     points, leave, arrive = block[:3], block[3:6], block[6:]
     points[:] = data.xyz.T
+    block[3:] = 0.0
     with Workspace() as workspace:
         chord, slope = _chords(data, points, slots, names, workspace)
-        state = _states(data, slots)
-        _set_known(data, slots, state, chord, slope, names, leave, arrive)
+        state = states_of(data, slots)
+        set_known(data, slots, state, chord, slope, names, leave, arrive)
         rows = _rows(data, slots, state, chord, slope, workspace)
         _detach_known(rows, state, leave, arrive, workspace)
         solved = solve(slots, rows, workspace)
@@ -167,102 +145,6 @@ def _chords(
     return chord, slope
 
 
-def _states(data: CurveData, slots: Slots) -> NDArray[np.int8]:
-    """Say for each point what fixes its derivative."""
-    try:
-        state = _STATE_OF_KIND.take(data.kind)
-        ends = _STATE_OF_END.take(data.end_kind)
-    except IndexError:
-        raise BadInputError(
-            "a point kind or end kind is not 0, 1 or 2",
-            "in the curve data",
-            "use PointKind and EndKind",
-        ) from None
-    state[slots.first] = ends[:, 0]
-    state[slots.last] = ends[:, 1]
-    return state
-
-
-def _set_known(
-    data: CurveData,
-    slots: Slots,
-    state: NDArray[np.int8],
-    chord: FloatArray,
-    slope: FloatArray,
-    names: Sequence[str] | None,
-    leave: FloatArray,
-    arrive: FloatArray,
-) -> None:
-    """Set the derivatives (3, n) after and before each point, nil where still to be solved."""
-    leave[:] = 0.0
-    tangents = np.flatnonzero(state == _GIVEN)
-    if len(tangents):
-        leave[:, tangents] = _unit_directions(data, slots, tangents, names)
-    arrive[:] = leave
-    loose = np.flatnonzero(state == _LOOSE)
-    if len(loose):
-        ahead, behind = loose[~slots.is_last[loose]], loose[~slots.is_first[loose]]
-        ends = _end_derivatives(ahead, behind, state, chord, slope, leave)
-        leave[:, ahead], arrive[:, behind] = ends[:, : len(ahead)], ends[:, len(ahead) :]
-        # The outer side of a curve's end has no meaning of its own: repeat the inner one.
-        arrive[:, slots.first] = leave[:, slots.first]
-        leave[:, slots.last] = arrive[:, slots.last]
-
-
-def _unit_directions(
-    data: CurveData, slots: Slots, tangents: IntArray, names: Sequence[str] | None
-) -> FloatArray:
-    vectors = data.direction.copy()
-    vectors[slots.first] = data.end_vector[:, 0]
-    vectors[slots.last] = data.end_vector[:, 1]
-    given = vectors[tangents].T
-    squares = given * given
-    length = np.sqrt(squares[0] + squares[1] + squares[2])
-    if not length.min() > 0.0 or not length.max() < np.inf:
-        worst = int(tangents[np.flatnonzero(~((length > 0.0) & (length < np.inf)))[0]])
-        raise BadInputError(
-            f"the direction {vectors[worst].tolist()} given at point {worst} is nil or not finite",
-            f"in {_name(int(slots.curve[worst]), names)}",
-            "give a direction, or make the point smooth or the end free",
-        )
-    units: FloatArray = given / length
-    return units
-
-
-def _end_derivatives(
-    ahead: IntArray,
-    behind: IntArray,
-    state: NDArray[np.int8],
-    chord: FloatArray,
-    slope: FloatArray,
-    given: FloatArray,
-) -> FloatArray:
-    """Apply the local rule after the points `ahead` and before the points `behind`.
-
-    Traversed backwards both directions change sign and the rule stays as it is, so one
-    formula serves both sides.
-    """
-    near = np.concatenate([ahead + 1, behind])
-    beyond = np.concatenate([ahead + 2, behind - 1])
-    neighbour = np.concatenate([ahead + 1, behind - 1])
-    along = slope.take(near, axis=1)
-    parabola = chord.take(beyond) * along + chord.take(near) * slope.take(beyond, axis=1)
-    squares = parabola * parabola
-    squared = squares[0] + squares[1] + squares[2]
-    nil = squared < NO_DIRECTION
-    squared[nil] = 1.0
-    towards = parabola / np.sqrt(squared)
-    fixed = state.take(neighbour)
-    np.copyto(towards, given.take(neighbour, axis=1), where=fixed == _GIVEN)
-    products = along * towards
-    cosine = products[0] + products[1] + products[2]
-    cosine[cosine <= LEAST_COSINE] = 1.0
-    result: FloatArray = (3.0 * along - cosine * towards) * 0.5
-    # Nothing is known at the neighbour: a straight interval.
-    np.copyto(result, along, where=(fixed >= _LOOSE) | (nil & (fixed == _SOLVED)))
-    return result
-
-
 def _rows(
     data: CurveData,
     slots: Slots,
@@ -279,40 +161,17 @@ def _rows(
     total = chord[:-1] + chord[1:]
     np.divide(chord[1:], total, out=before)
     np.divide(chord[:-1], total, out=after)
-    curved = (state == _CURVED).any()
+    curved = is_curved(state)
     if curved:
-        _curved_weights(slots, state, before, after)
+        curved_weights(slots, state, before, after)
     np.multiply(before, slope[:, :-1], out=right)
     right += np.multiply(after, slope[:, 1:], out=workspace.array(3, size))
     right *= 1.5
     before *= -0.5
     after *= -0.5
     if curved:
-        _add_curvature(data, slots, state, chord, right)
+        add_curvature(data, slots, state, chord, right)
     return rows
-
-
-def _curved_weights(
-    slots: Slots, state: NDArray[np.int8], before: FloatArray, after: FloatArray
-) -> None:
-    """At an end with a given curvature all weight is on the one interval there is."""
-    first = slots.first[state[slots.first] == _CURVED]
-    last = slots.last[state[slots.last] == _CURVED]
-    before[first], after[first] = 0.0, 1.0
-    before[last], after[last] = 1.0, 0.0
-
-
-def _add_curvature(
-    data: CurveData, slots: Slots, state: NDArray[np.int8], chord: FloatArray, right: FloatArray
-) -> None:
-    for side, ends, shift, sign in ((0, slots.first, 1, -0.25), (1, slots.last, 0, 0.25)):
-        curves = np.flatnonzero(state[ends] == _CURVED)
-        vector = data.end_vector[curves, side].T
-        if not np.isfinite(vector).all():
-            raise BadInputError(
-                "a given end curvature is not finite", "in the curve data", "correct or free it"
-            )
-        right[:, ends[curves]] += (sign * chord[ends[curves] + shift]) * vector
 
 
 def _detach_known(
@@ -327,7 +186,7 @@ def _detach_known(
     Where nothing is known the derivatives are nil still, and adding nil changes no bit.
     """
     size = len(state)
-    open_ = _OPEN.take(state)
+    open_ = OPEN.take(state)
     product = workspace.array(3, size - 1)
     right = rows[1:4, :size]
     right[:, 1:] += np.multiply(rows[0, 1:size], leave[:, :-1], out=product)
@@ -337,14 +196,10 @@ def _detach_known(
     rows[4, : size - 1] *= open_[1:]
 
 
-def _name(curve: int, names: Sequence[str] | None) -> str:
-    return f"curve {curve} of the batch" if names is None else names[curve]
-
-
 def _too_few(data: CurveData, names: Sequence[str] | None) -> TooFewPointsError:
     counts = np.diff(data.start)
     curve = int(np.argmin(counts))
-    return TooFewPointsError(_name(curve, names), int(counts[curve]))
+    return TooFewPointsError(curve_name(curve, names), int(counts[curve]))
 
 
 def _bad_points(data: CurveData, chord: FloatArray, names: Sequence[str] | None) -> Exception:
@@ -353,7 +208,7 @@ def _bad_points(data: CurveData, chord: FloatArray, names: Sequence[str] | None)
         place = int(broken[0])
         return BadInputError(
             f"point {place} at {data.xyz[place].tolist()} is not finite",
-            f"in {_name(_curve_of(data, place), names)}",
+            f"in {curve_name(_curve_of(data, place), names)}",
             "correct or delete the point",
         )
     short = np.flatnonzero(chord < _COINCIDENT)
@@ -365,7 +220,7 @@ def _bad_points(data: CurveData, chord: FloatArray, names: Sequence[str] | None)
         )
     place = int(short[0])
     x, y, z = data.xyz[place].tolist()
-    name = _name(_curve_of(data, place), names)
+    name = curve_name(_curve_of(data, place), names)
     return CoincidentPointsError(name, (x, y, z), float(chord[place]), _COINCIDENT)
 
 

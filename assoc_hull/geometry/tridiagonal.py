@@ -145,13 +145,13 @@ def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
     ----------
     slots : Slots
         The layout.
-    steps : (n + 1,), any unit
+    steps : (..., n + 1), any unit
         The step that leads to each row, nil at the first row of a system; the last entry
         is ignored and should be nil.
 
     Returns
     -------
-    (n,), the unit of `steps`
+    (..., n), the unit of `steps`
         Sum of all steps of the system up to each row.
 
     Notes
@@ -163,11 +163,11 @@ def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
     >>> accumulate(slots_of(np.array([0, 2, 5])), np.array([0.0, 1, 0, 2, 3, 0]))
     array([0., 1., 0., 2., 5.])
     """
-    slotted = steps.take(slots.source)
+    slotted = steps.take(slots.source, axis=-1)
     for begin, end, size in slots.blocks:
-        table = slotted[begin:end].reshape(-1, size)
-        np.add.accumulate(table, axis=1, out=table)
-    return slotted.take(slots.home)
+        table = slotted[..., begin:end].reshape(*steps.shape[:-1], (end - begin) // size, size)
+        np.add.accumulate(table, axis=-1, out=table)
+    return slotted.take(slots.home, axis=-1)
 
 
 def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
@@ -177,17 +177,17 @@ def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
     ----------
     slots : Slots
         The layout.
-    rows : (5, n + 1)
-        The rows ``before, right (three of them), after``; column n must be nil. The sum of
-        the magnitudes of `before` and `after` must not exceed one half, and neither may
-        reach out of its system.
+    rows : (2 + r, n + 1)
+        The rows ``before, right (r of them), after``; column n must be nil. The sum of the
+        magnitudes of `before` and `after` must not exceed one half, and neither may reach
+        out of its system.
     workspace : Workspace
         Scratch memory.
 
     Returns
     -------
-    (3, n)
-        The three solutions, in scratch memory.
+    (r, n)
+        The solutions, in scratch memory.
 
     Notes
     -----
@@ -203,14 +203,14 @@ def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
     ...     solve(slots, rows, workspace)[0].tolist()
     [4.0, 2.0]
     """
-    slotted = workspace.array(5, len(slots.source))
+    slotted = workspace.array(len(rows), len(slots.source))
     levels = [rows.take(slots.source, axis=1, out=slotted, mode="clip")]
     for _ in range(slots.levels):
         levels.append(_reduced(levels[-1], workspace))
-    solution = levels.pop()[1:4, :-1]
+    solution = levels.pop()[1:-1, :-1]
     while levels:
         solution = _restored(levels.pop(), solution, workspace)
-    result = workspace.array(3, len(slots.home))
+    result = workspace.array(len(rows) - 2, len(slots.home))
     return solution.take(slots.home, axis=1, out=result, mode="clip")
 
 
@@ -218,18 +218,18 @@ def _reduced(rows: FloatArray, workspace: Workspace) -> FloatArray:
     """Eliminate the rows of even place; the last column is nil and stands for no row."""
     kept, left, right = rows[:, 1::2], rows[:, :-1:2], rows[:, 2::2]
     size = kept.shape[1]
-    fewer = workspace.array(5, size + 1)
+    fewer = workspace.array(len(rows), size + 1)
     fewer[:, size] = 0.0
     result = fewer[:, :size]
     np.multiply(kept[0], left, out=result)
-    from_right = np.multiply(kept[4], right, out=workspace.array(5, size))
-    scale = result[4]
+    from_right = np.multiply(kept[-1], right, out=workspace.array(len(rows), size))
+    scale = result[-1]
     scale += from_right[0]
     scale = 1.0 / (1.0 - scale)
-    inner = result[1:4]
-    inner += kept[1:4]
-    inner += from_right[1:4]
-    result[4] = from_right[4]
+    inner = result[1:-1]
+    inner += kept[1:-1]
+    inner += from_right[1:-1]
+    result[-1] = from_right[-1]
     result *= scale
     return fewer
 
@@ -237,11 +237,11 @@ def _reduced(rows: FloatArray, workspace: Workspace) -> FloatArray:
 def _restored(rows: FloatArray, solution: FloatArray, workspace: Workspace) -> FloatArray:
     """Put the eliminated rows back between those already solved."""
     size = solution.shape[1]
-    full = workspace.array(3, 2 * size)
+    full = workspace.array(len(solution), 2 * size)
     full[:, 1::2] = solution
     even = full[:, ::2]
-    np.multiply(rows[4, :-1:2], solution, out=even)
-    even += rows[1:4, :-1:2]
-    from_left = workspace.array(3, size - 1)
+    np.multiply(rows[-1, :-1:2], solution, out=even)
+    even += rows[1:-1, :-1:2]
+    from_left = workspace.array(len(solution), size - 1)
     even[:, 1:] += np.multiply(rows[0, 2:-1:2], solution[:, :-1], out=from_left)
     return full

@@ -25,7 +25,7 @@ __all__ = ["APPLICATION", "MIGRATIONS", "SCHEMA", "TABLES", "create", "migrate"]
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 3
+SCHEMA = 4
 
 TABLES = """
 CREATE TABLE hull (
@@ -42,7 +42,8 @@ CREATE TABLE hull (
     fingerprint TEXT NOT NULL,
     head INTEGER NOT NULL,
     tip INTEGER NOT NULL,
-    serial INTEGER NOT NULL
+    serial INTEGER NOT NULL,
+    deck TEXT NOT NULL DEFAULT 'open'
 );
 CREATE TABLE groups (
     number INTEGER PRIMARY KEY, name TEXT NOT NULL, family TEXT NOT NULL, alive INTEGER NOT NULL
@@ -106,7 +107,12 @@ def _remember_gone(database: sqlite3.Connection) -> None:
     )
 
 
-MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels, 2: _remember_gone}
+def _tell_deck(database: sqlite3.Connection) -> None:
+    """From 3 to 4: the deck is open or closed; that of older hulls counts as open."""
+    database.execute("ALTER TABLE hull ADD COLUMN deck TEXT NOT NULL DEFAULT 'open'")
+
+
+MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels, 2: _remember_gone, 3: _tell_deck}
 """By version: what brings a file of it to the next one."""
 
 

@@ -69,9 +69,9 @@ def write_state(
     ship = state.particulars
     tolerances = json.dumps(attrs.asdict(state.tolerances))
     database.execute(
-        "INSERT INTO hull VALUES (1, ?, ?, ?, ?, ?, ?, '[]', ?, ?, ?, 0, 0, 0)",
+        "INSERT INTO hull VALUES (1, ?, ?, ?, ?, ?, ?, '[]', ?, ?, ?, 0, 0, 0, ?)",
         (ship.name, ship.length, ship.breadth, ship.depth, ship.draught, tolerances, written_by,
-         fingerprint, fingerprint),
+         fingerprint, fingerprint, ship.deck),
     )  # fmt: skip
     write_settings(database, state)
     write_births(database, dict(state.births))
@@ -86,8 +86,9 @@ def write_settings(database: sqlite3.Connection, state: HullState) -> None:
     """Write particulars, failures and associations."""
     ship = state.particulars
     database.execute(
-        "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, failed = ?",
-        (ship.name, ship.length, ship.breadth, ship.depth, ship.draught,
+        "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
+        "failed = ?",
+        (ship.name, ship.length, ship.breadth, ship.depth, ship.draught, ship.deck,
          json.dumps([int(curve) for curve in state.failed])),
     )  # fmt: skip
     database.execute("DELETE FROM associations")
@@ -209,14 +210,14 @@ def read_state(database: sqlite3.Connection) -> HullState:
         The file holds what was never written by this module.
     """
     said = database.execute(
-        "SELECT name, length, breadth, depth, draught, tolerances, failed FROM hull"
+        "SELECT name, length, breadth, depth, draught, deck, tolerances, failed FROM hull"
     ).fetchone()
-    state = HullState(Particulars(*said[:5]), Tolerances(**json.loads(said[5])))
+    state = HullState(Particulars(*said[:6]), Tolerances(**json.loads(said[6])))
     links = database.execute("SELECT a, b, two_way FROM associations ORDER BY a, b")
     state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
     births = database.execute("SELECT a, b, count FROM births ORDER BY a, b")
     state.settings.births.data[0] = {(a, b): int(count) for a, b, count in births}
-    state.settings.failed.data[0] = tuple(json.loads(said[6]))
+    state.settings.failed.data[0] = tuple(json.loads(said[7]))
     _read_groups(state, _rows(database, "groups"))
     _read_lines(state, _rows(database, "lines"))
     _read_points(state, _rows(database, "points"))

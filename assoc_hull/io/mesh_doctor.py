@@ -6,7 +6,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.io.mesh_file import Triangles, merge_vertices
+from assoc_hull.geometry.triangles import Triangles, boundary_edges, check_mesh, weld_edges
+from assoc_hull.geometry.winding import against_neighbours, part_contents, part_labels, turned
 from assoc_hull.io.offset_report import Notebook
 
 __all__ = ["boundary_edges", "check_mesh", "facet_depth", "mend_mesh"]
@@ -17,49 +18,6 @@ _ROUNDING = 1e-6
 
 _PART = 0.01
 """Separate parts are told of from this part of the surface on."""
-
-
-def check_mesh(mesh: Triangles) -> None:
-    """Refuse triangles from which no line can be cut.
-
-    Raises
-    ------
-    BadInputError
-        No triangle, one of a vertex that is not there, a vertex that is not finite, or all in
-        one plane.
-    """
-    face, xyz = mesh.face, mesh.xyz
-    if face.ndim != 2 or face.shape[1:] != (3,) or xyz.ndim != 2 or xyz.shape[1:] != (3,):
-        shapes = f"xyz has shape {xyz.shape}, face {face.shape}"
-        raise BadInputError(shapes, f"in {_WHERE}", "give (v, 3) places and (f, 3) numbers")
-    if not len(face):
-        raise BadInputError("there are no triangles", f"in {_WHERE}", "give the shell of the hull")
-    outside = (face < 0) | (face >= len(xyz))
-    if outside.any():
-        bad = int(np.flatnonzero(outside.any(axis=1))[0])
-        raise BadInputError(
-            f"triangle {bad} has the vertices {face[bad].tolist()}", f"in {_WHERE}",
-            f"give numbers from 0 to {len(xyz) - 1}",
-        )  # fmt: skip
-    wrong = np.flatnonzero(~np.isfinite(xyz).all(axis=1))
-    if len(wrong):
-        x, y, z = xyz[wrong[0]].tolist()
-        raise BadInputError(
-            f"vertex {wrong[0]} is not finite: ({x:g}, {y:g}, {z:g})", f"in {_WHERE}",
-            "export it again, or leave out its triangles",
-        )  # fmt: skip
-    _refuse_flat(xyz)
-
-
-def _refuse_flat(xyz: FloatArray) -> None:
-    """Refuse a mesh without breadth or depth: nothing can be cut from it."""
-    spread = np.linalg.svd(xyz - xyz.mean(axis=0), compute_uv=False)
-    if len(spread) == 3 and spread[2] > 1e-6 * spread[0]:
-        return
-    kind = "on one line" if len(spread) < 2 or spread[1] <= 1e-6 * spread[0] else "in one plane"
-    raise BadInputError(
-        f"the mesh lies {kind}", f"in {_WHERE}", "export the shell of the hull, not a drawing"
-    )
 
 
 def mend_mesh(mesh: Triangles, book: Notebook) -> Triangles:
@@ -131,32 +89,15 @@ def _labels(mesh: Triangles) -> IntArray:
     return np.asarray(connected_components(graph, directed=False)[1], np.int64)
 
 
-def boundary_edges(mesh: Triangles) -> IntArray:
-    """Give the edges with one triangle only, as that triangle runs along them, (e, 2)."""
-    keys = mesh.edge_keys()
-    order = np.argsort(keys, kind="stable")
-    new = np.append(True, np.diff(keys[order]) != 0)
-    alone = order[new & np.append(new[1:], True)]
-    return np.asarray(mesh.edges()[np.sort(alone)])
-
-
 def _weld(mesh: Triangles, book: Notebook) -> Triangles:
     """Make vertices on open edges one that differ by rounding."""
-    from scipy.spatial import cKDTree
-
-    rim = np.unique(boundary_edges(mesh))
     reach = _ROUNDING * _size(mesh)
-    pairs = cKDTree(mesh.xyz[rim]).query_pairs(reach, output_type="ndarray")
-    if not len(pairs):
+    welded, count = weld_edges(mesh, reach)
+    if not count:
         return mesh
-    xyz = mesh.xyz.copy()
-    pairs = rim[pairs]
-    low, high = pairs.min(axis=1), pairs.max(axis=1)
-    order = np.argsort(-low, kind="stable")
-    xyz[high[order]] = mesh.xyz[low[order]]
-    what = f"{len(np.unique(high))} vertices at most {1e3 * reach:.3g} mm off another joined to it"
+    what = f"{count} vertices at most {1e3 * reach:.3g} mm off another joined to it"
     book.repair("weld", _WHERE, what, reach)
-    return _drop_degenerate(merge_vertices(xyz, mesh.face), Notebook())
+    return _drop_degenerate(welded, Notebook())
 
 
 def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
@@ -177,65 +118,16 @@ def _refuse_branches(mesh: Triangles, book: Notebook) -> None:
 
 def _wind(mesh: Triangles, book: Notebook) -> Triangles:
     """Turn neighbours the same way round, part by part, and each part outward."""
-    flip = _against(mesh)
+    flip = against_neighbours(mesh)
     count = int(flip.sum())
     if count:
         what = f"{count} of {len(mesh.face)} triangles run against their neighbours; turned round"
         book.repair("winding", _WHERE, what, count)
-        mesh = _turned(mesh, flip)
-    if _outwardness(mesh) < 0.0:
+        mesh = turned(mesh, flip)
+    if part_contents(mesh, np.zeros(len(mesh.face), np.int64)).sum() < 0.0:
         book.repair("inside-out", _WHERE, "all normals pointed inward; turned round")
-        mesh = _turned(mesh, np.ones(len(mesh.face), np.bool_))
+        mesh = turned(mesh, np.ones(len(mesh.face), np.bool_))
     return mesh
-
-
-def _turned(mesh: Triangles, flip: np.typing.NDArray[np.bool_]) -> Triangles:
-    return Triangles(mesh.xyz, np.where(flip[:, None], mesh.face[:, ::-1], mesh.face))
-
-
-def _outwardness(mesh: Triangles) -> float:
-    """Give a volume that an open bottom, deck or centre plane falsifies least."""
-    if not len(boundary_edges(mesh)):
-        return mesh.volume()
-    vectors, centre = mesh.area_vectors(), mesh.corners.mean(axis=1)
-    middle = 0.5 * (mesh.xyz.min(axis=0) + mesh.xyz.max(axis=0))
-    return float((vectors * (centre - middle)).sum())
-
-
-def _against(mesh: Triangles) -> np.typing.NDArray[np.bool_]:
-    """Say which triangles run against the majority of their connected part."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order, connected_components
-
-    edges, faces = mesh.edges(), len(mesh.face)
-    owner = np.tile(np.arange(faces), 3)
-    keys = mesh.edge_keys()
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.append(True, np.diff(keys[order]) != 0))
-    count = np.diff(np.append(first, len(keys)))
-    two = first[count == 2]
-    a, b = order[two], order[two + 1]
-    same = edges[a, 0] == edges[b, 0]
-    flip = np.zeros(faces, np.bool_)
-    if not same.any():
-        return flip
-    weight = np.where(same, 2.0, 1.0)
-    graph = coo_array((weight, (owner[a], owner[b])), shape=(faces, faces)).tocsr()
-    graph = (graph + graph.T).tocsr()
-    parts, label = connected_components(graph, directed=False)
-    before = np.arange(faces)
-    first = np.unique(label, return_index=True)[1]
-    for root in first.tolist():
-        path, source = breadth_first_order(graph, root, directed=True)
-        before[path[1:]] = source[path[1:]]
-    moved = np.flatnonzero(before != np.arange(faces))
-    flip[moved] = np.asarray(graph[moved, before[moved]]).ravel() == 2.0
-    # How often the way back to the root turns: each pass doubles the steps looked back.
-    while (before != before[before]).any():
-        flip ^= flip[before]
-        before = before[before]
-    most = np.bincount(label, flip, parts) > 0.5 * np.bincount(label, minlength=parts)
-    return flip ^ most[label]
 
 
 def facet_depth(mesh: Triangles, corner_deg: float = 15.0) -> float:
@@ -281,12 +173,7 @@ def _tell_open(mesh: Triangles, book: Notebook) -> None:
 
 def _tell_parts(mesh: Triangles, book: Notebook) -> None:
     """Tell of large parts that touch nowhere: appendages, a second hull, patches not sewn."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    ends = mesh.edges().T
-    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(len(mesh.xyz),) * 2)
-    label = connected_components(graph, directed=False)[1][mesh.face[:, 0]]
+    label = part_labels(mesh)
     area = np.bincount(label, np.linalg.norm(mesh.area_vectors(), axis=1))
     large = np.flatnonzero(area > _PART * area.sum())
     if len(large) < 2:

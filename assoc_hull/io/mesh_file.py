@@ -7,11 +7,10 @@ import io
 import logging
 from pathlib import Path
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError, MissingExtraError
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.triangles import Triangles, grid_triangles, merge_vertices
 
 __all__ = [
     "MESH_ENDINGS",
@@ -27,53 +26,6 @@ _MOST_BYTES = 2_000_000_000
 
 # Without a handler, what trimesh logs of a file it cannot read would go to standard error.
 logging.getLogger("trimesh").addHandler(logging.NullHandler())
-
-
-@attrs.frozen(eq=False)
-class Triangles:
-    """A triangulated surface.
-
-    Attributes
-    ----------
-    xyz : (v, 3)
-        Places of the vertices.
-    face : (f, 3) int
-        Vertices of each triangle.
-    """
-
-    xyz: FloatArray
-    face: IntArray
-
-    def __attrs_post_init__(self) -> None:
-        freeze(self.xyz, self.face)
-
-    @property
-    def corners(self) -> FloatArray:
-        """The corners of each triangle, (f, 3, 3)."""
-        return self.corners_of(self.face)
-
-    def corners_of(self, face: IntArray) -> FloatArray:
-        """Give the corners of some triangles, (k, 3, 3)."""
-        return np.asarray(self.xyz[face])
-
-    def area_vectors(self) -> FloatArray:
-        """Give half the cross product of two sides of each triangle, (f, 3)."""
-        corner = self.corners
-        return np.asarray(0.5 * np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]))
-
-    def edges(self) -> IntArray:
-        """Give the directed edges, (3 f, 2): all first ones, all second, all third."""
-        return np.concatenate([self.face[:, [0, 1]], self.face[:, [1, 2]], self.face[:, [2, 0]]])
-
-    def edge_keys(self) -> IntArray:
-        """Give a number for each of the `edges`, the same for both directions."""
-        low, high = np.sort(self.edges(), axis=1).T
-        return np.asarray(low * len(self.xyz) + high)
-
-    def volume(self) -> float:
-        """Give the signed volume, positive for a closed surface with outward normals."""
-        a, b, c = (self.corners[:, i] for i in range(3))
-        return float((a * np.cross(b, c)).sum() / 6.0)
 
 
 def is_mesh_name(path: Path) -> bool:
@@ -173,36 +125,3 @@ def _unpack(path: Path) -> bytes:
     if len(text) > _MOST_BYTES:
         raise BadInputError("the mesh is larger than 2 GB", f"at {path}", "thin it first")
     return text
-
-
-def merge_vertices(xyz: FloatArray, face: IntArray) -> Triangles:
-    """Make equal places one vertex; the order of the vertices is that of their places."""
-    places = xyz + 0.0
-    order = np.lexsort(places.T[::-1])
-    new = np.append(True, (np.diff(places[order], axis=0) != 0.0).any(axis=1))
-    number = np.empty(len(places), np.int64)
-    number[order] = np.cumsum(new) - 1
-    return Triangles(places[order[new]], number[face])
-
-
-def grid_triangles(grid: FloatArray) -> Triangles:
-    """Make two triangles of each cell of a grid of places, (m, n, 3); nil ones are left out.
-
-    Outward where the first direction of the grid points forward, the second upward and the
-    places lie to port.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.io.mesh_file import grid_triangles
-    >>> x, z = np.meshgrid([0.0, 1, 2], [0.0, 1], indexing="ij")
-    >>> grid_triangles(np.stack([x, 0 * x, z], axis=2)).face.shape
-    (4, 3)
-    """
-    number = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2])
-    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    first = np.stack([a, c, b], axis=2).reshape(-1, 3)
-    second = np.stack([a, d, c], axis=2).reshape(-1, 3)
-    merged = merge_vertices(grid.reshape(-1, 3), np.concatenate([first, second]))
-    i, j, k = merged.face.T
-    return Triangles(merged.xyz, merged.face[(i != j) & (j != k) & (k != i)])

@@ -23,7 +23,7 @@ import numpy as np
 
 from assoc_hull.edit.adopt import AdoptionReport, adopt
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.offset_net import ASSOCIATIONS
+from assoc_hull.io.offset_net import ASSOCIATIONS, particulars_of_table
 from assoc_hull.io.offset_table import OffsetTable
 from assoc_hull.io.raw_lines import plane_name
 from assoc_hull.model.family import BoundaryKind
@@ -39,7 +39,9 @@ _LEVEL = 1e-6
 
 
 def net_of_lines(
-    table: OffsetTable, tolerances: Tolerances | None = None
+    table: OffsetTable,
+    particulars: Particulars | None = None,
+    tolerances: Tolerances | None = None,
 ) -> tuple[HullState, AdoptionReport]:
     """Adopt the lines of a table; profile, ends and flats are left open.
 
@@ -47,6 +49,8 @@ def net_of_lines(
     ----------
     table : OffsetTable
         Any table.
+    particulars : Particulars or None
+        From the table if None.
     tolerances : Tolerances or None
         Defaults if None.
 
@@ -62,11 +66,7 @@ def net_of_lines(
     lines = lines_of_table(table)
     groups = {line.group for line in lines}
     links = [each for each in ASSOCIATIONS if {each.a, each.b} <= groups]
-    top = float(table.z[-1])
-    ship = Particulars(
-        table.name, table.length, table.breadth, table.depth or top, table.draught or top
-    )
-    return adopt(lines, ship, links, tolerances)
+    return adopt(lines, particulars or particulars_of_table(table), links, tolerances)
 
 
 def lines_of_table(table: OffsetTable) -> list[LineSource]:

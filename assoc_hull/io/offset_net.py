@@ -55,6 +55,31 @@ class Completion:
     side: FloatArray | None
 
 
+def particulars_of_table(table: OffsetTable, deck: str = "open") -> Particulars:
+    """Give the particulars that a table tells, and the deck, which no table tells.
+
+    Parameters
+    ----------
+    table : OffsetTable
+        Any table; depth and draught are its highest waterline where it tells none.
+    deck : {"open", "closed"}
+        Closed: there is a deck between the deck edges.
+
+    Returns
+    -------
+    Particulars
+
+    Raises
+    ------
+    BadInputError
+        Another word for the deck, or dimensions that are not positive.
+    """
+    top = float(table.z[-1])
+    return Particulars(
+        table.name, table.length, table.breadth, table.depth or top, table.draught or top, deck
+    )
+
+
 def net_from_offsets(
     table: OffsetTable,
     completion: Completion,
@@ -90,10 +115,7 @@ def net_from_offsets(
         raise BadInputError(
             f"{len(table.z)} waterlines", f"table {table.name!r}", "give three or more"
         )
-    top = float(table.z[-1])
-    ship = particulars or Particulars(
-        table.name, table.length, table.breadth, table.depth or top, table.draught or top
-    )
+    ship = particulars or particulars_of_table(table)
     flats = _Flats(completion.side, table)
     sources = _boundaries(table, completion, flats)
     wet = [i for i in range(len(table.x)) if (table.half_breadth[i, 1:] > 0.0).any()]

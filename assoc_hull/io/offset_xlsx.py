@@ -20,28 +20,18 @@ import warnings
 import zipfile
 from typing import Any
 
-from assoc_hull.errors import BadInputError, MissingExtraError
+from assoc_hull.errors import BadInputError
 from assoc_hull.io.offset_out import Offsets
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.offset_text import opens_block
+from assoc_hull.io.workbook import openpyxl_module, workbook_bytes
 
 __all__ = ["text_of_xlsx", "xlsx_bytes"]
 
 _NAMES = ("half-breadths", "heights of buttocks")
-_DAY = datetime.datetime(2000, 1, 1)
-"""A workbook bears a date; one that never changes gives the same bytes for the same hull."""
-
 _MOST_BYTES = 50_000_000
 _MOST_ROWS, _MOST_COLUMNS = 5_000, 1_000
 _TAKE = "give a sheet of offsets, or save it as CSV"
-
-
-def _openpyxl() -> Any:
-    try:
-        import openpyxl
-    except ImportError:
-        raise MissingExtraError("openpyxl", "xlsx") from None
-    return openpyxl
 
 
 def xlsx_bytes(offsets: Offsets) -> bytes:
@@ -54,7 +44,7 @@ def xlsx_bytes(offsets: Offsets) -> bytes:
     MissingExtraError
         openpyxl is not installed.
     """
-    book = _openpyxl().Workbook()
+    book = openpyxl_module().Workbook()
     book.remove(book.active)
     for k, block in enumerate(offsets.blocks):
         sheet = book.create_sheet(_NAMES[k])
@@ -64,10 +54,7 @@ def xlsx_bytes(offsets: Offsets) -> bytes:
         for row in block:
             sheet.append([_value(cell) for cell in row])
         _dress(sheet, len(top) + 1, block)
-    book.properties.created = book.properties.modified = _DAY
-    out = io.BytesIO()
-    book.save(out)
-    return _settled(out.getvalue())
+    return workbook_bytes(book)
 
 
 def _value(cell: str) -> float | str | None:
@@ -84,20 +71,6 @@ def _dress(sheet: Any, head: int, block: list[list[str]]) -> None:
         for cell, text in list(zip(row, cells, strict=True))[first:]:
             cell.number_format = "0." + "0" * len(text.partition(".")[2]) if "." in text else "0"
     sheet.freeze_panes = sheet.cell(head + 1, first + 1)
-
-
-def _settled(data: bytes) -> bytes:
-    """Put a fixed date on the members of an archive."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(out, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            if name == "docProps/core.xml":
-                content = re.sub(rb"(<dcterms:modified[^>]*>)[^<]*", rb"\g<1>2000-01-01T00:00:00Z",
-                                 content)  # fmt: skip
-            member = zipfile.ZipInfo(name, _DAY.timetuple()[:6])
-            new.writestr(member, content, zipfile.ZIP_DEFLATED)
-    return out.getvalue()
 
 
 def text_of_xlsx(data: bytes, source: str, notes: Notebook) -> str:
@@ -121,7 +94,7 @@ def text_of_xlsx(data: bytes, source: str, notes: Notebook) -> str:
     BadInputError
         It is no workbook, too large, or holds errors in its cells.
     """
-    openpyxl = _openpyxl()
+    openpyxl = openpyxl_module()
     _refuse_large(data, source)
     try:
         with warnings.catch_warnings():

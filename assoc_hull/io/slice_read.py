@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.digitised_text import is_digitised
@@ -15,7 +16,7 @@ from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_net import SliceReport, net_from_slices
 from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import Gaps
-from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.model.state import DECKS, HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices", "require_file"]
 
@@ -61,6 +62,7 @@ def read_slices(
     length: float | None = None,
     breadth: float | None = None,
     draught: float | None = None,
+    deck: str = "open",
     stations: Places | None = None,
     waterlines: Places | None = None,
     buttocks: Places | None = None,
@@ -79,6 +81,8 @@ def read_slices(
         STL, OBJ, PLY (``.gz``), or digitised lines as for `assoc_hull.io.digitised.read_lines`.
     length, breadth, draught : float or None, m
         Particulars; by default from the extent of the hull.
+    deck : {"open", "closed"}
+        Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
         As for `assoc_hull.io.mesh.slice_mesh`, whose defaults hold for None; digitised lines
         take scale and unit only.
@@ -100,6 +104,7 @@ def read_slices(
         ("join", join),
     ):  # fmt: skip
         check_argument(name, value)
+    choice(deck, "deck", DECKS, "in the particulars")
     gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
     named: dict[str, Any] = {
         "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
@@ -118,6 +123,7 @@ def read_slices(
         2.0 * float(slices.high[1]) if breadth is None else breadth,
         depth,
         0.5 * depth if draught is None else draught,
+        deck,
     )
     state, report = net_from_slices(slices, ship, tolerance, tell=tell)
     return state, report

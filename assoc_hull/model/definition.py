@@ -82,8 +82,8 @@ def definition(state: HullState) -> dict[str, object]:
         ``particulars`` and ``tolerances`` (m, degrees), and lists sorted by key or name:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
         line, how many crossings the pair ever had) and ``retired`` (keys that must not come
-        back). What has its default is left out: notes, labels, free ends, directions of
-        nil, smooth passage, overrides, nil signs.
+        back). What has its default is left out: an open deck, notes, labels, free ends, directions
+        of nil, smooth passage, overrides, nil signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sense of
         each meeting and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
@@ -107,9 +107,18 @@ def definition(state: HullState) -> dict[str, object]:
 
 
 def _plain(fields: attrs.AttrsInstance) -> Record:
-    """Give the fields of a class of numbers and names; whole numbers become floats."""
+    """Give the fields of a class of numbers and words; whole numbers become floats.
+
+    A word that is the default is left out: hulls keep the fingerprint they had before the
+    word came.
+    """
+    default = {each.name: each.default for each in attrs.fields(type(fields))}
     values = attrs.asdict(fields)
-    return {name: v if isinstance(v, str) else float(v) for name, v in values.items()}
+    return {
+        name: v if isinstance(v, str) else float(v)
+        for name, v in values.items()
+        if not isinstance(v, str) or v != default[name]
+    }
 
 
 def _links(state: HullState) -> list[Record]:

@@ -14,7 +14,7 @@ assoc_hull.errors.BadInputError: the key 'tolerances' is missing, in the definit
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import attrs
 
@@ -40,7 +40,7 @@ from assoc_hull.model.form import (
     told,
     tuple_of,
 )
-from assoc_hull.model.state import Particulars
+from assoc_hull.model.state import DECKS, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["DEFINITION", "PUBLISHED", "check_definition", "check_published"]
@@ -110,14 +110,20 @@ _POINT = record(
 )
 
 
-def _fields(cls: type, form: Form) -> Mapping[str, Form]:
+def _fields(cls: type, form: Form, leave: Collection[str] = ()) -> Mapping[str, Form]:
     """Give the forms of an attrs class of numbers, and perhaps a name."""
-    return {each.name: TEXT if each.name == "name" else form for each in attrs.fields(cls)}
+    names = [each.name for each in attrs.fields(cls) if each.name not in leave]
+    return {name: TEXT if name == "name" else form for name in names}
+
+
+_DECK = told(one_of(DECKS), "between the deck edges to port and starboard; open if not told")
 
 
 DEFINITION = record(
     {
-        "particulars": told(record(_fields(Particulars, POSITIVE)), "m"),
+        "particulars": told(
+            record(_fields(Particulars, POSITIVE, ("deck",)), {"deck": _DECK}), "m"
+        ),
         "tolerances": told(record(_fields(Tolerances, NOT_NEGATIVE)), "m, parts and degrees"),
         "groups": listed(record({"name": NAME, "family": one_of(tuple(FAMILIES))})),
         "associations": told(

@@ -16,19 +16,35 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import checked, flag, integer, places, positive, shown, word
+from assoc_hull.arguments import checked, choice, flag, integer, places, positive, shown, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.table import Table
 from assoc_hull.model.family import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["Association", "Ends", "HullState", "Meets", "Particulars", "curve_node", "row_node"]
+__all__ = [
+    "DECKS",
+    "Association",
+    "Ends",
+    "HullState",
+    "Meets",
+    "Particulars",
+    "curve_node",
+    "row_node",
+]
+
+DECKS = ("open", "closed")
+"""What may lie between the deck edges to port and starboard: nothing, or a deck."""
+
+
+def _deck(value: object, name: str, where: str) -> None:
+    choice(value, name, DECKS, where)
 
 
 @attrs.frozen
 class Particulars:
-    """Principal dimensions, m.
+    """Principal dimensions, m, and whether water stays off the deck.
 
     Attributes
     ----------
@@ -38,6 +54,9 @@ class Particulars:
         Between perpendiculars, Lpp.
     breadth, depth, draught : float
         Moulded; the draught is the design draught.
+    deck : {"open", "closed"}
+        Closed: straight athwartships between the deck edges to port and starboard, so that
+        it may dip into the water. Open: nothing is there, and water above the edge comes in.
     """
 
     name: str = attrs.field(validator=checked(word, "in the particulars"))
@@ -45,6 +64,7 @@ class Particulars:
     breadth: float = attrs.field(validator=checked(positive, "in the particulars"))
     depth: float = attrs.field(validator=checked(positive, "in the particulars"))
     draught: float = attrs.field(validator=checked(positive, "in the particulars"))
+    deck: str = attrs.field(default="open", validator=checked(_deck, "in the particulars"))
 
 
 @attrs.frozen

@@ -128,7 +128,11 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "Plane.across": (ah.Plane.across, {"axis": "x", "offset": 1.0}),
     "Association": (ah.Association, {"a": "a", "b": "b", "two_way": True}),
     "Particulars": (
-        ah.Particulars, {"name": "a", "length": 9.0, "breadth": 2.0, "depth": 2.0, "draught": 1.0},
+        ah.Particulars,
+        {
+            "name": "a", "length": 9.0, "breadth": 2.0, "depth": 2.0, "draught": 1.0,
+            "deck": "closed",
+        },
     ),
     "Ends": (ah.Ends, {"kind": (0, 0), "vector": ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))}),
     "BoundaryKind": (ah.BoundaryKind, {"value": 0}),

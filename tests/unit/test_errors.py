@@ -22,6 +22,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         TypeError,
         ["name is None", "in rename", "give text"],
     ),
+    (
+        errors.OutOfRangeError("draught", 19.5, "at heel 10 deg", "drowns the deck", 0.5, 9.0, "m"),
+        ValueError,
+        ["draught of 19.5 m", "at heel 10 deg", "drowns the deck", "from 0.5 to 9 m"],
+    ),
     (errors.TooFewPointsError("curve 'WL 1'", 1), ValueError, ["curve 'WL 1'", "1", "two"]),
     (
         errors.CoincidentPointsError("curve 'ST 7'", (1.5, 2.25, 3.125), 2e-8, 1e-6),

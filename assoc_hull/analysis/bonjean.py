@@ -1,0 +1,83 @@
+"""Areas of stations: at one floating position, and over the draught (Bonjean curves)."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.floating import FloatingPosition, require_afloat
+from assoc_hull.analysis.floating_body import StationAreas
+from assoc_hull.analysis.measured_hull import HasState, body_of
+from assoc_hull.arguments import integer
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.immersed import Planes
+
+__all__ = ["Bonjean", "bonjean", "sectional_areas"]
+
+_WHERE = "in Bonjean curves"
+
+
+@attrs.frozen(eq=False)
+class Bonjean:
+    """Areas of the stations up to level planes.
+
+    Attributes
+    ----------
+    z : (k,), m
+        Heights of the planes above base.
+    stations : StationAreas
+        Below each of them.
+    """
+
+    z: FloatArray
+    stations: StationAreas
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.z)
+
+
+def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
+    """Give the areas of the stations at a floating position, (1, n).
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    position : FloatingPosition
+        Where it floats, moulded.
+
+    Raises
+    ------
+    OutOfRangeError
+        It does not float there.
+    """
+    body = body_of(hull)
+    planes = require_afloat([position], body.limits, hull.state.particulars.length)
+    return body.stations(planes)
+
+
+def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
+    """Give the Bonjean curves of a hull, from the keel to the deck edge.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    levels : int
+        At so many heights: from the lowest place of the hull to the lowest of an open deck edge,
+        or the highest of a closed one.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.bonjean import bonjean
+    >>> from assoc_hull.sources import examples
+    >>> curves = bonjean(examples.wigley(), 5)
+    >>> curves.stations.area.shape == (5, len(curves.stations.x))
+    True
+    """
+    count = integer(levels, "levels", _WHERE, least=2, most=1000)
+    body = body_of(hull)
+    level = Planes(np.zeros(1), np.zeros(1), np.zeros(1))
+    low, high = body.limits.mean_draughts(level, hull.state.particulars.length)
+    z = np.linspace(float(low[0]), float(high[0]), count)
+    return Bonjean(z, body.stations(Planes(z.copy(), np.zeros(count), np.zeros(count))))

@@ -1,0 +1,228 @@
+"""What makes the numbers of a hull doubtful: lines named, with place and amount.
+
+Looked at are the sections as drawn (open, crossing themselves, bent to and fro), the crossings
+of the net (two lines that pass one another), and what the estimate compares (a section that
+its neighbours do not expect, two routes that disagree).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.estimate import Coarse
+from assoc_hull.analysis.net.cells import Layout
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.analysis.net.sections import Sections
+from assoc_hull.analysis.net.slabs import planes as stands
+from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed_sections import sections_below
+
+__all__ = ["doubtful_lines", "doubtful_numbers"]
+
+_OPEN = 1e-3
+"""A section that ends farther from the centre plane, in half breadths of the ship, is open."""
+
+_GAP = 4e-3
+"""Lines that pass one another by more, in half breadths, do not cross."""
+
+_TURN, _BACK = np.radians(60.0), np.radians(15.0)
+"""A smooth section that turns by so much at a point, and back by so much on either side."""
+
+_EXPECTED = 0.03
+"""Areas of sections differ from what the others expect by less than this, of the largest."""
+
+_AGREED = 1e-3
+"""Two routes to the volume agree to this."""
+
+_PLACES = 6
+"""Places on each segment between which sections are taken as straight, to find crossings."""
+
+
+def doubtful_lines(
+    net: Net, layout: Layout, sections: Sections, kinds: NDArray[np.int8], planes: Planes
+) -> list[str]:
+    """Say which lines cannot bound a hull.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    layout : Layout
+        How the surface through them is put together.
+    sections : Sections
+        The sections as drawn.
+    kinds : (n,) int8
+        The `PointKind` of each defining point of the net.
+    planes : Planes
+        Floating planes: what is above all of them does not matter.
+    """
+    half = float(np.abs(net.batch.xyz[:, 1]).max())
+    return [
+        *_lost(layout),
+        *_open(net, sections, planes, _OPEN * half),
+        *_crossing(net, sections),
+        *_kinked(net, sections, kinds),
+        *_apart(net, _GAP * half),
+    ]
+
+
+def doubtful_numbers(
+    sections: Sections,
+    coarse: Sequence[Coarse],
+    routes: tuple[FloatArray, FloatArray],
+    planes: Planes,
+) -> list[str]:
+    """Say where comparisons disagree by more than lines do on a ship.
+
+    Parameters
+    ----------
+    sections : Sections
+        The sections as drawn.
+    coarse : sequence of Coarse
+        The hull without some of them.
+    routes : ((d,), (d,)), m3
+        The volume below each plane, by sections and by waterplanes.
+    planes : Planes
+        d planes.
+    """
+    return [*_unexpected(sections, coarse, planes), *_routes(*routes)]
+
+
+def _lost(layout: Layout) -> Iterator[str]:
+    for each in layout.lost:
+        yield f"{', '.join(each.names)}: between two sections {each.why}"
+
+
+def _open(net: Net, sections: Sections, planes: Planes, most: float) -> Iterator[str]:
+    """Find sections whose lower end is wet and off the centre plane."""
+    point = sections.curves.point[sections.curves.start[:-1], 0]
+    x, y, z = point.T
+    level = planes.height[:, None] + planes.tan_trim[:, None] * x
+    level = level + np.abs(planes.tan_heel)[:, None] * np.abs(y)
+    wet = (z < level).any(axis=0)
+    for i in np.flatnonzero(wet & (np.abs(y) > most)).tolist():
+        name = net.name[int(sections.curve[i])]
+        yield f"{name} is open: it ends {y[i]:.3f} m off the centre plane, at z {z[i]:.3f} m"
+
+
+def _crossing(net: Net, sections: Sections) -> Iterator[str]:
+    """Find sections that cross themselves."""
+    u = np.linspace(0.0, 1.0, _PLACES + 1)[:-1]
+    power = u[:, None] ** np.arange(4)
+    for i, curve in enumerate(sections.curve.tolist()):
+        a, b = sections.curves.start[i : i + 2]
+        tiles = sections.curves.point[a:b][~sections.curves.deck[a:b]]
+        place = np.einsum("qc,scx->sqx", power, tiles[:, :, 1:]).reshape(-1, 2)
+        place = np.concatenate([place, tiles[-1:, :, 1:].sum(axis=1)])
+        meets = _self_crossing(place)
+        if meets is not None:
+            y, z = meets.tolist()
+            yield f"{net.name[curve]} crosses itself at y {y:.3f} m, z {z:.3f} m"
+
+
+def _self_crossing(place: FloatArray) -> FloatArray | None:
+    """Give where a polyline (n, 2) first crosses itself, None if nowhere."""
+    first, step = place[:-1], np.diff(place, axis=0)
+    one, other = np.triu_indices(len(step), 2)
+    low, high = np.minimum(place[:-1], place[1:]), np.maximum(place[:-1], place[1:])
+    near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
+    one, other = one[near], other[near]
+    between = first[other] - first[one]
+    turn = _cross(step[one], step[other])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = _cross(between, step[other]) / turn, _cross(between, step[one]) / turn
+    # Ends that touch (a closed piece on the centre plane) are no crossing.
+    inside = (s > 1e-9) & (s < 1.0 - 1e-9) & (t > 1e-9) & (t < 1.0 - 1e-9)
+    if not inside.any():
+        return None
+    k = int(np.argmax(inside))
+    found: FloatArray = first[one[k]] + s[k] * step[one[k]]
+    return found
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    found: FloatArray = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return found
+
+
+def _kinked(net: Net, sections: Sections, kinds: NDArray[np.int8]) -> Iterator[str]:
+    """Find sections that turn sharply at a smooth point, and back before and behind it."""
+    for curve in sections.curve.tolist():
+        a, b = net.batch.start[curve : curve + 2]
+        chord = np.diff(net.batch.xyz[a:b, 1:], axis=0)
+        if len(chord) < 4:
+            continue
+        turn = np.arctan2(_cross(chord[:-1], chord[1:]), (chord[:-1] * chord[1:]).sum(axis=1))
+        middle = turn[1:-1]
+        back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
+        smooth = kinds[a + 2 : b - 2] == PointKind.SMOOTH
+        sharp = np.flatnonzero((np.abs(middle) > _TURN) & (back > _BACK) & smooth)
+        if len(sharp):
+            y, z = net.batch.xyz[a + 2 + sharp[0], 1:].tolist()
+            angle = float(np.degrees(abs(middle[sharp[0]])))
+            yield (
+                f"{net.name[curve]} has a kink of {angle:.0f} deg at y {y:.3f} m, z {z:.3f} m, "
+                "where no knuckle is drawn"
+            )
+
+
+def _apart(net: Net, most: float) -> Iterator[str]:
+    """Find crossings at which one line passes the other."""
+    if not len(net.meets):
+        return
+    one, other = (evaluate(net.batch, net.meets[:, i], net.place[:, i]) for i in (0, 1))
+    gap = np.sqrt(((one - other) ** 2).sum(axis=1))
+    for k in np.flatnonzero(gap > most).tolist():
+        a, b = (net.name[i] for i in net.meets[k].tolist())
+        x, y, z = one[k].tolist()
+        yield f"{a} and {b} pass by {gap[k]:.3f} m at x {x:.2f}, y {y:.2f}, z {z:.2f} m"
+
+
+def _unexpected(sections: Sections, coarse: Sequence[Coarse], planes: Planes) -> Iterator[str]:
+    """Find sections whose area is not what their neighbours make one expect."""
+    own = sections.per_station(sections_below(sections.curves, planes))
+    most = own.max(axis=1)
+    for each in coarse:
+        x = stands(each.net)
+        for i, place in enumerate(sections.x.tolist()):
+            if np.abs(x - place).min() > 1e-6:
+                area = _expected(each, x, place, planes)
+                if area is None:
+                    continue
+                off = np.abs(area - own[:, i]) / most
+                if (off > _EXPECTED).any():
+                    k = int(off.argmax())
+                    yield (
+                        f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
+                        f"make one expect {area[k]:.2f} m2"
+                    )
+
+
+def _expected(coarse: Coarse, x: FloatArray, place: float, planes: Planes) -> FloatArray | None:
+    """Give the area of a section that was left out, (d,), m2; None near the ends."""
+    slab = int(np.searchsorted(x, place))
+    strip = np.array([i for i, f in enumerate(coarse.layout.frames) if f.slab == slab])
+    if not len(strip) or slab == 0 or slab == len(x):
+        return None
+    if not coarse.layout.cells.plane[strip].all():
+        return None
+    v = (place - x[slab - 1]) / (x[slab] - x[slab - 1])
+    curves = coarse.prepared.strips.curves(strip, np.full(len(strip), v))
+    found: FloatArray = sections_below(curves, planes).sum(axis=1)
+    return found
+
+
+def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:
+    """Compare the volume by sections with that by waterplanes."""
+    off = np.abs(waterplanes - sections) / np.maximum(sections, 1e-300)
+    if (off > _AGREED).any():
+        k = int(off.argmax())
+        yield (
+            f"the volume is {sections[k]:.2f} m3 by sections and {waterplanes[k]:.2f} m3 by "
+            "waterplanes"
+        )

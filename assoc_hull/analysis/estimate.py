@@ -1,0 +1,219 @@
+"""How far hydrostatics may be off: other rules, another route, fewer lines.
+
+Four comparisons, of which each gives a change of every integral:
+
+1. the Gauss order along the strips doubled: the error of the rule;
+2. waterplanes integrated vertically: volume and moments by another route, which agrees only
+   if the surface is closed and consistent;
+3. every other section left out, the even ones and then the odd ones: how much lies between
+   the sections;
+4. every other waterline, buttock and diagonal left out: how much lies between these.
+
+For lines twice as far apart an error of third order is eight times as large, so that the
+difference is seven times the error of the net itself; half of the difference is stated. Where
+lines are so wide apart that no order shows, the difference itself is large.
+
+Source: L.F. Richardson, J.A. Gaunt, "The deferred approach to the limit", Phil. Trans. A
+226 (1927).
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.floating_body import Change
+from assoc_hull.analysis.net.cells import Layout, lay_out
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.analysis.net.sections import Sections, sections_of
+from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
+from assoc_hull.geometry.coons import CoonsStrips
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.geometry.quadrature import gauss
+from assoc_hull.model.state import HullState
+
+__all__ = ["Coarse", "Spread", "by_waterplanes", "spread_of"]
+
+_PART = 0.5
+"""Of the difference to the net with half the lines this is stated."""
+
+_LEVELS = 48
+"""Waterplanes of the vertical route."""
+
+
+@attrs.frozen(eq=False)
+class Coarse:
+    """A hull with fewer lines.
+
+    Attributes
+    ----------
+    net : Net
+        The lines.
+    layout : Layout
+        How the surface through them is put together.
+    prepared : Prepared
+        The surface.
+    """
+
+    net: Net
+    layout: Layout
+    prepared: Prepared
+
+
+@attrs.frozen(eq=False)
+class Spread:
+    """What the numbers of a hull are compared with.
+
+    Attributes
+    ----------
+    fine : Prepared
+        The same surface with the order along the strips doubled.
+    sections : tuple of Coarse
+        Without the even and without the odd sections.
+    lines : Coarse
+        Without every other line along the ship.
+    closed : bool
+        The deck is closed.
+    """
+
+    fine: Prepared
+    sections: tuple[Coarse, ...]
+    lines: Coarse
+    closed: bool
+
+    def changes(
+        self, known: Immersed, route: Immersed, own: Sections, planes: Planes
+    ) -> list[Change]:
+        """Give the change of each comparison; see the module.
+
+        Parameters
+        ----------
+        known : Immersed
+            What is published.
+        route : Immersed
+            What `by_waterplanes` gives.
+        own : Sections
+            The sections.
+        planes : Planes
+            d planes.
+        """
+        share = _PART / max(len(self.sections), 1)
+        found = [
+            Change(_times(_less(immersed(self.fine, planes), known), 1.0)),
+            Change(_less(route, known)),
+        ]
+        found += [
+            Change(_times(_less(immersed(each.prepared, planes), known), share))
+            for each in self.sections
+        ]
+        areas = own.per_station(sections_below(own.curves, planes))
+        coarse = sections_of(self.lines.net, self.closed)
+        fewer = coarse.per_station(sections_below(coarse.curves, planes))
+        found.append(
+            Change(
+                _times(_less(immersed(self.lines.prepared, planes), known), _PART),
+                _PART * (fewer - areas),
+                np.zeros(len(planes.height)),
+            )
+        )
+        return found
+
+
+def spread_of(state: HullState, net: Net, strips: CoonsStrips, closed: bool) -> Spread:
+    """Make what a hull is compared with.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    net : Net
+        The lines.
+    strips : CoonsStrips
+        The surface through them.
+    closed : bool
+        The deck is closed.
+    """
+
+    def coarse(without: NDArray[np.bool_]) -> Coarse:
+        fewer = thinned(state, net, without)
+        layout = lay_out(fewer, state.particulars.length, closed)
+        return Coarse(fewer, layout, prepare(CoonsStrips.on(layout.cells, fewer.batch)))
+
+    return Spread(
+        prepare(strips, factor=2),
+        tuple(coarse(every_other_section(net, first)) for first in (0, 1)),
+        coarse(every_other_line(net)),
+        closed,
+    )
+
+
+def by_waterplanes(
+    prepared: Prepared, planes: Planes, known: Immersed, places: FloatArray
+) -> Immersed:
+    """Integrate waterplanes from the lowest place up: volume and moments by another route.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        The surface.
+    planes : Planes
+        d planes.
+    known : Immersed
+        What is below them; all but volume and moments is taken from it.
+    places : (n, 3), m
+        Among which the lowest is.
+
+    Returns
+    -------
+    Immersed
+        With volume and moments as integrals of the area of the waterplane and its moments.
+    """
+    lowest = _lowest(places, planes)
+    node, weight = gauss(_LEVELS)
+    # sin^2 makes half-integer powers of the height over a round bottom smooth.
+    part = np.sin(0.5 * np.pi * node) ** 2
+    slope = 0.5 * np.pi * np.sin(np.pi * node) * weight
+    reach = planes.height - lowest
+    height = lowest[:, None] + reach[:, None] * part
+    trim, heel = (np.repeat(each, _LEVELS) for each in (planes.tan_trim, planes.tan_heel))
+    cut = immersed(prepared, Planes(height.ravel(), trim, heel))
+    z = cut.area * height.ravel() + trim * cut.area_x - heel * cut.area_y
+    rule = reach[:, None] * slope
+
+    def sum_up(values: FloatArray) -> FloatArray:
+        total: FloatArray = (values.reshape(rule.shape) * rule).sum(axis=1)
+        return total
+
+    return attrs.evolve(
+        known,
+        volume=sum_up(cut.area),
+        moment_x=sum_up(cut.area_x),
+        moment_y=sum_up(cut.area_y),
+        moment_z=sum_up(z),
+    )
+
+
+def _lowest(places: FloatArray, planes: Planes) -> FloatArray:
+    """Give the least height at x = y = 0 of a plane that touches the hull, (d,), m."""
+    x, y, z = places.T
+    heel = np.abs(planes.tan_heel)[:, None] * np.abs(y)
+    found: FloatArray = (z - planes.tan_trim[:, None] * x - heel).min(axis=1)
+    return np.minimum(found, planes.height)
+
+
+def _less(one: Immersed, other: Immersed) -> Immersed:
+    pairs = {
+        field.name: getattr(one, field.name) - getattr(other, field.name)
+        for field in attrs.fields(Immersed)
+    }
+    return Immersed(**pairs)
+
+
+def _times(one: Immersed, factor: float) -> Immersed:
+    return Immersed(
+        **{field.name: factor * getattr(one, field.name) for field in attrs.fields(Immersed)}
+    )

@@ -1,0 +1,196 @@
+"""A hull as what floats: its surface below planes, its stations, its doubts.
+
+The surface goes through the lines of the net (`assoc_hull.analysis.net`); it is put together
+anew only when a line has changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.doubt import doubtful_lines, doubtful_numbers
+from assoc_hull.analysis.estimate import Spread, by_waterplanes, spread_of
+from assoc_hull.analysis.floating import Limits
+from assoc_hull.analysis.floating_body import Change, StationAreas
+from assoc_hull.analysis.net.cells import Layout, lay_out
+from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.sections import Sections, flat_ends, sections_of
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.coons import CoonsStrips
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.evaluation import sample
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.model.index import Objects
+from assoc_hull.model.recipe import curve_data
+from assoc_hull.model.state import HullState
+
+__all__ = ["Flotation", "flotation"]
+
+_SAMPLES = 8
+"""Places on each segment among which the lowest of the hull is looked for."""
+
+
+@attrs.frozen(eq=False)
+class Flotation:
+    """The surface of a net, ready to be cut by planes; implements `FloatingBody`.
+
+    Attributes
+    ----------
+    state : HullState
+        The tables it was taken from.
+    net : Net
+        The lines.
+    layout : Layout
+        How the surface is put together.
+    strips : CoonsStrips
+        The surface.
+    """
+
+    state: HullState
+    net: Net
+    layout: Layout
+    strips: CoonsStrips
+    _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
+
+    @cached_property
+    def prepared(self) -> Prepared:
+        """The surface with its integrals."""
+        return prepare(self.strips)
+
+    @cached_property
+    def sections(self) -> Sections:
+        """The sections as drawn."""
+        return sections_of(self.net, self.closed)
+
+    @cached_property
+    def spread(self) -> Spread:
+        """What tells how far numbers may be off."""
+        return spread_of(self.state, self.net, self.strips, self.closed)
+
+    @property
+    def closed(self) -> bool:
+        """The deck is closed."""
+        return self.state.particulars.deck == "closed"
+
+    @cached_property
+    def limits(self) -> Limits:
+        """What a waterplane must lie between, and the deck edge."""
+        places = sample(self.net.batch, _SAMPLES)[1]
+        deck = self.layout.deck_edge(self.net)
+        return Limits(places, deck, self.closed)
+
+    def measure(self, planes: Planes) -> Immersed:
+        """Give the integrals below each plane."""
+        return immersed(self.prepared, planes)
+
+    def stations(self, planes: Planes) -> StationAreas:
+        """Give the areas of the stations below each plane."""
+        found = self.sections
+        area = found.per_station(sections_below(found.curves, planes))
+        return StationAreas(found.x.copy(), area, found.names)
+
+    def transom(self, planes: Planes) -> FloatArray:
+        """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        ends = flat_ends(self.net, self.closed)
+        if ends is None:
+            return np.zeros(len(planes.height))
+        area: FloatArray = sections_below(ends, planes).sum(axis=1)
+        return area
+
+    def changes(self, planes: Planes) -> Sequence[Change]:
+        """Give by how much the integrals may be off; the amounts of several items add up."""
+        return self.spread.changes(
+            self.measure(planes), self._by_waterplanes(planes), self.sections, planes
+        )
+
+    def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
+        """Say what is wrong with the hull, line by line; nothing if it can be trusted.
+
+        Parameters
+        ----------
+        planes : Planes
+            Where it floats.
+        numbers : bool
+            Also compare the numbers with those of other routes, which the estimate needs anyway.
+        """
+        kinds = curve_data(self.state, self.net.curve).kind
+        found = doubtful_lines(self.net, self.layout, self.sections, kinds, planes)
+        if numbers and not found:
+            routes = self.measure(planes).volume, self._by_waterplanes(planes).volume
+            found += doubtful_numbers(self.sections, self.spread.sections, routes, planes)
+        return tuple(found)
+
+    def _by_waterplanes(self, planes: Planes) -> Immersed:
+        """Give volume and moments by the vertical route; the last answer is kept."""
+        key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
+        if key not in self._route:
+            known = self.measure(planes)
+            self._route.clear()
+            self._route[key] = by_waterplanes(self.prepared, planes, known, self.net.batch.xyz)
+        return self._route[key]
+
+
+_KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()
+
+
+def flotation(state: HullState) -> Flotation:
+    """Make what floats of a hull; the same as before if no line has changed.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+
+    Raises
+    ------
+    BadInputError
+        Fewer than two sections, or lines between which no surface was found.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.analysis.flotation import flotation
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.geometry.immersed import Planes
+    >>> planes = Planes(np.array([6.25]), np.zeros(1), np.zeros(1))
+    >>> round(float(flotation(wigley()).measure(planes).volume[0]))  # 4/9 L B T
+    2777
+    """
+    stamp = _stamp(state)
+    known = _KNOWN.get(state)
+    if known is not None and known[0] == stamp:
+        return known[1]
+    net = gather(state)
+    stations = np.unique(net.x[np.isfinite(net.x) & ~net.end])
+    if len(stations) < 2:
+        raise BadInputError(
+            f"{len(stations)} section(s)", "in hydrostatics", "give two sections or more"
+        )
+    ship = state.particulars
+    layout = lay_out(net, ship.length, ship.deck == "closed")
+    if not layout.frames:
+        raise BadInputError(
+            "no surface between the sections", "in hydrostatics", "draw profile and deck edge"
+        )
+    found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch))
+    _KNOWN[state] = stamp, found
+    return found
+
+
+def _stamp(state: HullState) -> Hashable:
+    """Give the splines themselves, and how often what else the surface depends on was written."""
+    made = [state.spline(curve) for curve in state.live("curves").tolist()]
+    return (
+        Objects([*made, state.particulars]),
+        state.rows.role.writes,
+        state.rows.alive.writes,
+        state.lines.boundary.writes,
+        state.lines.offset.writes,
+    )

@@ -1,0 +1,54 @@
+"""A hull as hydrostatics measures it, and the head of what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
+from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.state import HullState
+
+__all__ = ["HasState", "body_of", "header_of"]
+
+
+class HasState(Protocol):
+    """A hull."""
+
+    @property
+    def state(self) -> HullState:
+        """Its tables."""
+        ...
+
+
+def body_of(hull: HasState) -> FloatingBody:
+    """Make what can be measured of a hull."""
+    # The one place where hydrostatics meets the integrals of a net.
+    from assoc_hull.analysis.flotation import flotation
+
+    body: FloatingBody = flotation(hull.state)
+    return body
+
+
+def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -> HydrostaticHeader:
+    """Head the numbers: dimensions of the hull, and what the caller chose.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    body : FloatingBody
+        What is measured of it.
+    terms : mapping
+        Fields of the header that the caller chose.
+    """
+    ship = hull.state.particulars
+    chosen: dict[str, object] = {
+        "kg": None, "keel_thickness": 0.0, "transom": False, "date": None, **terms
+    }  # fmt: skip
+    return HydrostaticHeader(
+        ship=ship.name, length=ship.length, breadth=ship.breadth, draught=ship.draught,
+        deck="closed" if body.limits.closed else "open", fingerprint=fingerprint(hull.state),
+        **chosen,  # type: ignore[arg-type]
+    )  # fmt: skip

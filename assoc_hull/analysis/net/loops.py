@@ -1,0 +1,373 @@
+"""What bounds the hull between two planes: closed runs of sections and boundary curves.
+
+A run is taken apart into two *rails* across the ship and two *sides* along it. A rail may
+consist of several parts: where a section has come apart (a bulb below a stem), the stem
+between its pieces belongs to the rail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.net.gather import Net, Part
+from assoc_hull.analysis.net.slabs import ON_PLANE, Arc
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.evaluation import evaluate
+
+__all__ = ["Frame", "Unbounded", "frames"]
+
+_NEAR = 1e-4
+"""Ends of curves so near to one another, in lengths of the ship, meet."""
+
+_KEEL = 2.0
+"""A boundary curve that runs so many times more forward than up is keel, not stem."""
+
+
+@attrs.frozen
+class Frame:
+    """The boundary of one strip; parts run from keel to deck, and from aft forward.
+
+    Attributes
+    ----------
+    aft, fore : tuple of Part
+        The rails.
+    keel, deck : tuple of Part
+        The sides; none where the rails meet in a point, or nothing is drawn between them.
+    slab : int
+        The slab.
+    plane : bool
+        Both rails lie wholly in planes across the ship.
+    """
+
+    aft: tuple[Part, ...]
+    fore: tuple[Part, ...]
+    keel: tuple[Part, ...]
+    deck: tuple[Part, ...]
+    slab: int
+    plane: bool
+
+
+@attrs.frozen
+class Unbounded:
+    """Curves between two planes that bound nothing that could be understood.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The lines.
+    slab : int
+        The slab.
+    why : str
+        What is wrong with them.
+    """
+
+    names: tuple[str, ...]
+    slab: int
+    why: str
+
+
+@attrs.frozen(eq=False)
+class _Edge:
+    """An arc with its ends as numbers of nodes.
+
+    `kind` is A (on the plane aft), F (on the plane forward) or E (between them); `closing` arcs
+    are those that may close an end of the ship: the profile, a transom; not a deck edge.
+    """
+
+    part: Part
+    kind: str
+    begin: int
+    finish: int
+    closing: bool
+    first: FloatArray
+    last: FloatArray
+
+    def turned(self) -> _Edge:
+        curve, t0, t1 = self.part
+        return _Edge(
+            (curve, t1, t0), self.kind, self.finish, self.begin, self.closing, self.last, self.first
+        )
+
+
+def frames(
+    net: Net, arcs: Sequence[Arc], count: int, length: float
+) -> tuple[list[Frame], list[Unbounded]]:
+    """Find the strips in all slabs.
+
+    Parameters
+    ----------
+    net : Net
+        The curves.
+    arcs : sequence of Arc
+        Of all planes and slabs.
+    count : int
+        Number of planes.
+    length : float, m
+        Of the ship.
+    """
+    begin = _places(net, [(arc.part[0], arc.part[1]) for arc in arcs])
+    finish = _places(net, [(arc.part[0], arc.part[2]) for arc in arcs])
+    found: list[Frame] = []
+    lost: list[Unbounded] = []
+    for slab in range(count + 1):
+        kinds = {slab - 1: "A", slab: "F"}
+        chosen = [
+            (i, "E" if arc.plane < 0 else kinds[arc.plane])
+            for i, arc in enumerate(arcs)
+            if arc.slab == slab or (arc.plane >= 0 and arc.plane in kinds)
+        ]
+        if not any(kind != "E" for _, kind in chosen):
+            continue
+        edges = _joined(net, arcs, chosen, begin, finish, _NEAR * length)
+        for loop in _loops(_pruned(edges)):
+            frame = _frame(net, loop, slab)
+            if isinstance(frame, Frame):
+                found.append(frame)
+            elif frame is not None:
+                lost.append(frame)
+    return found, lost
+
+
+def _places(net: Net, where: Sequence[tuple[int, float]]) -> FloatArray:
+    curve = np.array([each[0] for each in where], np.int64)
+    return evaluate(net.batch, curve, np.array([each[1] for each in where]))
+
+
+def _joined(
+    net: Net,
+    arcs: Sequence[Arc],
+    chosen: Sequence[tuple[int, str]],
+    begin: FloatArray,
+    finish: FloatArray,
+    near: float,
+) -> list[_Edge]:
+    """Give the ends of the arcs numbers, the same to ends that lie near one another."""
+    node: list[FloatArray] = []
+
+    def number(place: FloatArray) -> int:
+        if node:
+            away = np.abs(np.array(node) - place).max(axis=1)
+            if float(away.min()) <= near:
+                return int(away.argmin())
+        node.append(place)
+        return len(node) - 1
+
+    edges = []
+    for i, kind in chosen:
+        edge = _Edge(
+            arcs[i].part, kind, number(begin[i]), number(finish[i]),
+            _closes(net, arcs[i].part[0]), begin[i], finish[i],
+        )  # fmt: skip
+        if edge.begin != edge.finish or not net.end[arcs[i].part[0]]:
+            edges.append(edge)
+    return edges
+
+
+def _closes(net: Net, curve: int) -> bool:
+    return bool(net.end[curve] and (net.centre[curve] or np.isfinite(net.x[curve])))
+
+
+def _pruned(edges: list[_Edge]) -> list[_Edge]:
+    """Leave out boundary curves that end nowhere, and join loose ends of sections straight."""
+    while True:
+        degree = _degrees(edges)
+        kept = [
+            edge
+            for edge in edges
+            if min(degree[edge.begin], degree[edge.finish]) > 1 or _is_section(edge)
+        ]
+        if len(kept) == len(edges):
+            return edges + _closing(edges, degree)
+        edges = kept
+
+
+def _is_section(edge: _Edge) -> bool:
+    return edge.kind != "E" and not edge.closing
+
+
+def _degrees(edges: Sequence[_Edge]) -> dict[int, int]:
+    degree: dict[int, int] = {}
+    for edge in edges:
+        for node in (edge.begin, edge.finish):
+            degree[node] = degree.get(node, 0) + 1
+    return degree
+
+
+def _closing(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
+    """Join loose ends on the two planes pair by pair, the nearest first."""
+    loose: dict[str, list[tuple[int, FloatArray, bool]]] = {"A": [], "F": []}
+    for edge in edges:
+        if edge.kind == "E":
+            continue
+        for node, place, other in (
+            (edge.begin, edge.first, edge.last),
+            (edge.finish, edge.last, edge.first),
+        ):
+            if degree[node] == 1:
+                loose[edge.kind].append((node, place, bool(place[2] >= other[2])))
+    pairs = sorted(
+        (float(np.abs(a[1] - f[1]).max()), i, j)
+        for i, a in enumerate(loose["A"])
+        for j, f in enumerate(loose["F"])
+        if a[2] == f[2]
+    )
+    added, used = [], set()
+    for _, i, j in pairs:
+        if ("A", i) in used or ("F", j) in used:
+            continue
+        used |= {("A", i), ("F", j)}
+        a, f = loose["A"][i], loose["F"][j]
+        added.append(_Edge((-1, 0.0, 0.0), "E", a[0], f[0], False, a[1], f[1]))
+    return added
+
+
+def _loops(edges: Sequence[_Edge]) -> list[list[_Edge]]:
+    """Follow the edges round; runs that do not close are given as they are."""
+    left = list(range(len(edges)))
+    found = []
+    while left:
+        run = [edges[left.pop(0)]]
+        while run[-1].finish != run[0].begin:
+            at = run[-1].finish
+            step = [i for i in left if at in (edges[i].begin, edges[i].finish)]
+            if len(step) != 1:
+                break
+            left.remove(step[0])
+            edge = edges[step[0]]
+            run.append(edge if edge.begin == at else edge.turned())
+        found.append(run)
+    return found
+
+
+def _frame(net: Net, loop: list[_Edge], slab: int) -> Frame | Unbounded | None:
+    """Take a closed run apart into rails and sides."""
+    names = tuple(dict.fromkeys(net.name[edge.part[0]] for edge in loop if edge.part[0] >= 0))
+    if loop[-1].finish != loop[0].begin:
+        if all(edge.kind != "F" for edge in loop) or all(edge.kind != "A" for edge in loop):
+            return None  # the last section of an open end: a face, or nothing behind it
+        return Unbounded(names, slab, "they do not close")
+    kinds = {edge.kind for edge in loop}
+    if kinds == {"E"}:
+        return None
+    if {"A", "F"} <= kinds:
+        parts = _between(loop)
+    else:
+        parts = _at_an_end(net, loop, "A" if "A" in kinds else "F")
+    if parts is None:
+        return Unbounded(names, slab, "sections and boundary curves alternate")
+    aft, deck, fore, keel = parts
+    if not aft or not fore:
+        return None
+    return _upward(net, aft, fore, keel, deck, slab)
+
+
+def _between(loop: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge], list[_Edge]] | None:
+    """Split a run with sections on both planes: aft rail, side, fore rail (turned), side."""
+    stands = [i for i, edge in enumerate(loop) if edge.kind != "E"]
+    turns = [
+        i
+        for i, j in zip(stands, stands[-1:] + stands[:-1], strict=True)
+        if loop[i].kind == "A" and loop[j].kind == "F"
+    ]
+    if len(turns) != 1:
+        return None
+    run = loop[turns[0] :] + loop[: turns[0]]
+    last_a = max(i for i, edge in enumerate(run) if edge.kind == "A")
+    first_f = min(i for i, edge in enumerate(run) if edge.kind == "F")
+    last_f = max(i for i, edge in enumerate(run) if edge.kind == "F")
+    aft, side = run[: last_a + 1], run[last_a + 1 : first_f]
+    fore, back = run[first_f : last_f + 1], run[last_f + 1 :]
+    return aft, side, _turned(fore), _turned(back)
+
+
+def _at_an_end(
+    net: Net, loop: list[_Edge], kind: str
+) -> tuple[list[_Edge], list[_Edge], list[_Edge], list[_Edge]] | None:
+    """Split a run with sections on one plane: stem or stern is the other rail."""
+    stands = [i for i, edge in enumerate(loop) if edge.kind == kind]
+    size = len(loop)
+    gaps = [((j - i - 1) % size, j) for i, j in zip(stands[-1:] + stands[:-1], stands, strict=True)]
+    begin = max(gaps)[1]
+    run = loop[begin:] + loop[:begin]
+    last = max(i for i, edge in enumerate(run) if edge.kind == kind)
+    rail, rest = run[: last + 1], run[last + 1 :]
+    side, middle, back = _stem(rest)
+    if kind == "A":
+        return rail, side, _turned(middle), _turned(back)
+    # The section is the fore rail: sides run from stern to section.
+    return _turned(middle), _turned(side), rail, back
+
+
+def _stem(rest: list[_Edge]) -> tuple[list[_Edge], list[_Edge], list[_Edge]]:
+    """Take the sides off the run that closes an end: deck edge and keel."""
+    upright = [i for i, edge in enumerate(rest) if edge.closing and _is_upright(edge)]
+    if upright:
+        return rest[: upright[0]], rest[upright[0] : upright[-1] + 1], rest[upright[-1] + 1 :]
+    first, last = 0, len(rest)
+    if any(edge.closing for edge in rest):
+        while first < last and not rest[first].closing:
+            first += 1
+        while last > first and not rest[last - 1].closing:
+            last -= 1
+    while last - first > 1 and _flat(rest[last - 1]):
+        last -= 1
+    while last - first > 1 and _flat(rest[first]):
+        first += 1
+    return rest[:first], rest[first:last], rest[last:]
+
+
+def _is_upright(edge: _Edge) -> bool:
+    return bool(np.abs(edge.last[0] - edge.first[0]) <= ON_PLANE)
+
+
+def _flat(edge: _Edge) -> bool:
+    step = np.abs(edge.last - edge.first)
+    return bool(step[0] > _KEEL * step[2])
+
+
+def _turned(run: list[_Edge]) -> list[_Edge]:
+    return [edge.turned() for edge in reversed(run)]
+
+
+def _upward(
+    net: Net,
+    aft: list[_Edge],
+    fore: list[_Edge],
+    keel: list[_Edge],
+    deck: list[_Edge],
+    slab: int,
+) -> Frame:
+    """Turn a strip so that its rails run from keel to deck: they enclose area to port."""
+    swept = sum(_swept(net, edge) for edge in aft + fore)
+    if swept < 0.0:
+        aft, fore, keel, deck = _turned(aft), _turned(fore), deck, keel
+    plane = all(_stands(net, edge) for edge in aft + fore)
+    return Frame(_parts(aft), _parts(fore), _parts(keel), _parts(deck), slab, plane)
+
+
+def _parts(run: list[_Edge]) -> tuple[Part, ...]:
+    return tuple(edge.part for edge in run if edge.part[0] >= 0)
+
+
+def _stands(net: Net, edge: _Edge) -> bool:
+    """Tell whether an edge lies in a plane across the ship."""
+    if edge.kind != "E":
+        return True
+    return bool(np.ptp(_along(net, edge.part)[:, 0]) <= ON_PLANE)
+
+
+def _along(net: Net, part: Part) -> FloatArray:
+    """Give places along a part of a curve, for what needs no precision."""
+    curve, t0, t1 = part
+    return evaluate(net.batch, np.full(33, curve), np.linspace(t0, t1, 33))
+
+
+def _swept(net: Net, edge: _Edge) -> float:
+    """Integrate y dz along an edge, m2, by chords: only the sign matters."""
+    if edge.part[0] < 0:
+        return 0.0
+    _, y, z = _along(net, edge.part).T
+    return float((0.5 * (y[1:] + y[:-1]) * np.diff(z)).sum())

@@ -1,0 +1,128 @@
+"""Tables of hydrostatics as CSV and XLSX, with the head that says what they hold good for.
+
+Above stands the head, a line each, behind ``#`` in a CSV; then a row of names, a row of units,
+and a row per floating position: draughts, the values, and ``error_`` columns where it was
+estimated how far they may be off. Names and units are those of the record.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import attrs
+
+from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
+from assoc_hull.analysis.record_fields import FIELDS
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.whole_file import write_whole
+from assoc_hull.io.workbook import openpyxl_module, workbook_bytes
+
+__all__ = ["TABLE_ENDINGS", "csv_text", "write_hydrostatic_table", "xlsx_bytes"]
+
+TABLE_ENDINGS = (".csv", ".xlsx")
+
+_UNITS = {"heel_deg": "deg"}
+_FIRST = 2  # columns that stay in sight: the draughts
+
+
+@attrs.frozen
+class _Column:
+    """A column: its name, unit, digits after the point, and numbers (d,)."""
+
+    name: str
+    unit: str
+    digits: int
+    values: FloatArray
+
+
+def write_hydrostatic_table(table: HydrostaticTable, path: str | os.PathLike[str]) -> None:
+    """Write a table; the ending tells the form, ``.csv`` or ``.xlsx``.
+
+    Raises
+    ------
+    BadInputError
+        Another ending, or a file that cannot be written.
+    MissingExtraError
+        A workbook was asked, and openpyxl is not installed.
+    """
+    ending = Path(path).suffix.lower()
+    if ending == ".csv":
+        write_whole(path, csv_text(table).encode())
+    elif ending == ".xlsx":
+        write_whole(path, xlsx_bytes(table))
+    else:
+        known = " or ".join(TABLE_ENDINGS)
+        raise BadInputError("the form is unknown", f"at {path}", f"end the name in {known}")
+
+
+def csv_text(table: HydrostaticTable) -> str:
+    """Lay out a table as comma-separated text; what a position does not have is blank.
+
+    Numbers have twelve digits, which is more than is known of any of them.
+    """
+    out = io.StringIO()
+    out.writelines(f"# {title}: {words}\n" for title, words in _head(table))
+    writer = csv.writer(out, lineterminator="\n")
+    columns = list(_columns(table))
+    writer.writerow([each.name for each in columns])
+    writer.writerow([each.unit for each in columns])
+    for row in zip(*(each.values.tolist() for each in columns), strict=True):
+        writer.writerow(["" if math.isnan(value) else f"{value:.12g}" for value in row])
+    return out.getvalue()
+
+
+def xlsx_bytes(table: HydrostaticTable) -> bytes:
+    """Lay out a table as a workbook; numbers are whole, and shown with the digits of a table.
+
+    Raises
+    ------
+    MissingExtraError
+        openpyxl is not installed.
+    """
+    book = openpyxl_module().Workbook()
+    sheet = book.active
+    sheet.title = "hydrostatics"
+    for title, words in _head(table):
+        sheet.append([f"# {title}", words])
+    columns = list(_columns(table))
+    top = sheet.max_row + 1
+    sheet.append([each.name for each in columns])
+    sheet.append([each.unit for each in columns])
+    for row in zip(*(each.values.tolist() for each in columns), strict=True):
+        sheet.append([None if math.isnan(value) else value for value in row])
+    for cells, column in zip(sheet.iter_cols(min_row=top + 2), columns, strict=True):
+        for cell in cells:
+            cell.number_format = "0." + "0" * column.digits if column.digits else "0"
+    sheet.freeze_panes = sheet.cell(top + 2, _FIRST + 1)
+    return workbook_bytes(book)
+
+
+def _head(table: HydrostaticTable) -> Iterator[tuple[str, str]]:
+    """Give the head, what the appendages add where most of them are wet, and the notes."""
+    for title, words in table.header.lines():
+        yield title, " ".join(words.split())
+    for share in table.shares:
+        most = share.percent[abs(share.percent).argmax()]
+        yield "share", f"{share.appendage.name}: up to {most:.4g} % of the volume"
+    for note in table.notes:
+        yield "note", note
+
+
+def _columns(table: HydrostaticTable) -> Iterator[_Column]:
+    """Give draughts, values, what each appendage adds, and errors."""
+    for name, values in table.draughts.items():
+        yield _Column(name, _UNITS.get(name, "m"), 4, values)
+    for name, values in table.columns.items():
+        yield _Column(name, FIELDS[name].unit, FIELDS[name].digits, values)
+    for share in table.shares:
+        name = share.appendage.name
+        yield _Column(f"volume of {name}", "m3", 3, share.volume)
+        yield _Column(f"area of {name}", "m2", 3, share.area)
+    for name, values in table.errors.items():
+        yield _Column(f"error_{name}", FIELDS[name].unit, FIELDS[name].digits + 3, values)

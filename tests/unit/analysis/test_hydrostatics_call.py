@@ -1,0 +1,132 @@
+"""The calls `hydrostatics`, `hydrostatic_table` and their kin: options and refusals."""
+
+import math
+import sys
+from types import SimpleNamespace
+from typing import Any
+
+import attrs
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.equilibrium import deck_edge_angle, freeboard
+from assoc_hull.analysis.floating import FloatingPosition
+from tests.floating_bodies import Box
+
+TROUBLE = ("ST 7 is open by 0.31 m at (45.000, 2.100, 8.200) m", "ST 8 crosses itself")
+
+
+@pytest.fixture(scope="module")
+def hull() -> ah.Hull:
+    """Dimensions 100 x 10 x 6.25 m; what is measured stands in for it."""
+    return ah.examples.wigley()
+
+
+@pytest.fixture
+def body(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
+    """What is measured: the first of this list, a box."""
+    bodies = [Box(breadth=10.0, depth=8.0, off=1e-6)]
+    double: Any = SimpleNamespace(flotation=lambda state: bodies[0])
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
+    return bodies
+
+
+@pytest.mark.usefixtures("body")
+def test_one_call_gives_the_record(hull: ah.Hull) -> None:
+    """At the design draught, at even keel, at draughts at the perpendiculars."""
+    assert ah.hydrostatics(hull).draught_mean == 6.25
+    assert ah.hydrostatics(hull, draught=5.0).volume == pytest.approx(5000.0)
+    found = ah.hydrostatics(hull, draughts=(5.5, 4.5), heel_deg=3.0, kg=2.0)
+    assert (found.draught_mean, found.trim_by_stern) == pytest.approx((5.0, 1.0))
+    assert found.tcb < 0.0
+    assert found.error["volume"] == pytest.approx(5e-3, rel=1e-9)
+    assert ah.hydrostatics(hull, estimate=False).error["volume"] is None
+
+
+@pytest.mark.usefixtures("body")
+def test_a_table_heads_its_numbers(hull: ah.Hull) -> None:
+    """With the ship, its fingerprint, and what the caller chose; no date unless given."""
+    fin = ah.Appendage("fin", 2.0, (50.0, 0.0, 1.0))
+    table = ah.hydrostatic_table(hull, [4.0, 5.0, 6.0], [-1.0, 0.0], rho=1.0, appendages=[fin])
+    head = table.header
+    assert (head.ship, head.fingerprint, head.date) == ("Wigley", hull.fingerprint, None)
+    assert head.water == "fresh water, 1 t/m3"
+    assert head.appendages == (fin,)
+    assert table.shape == (3, 2)
+    assert table[1, 0].trim_by_stern == pytest.approx(-1.0)
+    assert table[1, 1].volume == pytest.approx(5002.0)
+    assert ah.hydrostatic_table(hull, [4.0], date="2026-01-31").header.date == "2026-01-31"
+
+
+@pytest.mark.usefixtures("body")
+def test_draughts_to_the_keel_are_longer_by_its_thickness(hull: ah.Hull) -> None:
+    """In the record they are moulded, whatever was given."""
+    found = ah.hydrostatics(hull, draught=5.02, keel_thickness=0.02, draught_to="keel")
+    assert found.draught_mean == pytest.approx(5.0)
+    table = ah.hydrostatic_table(hull, [5.02], keel_thickness=0.02, draught_to="keel")
+    assert table[0].draught_mean == pytest.approx(5.0)
+    assert table.draughts["draught_aft_extreme"][0] == pytest.approx(5.02)
+    assert ah.hydrostatics(hull, keel_thickness=0.02, draught_to="keel").draught_mean == 6.25
+
+
+def test_a_doubtful_hull_is_refused_or_reported(hull: ah.Hull, body: list[Box]) -> None:
+    """The error names the section, and how to have the numbers all the same."""
+    body[0] = attrs.evolve(body[0], trouble=TROUBLE)
+    with pytest.raises(ah.BadInputError, match=r"ST 7 is open .* \(and 1 more\).*report"):
+        ah.hydrostatics(hull)
+    assert ah.hydrostatics(hull, on_error="report").volume == pytest.approx(6250.0)
+    assert ah.hydrostatic_table(hull, [5.0], on_error="report").notes == TROUBLE
+
+
+@pytest.mark.usefixtures("body")
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"draught": 5.0, "draughts": (5.0, 5.0)}, "both given"),
+        ({"draughts": (5.0,)}, "T_A, T_F"),
+        ({"draught": math.nan}, "draught is nan"),
+        ({"draught": 8.5}, "from 0 to 8 m"),
+        ({"heel_deg": math.nan}, "heel_deg is nan"),
+        ({"heel_deg": 91.0}, "heel of 91 deg"),
+        ({"rho": -1.0}, "rho is -1.0"),
+        ({"shell_factor": 0.0}, "shell_factor is 0.0"),
+        ({"kg": math.inf}, "kg is inf"),
+        ({"keel_thickness": -0.01}, "keel_thickness is -0.01"),
+        ({"transom": 1}, "transom is 1"),
+        ({"appendages": ["rudder"]}, "appendages"),
+        ({"on_error": "ignore"}, "on_error is 'ignore'"),
+        ({"draught_to": "top"}, "draught_to is 'top'"),
+        ({"estimate": None}, "estimate is None"),
+    ],
+    ids=str,
+)
+def test_an_odd_option_is_refused_by_name(
+    hull: ah.Hull, options: dict[str, Any], words: str
+) -> None:
+    """Never guessed."""
+    with pytest.raises(ah.AssocHullError, match=words):
+        ah.hydrostatics(hull, **options)
+
+
+@pytest.mark.usefixtures("body")
+def test_weights_find_their_draughts(hull: ah.Hull) -> None:
+    """And the position they give has that displacement."""
+    found = ah.immersion(hull, 5125.0, lcg=50.5, kg=3.0)
+    record = ah.hydrostatics(hull, draughts=(found.draught_aft, found.draught_fore))
+    assert record.displacement == pytest.approx(5125.0, rel=1e-12)
+    assert found.trim_by_stern < 0.0
+    with pytest.raises(ah.BadInputError, match="weight is nan"):
+        ah.immersion(hull, math.nan)
+    with pytest.raises(ah.OutOfRangeError, match="from 0 to 8200 t"):
+        ah.immersion(hull, 9000.0)
+
+
+@pytest.mark.usefixtures("body")
+def test_freeboard_and_deck_edge_of_a_hull(hull: ah.Hull) -> None:
+    """Of a box by its sides; positions in which it does not float are refused."""
+    place = FloatingPosition(6.0, 6.0, 5.0)
+    up = math.tan(math.radians(5.0))
+    assert freeboard(hull, place).least == pytest.approx((2 - 5 * up) / math.hypot(1, up))
+    assert deck_edge_angle(hull, place) == pytest.approx(math.degrees(math.atan(0.4)))
+    with pytest.raises(ah.OutOfRangeError):
+        freeboard(hull, FloatingPosition(9.0, 9.0))
