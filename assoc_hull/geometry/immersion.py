@@ -24,6 +24,7 @@ Examples
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -83,6 +84,8 @@ def _joined(parts: list[dict[str, FloatArray]], places: list[IntArray]) -> Immer
     """Put the planes back into their order."""
     if len(parts) == 1 and len(places[0]) == 1:
         return Immersed(**parts[0])
+    if not parts:
+        return Immersed(*np.zeros((len(attrs.fields(Immersed)), 0)))
     order = np.argsort(np.concatenate(places))
     return Immersed(
         **{name: np.concatenate([part[name] for part in parts])[order] for name in parts[0]}

@@ -12,13 +12,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersion_extents import Places, extent, slopes, waterline_rate, wider
 from assoc_hull.geometry.immersion_roots import Tilted, cuts
 from assoc_hull.geometry.immersion_tiles import CHUNK, Tiles, integrals, powers
-from assoc_hull.geometry.tile_sums import is_plain, real, sum_by
+from assoc_hull.geometry.tile_sums import real, sum_by
 
-__all__ = ["Cross", "Half", "add_solid", "cross", "wider"]
-
-_FLAT = 1e-12  # of a slope: less is rounding
+__all__ = ["Cross", "Half", "add_solid", "cross"]
 
 
 @attrs.frozen(eq=False)
@@ -46,13 +45,22 @@ class Cross:
     ----------
     half : Half
         What the parts of tiles below cuts add to it, and the waterlines.
-    plane, curve : (k,) int
+    plane, tile : (k,) int
         Of each cut.
+    u, y : (k,)
+        Where on the tile it is, and its half breadth, m.
     """
 
     half: Half
     plane: IntArray
-    curve: IntArray
+    tile: IntArray
+    u: FloatArray
+    y: FloatArray
+
+    @property
+    def places(self) -> Places:
+        """The cuts, for the breadth between curves."""
+        return Places(self.plane, self.tile, self.u, self.y, real(self.half.extent[3]))
 
 
 def cross(
@@ -91,10 +99,8 @@ def cross(
     for part in parts[1:]:
         columns = half.columns + part.half.columns
         half = Half(columns, wider(half.extent, part.half.extent))
-    where = [
-        np.concatenate(each) for each in zip(*((p.plane, p.curve) for p in parts), strict=True)
-    ]
-    return Cross(half, where[0], where[1])
+    names = ("plane", "tile", "u", "y")
+    return Cross(half, *(np.concatenate([getattr(part, n) for part in parts]) for n in names))
 
 
 def add_solid(half: Half, solid: FloatArray) -> Half:
@@ -102,13 +108,6 @@ def add_solid(half: Half, solid: FloatArray) -> Half:
     rows = len(solid)
     columns = np.concatenate([half.columns[:rows] + solid, half.columns[rows:]])
     return Half(columns, half.extent)
-
-
-def wider(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Join extents (4, d)."""
-    sign = np.array([[-1.0], [1.0], [-1.0], [1.0]])
-    joined: FloatArray = np.where(real(one) * sign >= real(other) * sign, one, other)
-    return joined
 
 
 def _cross(
@@ -122,7 +121,6 @@ def _cross(
     """Do what `cross` does with pairs that fit the processor's cache."""
     found = cuts(tilted, tile, np.take(level, plane))
     tile, plane = tile[found.pair], plane[found.pair]
-    curve = tiles.curve[tile]
     lean = tiles.lean[tile]
     coefficients = np.take(tiles.coefficients, tile, axis=2)
     part = coefficients * powers(found.u)
@@ -130,12 +128,12 @@ def _cross(
     point = part[:, 0] + part[:, 1] + part[:, 2] + part[:, 3]
     x, y, forward = point[0], point[1], point[3]
     if lean.any():
-        slope = _slopes(coefficients[:3], found.u)
-        forward = forward - slope[0] * _ratio(tilted, slope, point[3:])
+        slope = slopes(coefficients[:3], found.u)
+        forward = forward - slope[0] * waterline_rate(tilted, slope, point[3:])
     columns = np.concatenate([solid, _green(x, y, forward)])
-    columns = columns * (found.sign * np.take(weight, curve))
-    half = Half(sum_by(columns, plane, len(level)), _extent(x, y, plane, len(level)))
-    return Cross(half, plane, curve)
+    columns = columns * (found.sign * np.take(weight, tiles.curve[tile]))
+    half = Half(sum_by(columns, plane, len(level)), extent(x, y, plane, len(level)))
+    return Cross(half, plane, tile, found.u, y)
 
 
 def _green(x: FloatArray, y: FloatArray, forward: FloatArray) -> FloatArray:
@@ -144,41 +142,3 @@ def _green(x: FloatArray, y: FloatArray, forward: FloatArray) -> FloatArray:
     half = 0.5 * y * area
     along = x * area
     return np.stack([area, along, half, x * along, x * half, (2.0 / 3.0) * y * half])
-
-
-def _slopes(point: FloatArray, u: FloatArray) -> FloatArray:
-    """Give P_u of cubics (3, 4, k) at one place each, (3, k)."""
-    slope: FloatArray = point[:, 1] + u * (2.0 * point[:, 2] + u * (3.0 * point[:, 3]))
-    return slope
-
-
-def _ratio(tilted: Tilted, slope: FloatArray, across: FloatArray) -> FloatArray:
-    """Give q_v / q_u; nil where the plane touches the curve, as nothing passes there."""
-    steep = slope[2] - tilted.trim * slope[0] + tilted.heel * slope[1]
-    climb = across[2] - tilted.trim * across[0] + tilted.heel * across[1]
-    flat = np.abs(real(steep)) <= _FLAT * np.abs(real(slope)).sum(axis=0)
-    ratio: FloatArray = np.where(flat, 0.0, climb / np.where(flat, 1.0, steep))
-    return ratio
-
-
-def _extent(x: FloatArray, y: FloatArray, plane: IntArray, count: int) -> FloatArray:
-    """Give the extents of points, plane by plane, (4, d)."""
-    rows = [-_most(-x, plane, count), _most(x, plane, count)]
-    return np.stack([*rows, -_most(-y, plane, count), _most(y, plane, count)])
-
-
-def _most(values: FloatArray, plane: IntArray, count: int) -> FloatArray:
-    """Give the greatest value of each plane, minus infinity where there is none."""
-    most = np.full(count, -np.inf)
-    if is_plain(values):
-        if count == 1:
-            most[0] = values.max(initial=-np.inf)
-        else:
-            np.maximum.at(most, plane, values)
-        return most
-    if not len(plane):
-        return most
-    order = np.lexsort((real(values), plane))
-    last = np.searchsorted(plane[order], np.arange(count), "right") - 1
-    some = np.bincount(plane, minlength=count) > 0
-    return np.where(some, np.take(values, order[np.maximum(last, 0)]), most)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_places import CLOSE, Brackets, joined, places, states_at
+from assoc_hull.geometry.immersion_places import Brackets, joined, places, states_at
 from assoc_hull.geometry.immersion_roots import Tilted
 from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.quadrature import bunched
@@ -140,38 +140,54 @@ def _shares(share: FloatArray, row: IntArray, count: int) -> FloatArray:
 def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Brackets) -> Parts:
     """Lay the fine rule between all places of one strip and plane."""
     count = prepared.strips.count
-    ends, at_end = np.concatenate([found.low, found.high]), np.concatenate([found.row, found.row])
-    edge = np.concatenate([np.zeros(len(keys)), np.ones(len(keys)), ends])
-    owner = np.concatenate([keys, keys, at_end])
-    order = np.lexsort((edge, owner))
-    edge, owner = edge[order], owner[order]
-    inside = np.flatnonzero((owner[1:] == owner[:-1]) & (edge[1:] > edge[:-1] + 4.0 * CLOSE))
-    begin, length, of = edge[inside], edge[inside + 1] - edge[inside], owner[inside]
-    v, weight, whose = [], [], []
-    points = prepared.fine[of % count]
-    for number in np.unique(points):
-        some = np.flatnonzero(points == number)
-        nodes, weights = bunched(int(number))
-        v.append((begin[some, None] + length[some, None] * nodes).ravel())
-        weight.append((length[some, None] * weights).ravel())
-        whose.append(np.repeat(of[some], number))
+    v, weight, owner = _fine_points(prepared, keys, found)
     # The places themselves have no share, but there a waterplane may end.
-    v, weight, whose = [*v, ends], [*weight, 0.0 * ends], [*whose, at_end]
-    line = np.concatenate(whose)
-    row = np.searchsorted(keys, line)
+    v = np.concatenate([v, found.low, found.high])
+    owner = np.concatenate([owner, found.row, found.row])
+    weight = np.concatenate([weight, np.zeros(2 * len(found))])
     first = np.searchsorted(prepared.strip, keys % count)
     sizes = np.searchsorted(prepared.strip, keys % count, "right") - first
     again = np.repeat(np.arange(len(keys)), sizes)
     within = np.arange(len(again)) - (np.cumsum(sizes) - sizes)[again]
     return Parts(
-        plane=line // count,
-        strip=line % count,
-        v=np.concatenate(v),
-        weight=np.concatenate(weight) * np.take(shares, row),
+        plane=owner // count,
+        strip=owner % count,
+        v=v,
+        weight=weight * np.take(shares, np.searchsorted(keys, owner)),
         instead=(keys // count)[again],
         replaced=first[again] + within,
         share=np.take(shares, again),
     )
+
+
+def _fine_points(
+    prepared: Prepared, keys: IntArray, found: Brackets
+) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Give places along v, their weights, and the keys to which they belong."""
+    begin, length, owner = _intervals(keys, found)
+    points = prepared.fine[owner % prepared.strips.count]
+    v, weight, whose = [np.zeros(0)], [np.zeros(0)], [np.zeros(0, np.int64)]
+    for number in np.unique(points):
+        some = np.flatnonzero(points == number)
+        nodes, weights = bunched(int(number))
+        v.append((begin[some, None] + length[some, None] * nodes).ravel())
+        weight.append((length[some, None] * weights).ravel())
+        whose.append(np.repeat(owner[some], number))
+    return np.concatenate(v), np.concatenate(weight), np.concatenate(whose)
+
+
+def _intervals(keys: IntArray, found: Brackets) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Give begin and length of what lies between the places, and its key; nothing that is dry."""
+    none = np.full(len(keys), -1)
+    edge = np.concatenate([np.zeros(len(keys)), 0.5 * (found.low + found.high), np.ones(len(keys))])
+    owner = np.concatenate([keys, found.row, keys])
+    order = np.lexsort((edge, owner))
+    edge, owner = edge[order], owner[order]
+    after = np.concatenate([none, found.above, none])[order][:-1]
+    before = np.concatenate([none, found.below, none])[order][1:]
+    wet = np.where(after >= 0, after, before) != 0
+    inside = np.flatnonzero((owner[1:] == owner[:-1]) & wet & (edge[1:] > edge[:-1]))
+    return edge[inside], edge[inside + 1] - edge[inside], owner[inside]
 
 
 def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
@@ -179,9 +195,9 @@ def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
     ends = prepared.critical(tilted)
     over = real(ends.height) - real(levels)[:, None]
     plane, point = np.nonzero(np.abs(over) < np.abs(real(ends.change)))
-    gap = np.take(levels, plane) - np.take(ends.height, point)
     most = np.take(ends.change, point)
-    part = 1.0 - gap * gap / (most * most)
+    gap = (np.take(levels, plane) - np.take(ends.height, point)) / most
+    part = 1.0 - gap * gap
     curve = ends.curve[point]
     inward = np.where(prepared.v[curve] == 0.0, real(most), -real(most))
     share = part * part * (3.0 - 2.0 * part)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_columns import Half, add_solid, cross, wider
+from assoc_hull.geometry.immersion_columns import Half, add_solid, cross
 from assoc_hull.geometry.immersion_events import Parts, parts_of
+from assoc_hull.geometry.immersion_extents import wider, widest
 from assoc_hull.geometry.immersion_places import states
 from assoc_hull.geometry.immersion_roots import Tilted, candidates, mixed, tilt
 from assoc_hull.geometry.immersion_strips import Prepared
@@ -39,7 +40,8 @@ def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatAr
     ground = real(levels)
     cut = cross(tiles, tilted, candidates(tilted, ground), levels, prepared.weight)
     plain = add_solid(cut.half, _whole(prepared.weighted(tilted.heeled), tilted, ground))
-    state = states(tiles, tilted, ground[:, None], cut.plane, cut.curve)
+    plain = _as_wide(plain, widest(tiles, tilted, cut.places, prepared.v, prepared.strip))
+    state = states(tiles, tilted, ground[:, None], cut.plane, tiles.curve[cut.tile])
     parts = parts_of(prepared, tilted, levels, state)
     if parts is not None:
         plain = _corrected(prepared, plain, levels, tilted, parts)
@@ -80,6 +82,12 @@ def _in_plane(columns: FloatArray, heel: FloatArray) -> FloatArray:
     bent = [volume - heel * volume_z, x - heel * x_z, y - heel * y_z]
     bent.append(z + heel * (y - z_z) - heel * heel * y_z)
     return np.concatenate([np.stack(bent), columns[4:PLAIN], columns[HEELED:]])
+
+
+def _as_wide(half: Half, breadth: FloatArray) -> Half:
+    """Take account of breadths between curves."""
+    extent = half.extent
+    return Half(half.columns, wider(extent, np.stack([*extent[:3], breadth])))
 
 
 def _whole(weighted: FloatArray, tilted: Tilted, levels: FloatArray) -> FloatArray:

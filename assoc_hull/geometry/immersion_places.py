@@ -14,7 +14,7 @@ from assoc_hull.geometry.isocurves import Strips
 
 __all__ = ["CLOSE", "Brackets", "joined", "places", "states", "states_at"]
 
-CLOSE = 1e-11
+CLOSE = 1e-12
 """Of a strip: how exactly a place is wanted, and the least distance between two."""
 
 _TRIALS = 60

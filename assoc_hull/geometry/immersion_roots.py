@@ -247,7 +247,8 @@ def cuts(tilted: Tilted, tile: IntArray, level: FloatArray) -> Cuts:
     tile, level = tile[found.pair], np.take(level, found.pair)
     cubic = np.take(real(tilted.height), tile, axis=1)
     cubic[0] -= real(level)
-    u = bracketed_roots(cubic, found.low, found.high, found.at_low, found.at_high)
+    start = _parabola(cubic, found)
+    u = bracketed_roots(cubic, found.low, found.high, found.at_low, found.at_high, start)
     sign = np.where(found.at_low <= 0.0, 1.0, -1.0)
     return Cuts(found.pair, _polished(tilted, tile, level, u), sign)
 
@@ -266,6 +267,26 @@ def _split(tilted: Tilted, tile: IntArray, level: FloatArray, control: FloatArra
     return Changes(
         pair, edge[part, pair], edge[part + 1, pair], height[part, pair], height[part + 1, pair]
     )
+
+
+def _parabola(cubic: FloatArray, found: Changes) -> FloatArray:
+    """Start at the root of the parabola through both ends and the middle.
+
+    Tiles that begin level, as most do at the keel, have nearly parabolas for heights: from a
+    chord the steps would take long.
+    """
+    origin, first, second, third = cubic
+    length = found.high - found.low
+    middle = value(origin, first, second, third, found.low + 0.5 * length)
+    rise = found.at_high - found.at_low
+    bend = 2.0 * (found.at_low + found.at_high - 2.0 * middle)
+    begin = rise - bend
+    under = np.sqrt(np.maximum(begin * begin - 4.0 * bend * found.at_low, 0.0))
+    slope = begin + np.copysign(under, rise)
+    steep = slope * rise > 0.0
+    share = np.where(steep, -2.0 * found.at_low / np.where(steep, slope, 1.0), 0.5)
+    start: FloatArray = found.low + length * np.clip(share, 0.0, 1.0)
+    return start
 
 
 def _polished(tilted: Tilted, tile: IntArray, level: FloatArray, u: FloatArray) -> FloatArray:

@@ -96,9 +96,10 @@ def from_curves(curves: IsoCurves) -> Tiles:
     Tiles
         The same tiles, laid out for work on many at once.
     """
-    point, across = curves.point.transpose(2, 1, 0), curves.across.transpose(2, 1, 0)
     # Row by row in memory: all that follows runs along rows.
-    coefficients = np.concatenate([point, across]).copy("C")
+    both = (curves.point, curves.across)
+    rows = [each[:, power, axis] for each in both for axis in range(3) for power in range(4)]
+    coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
     lean = (real(coefficients[0::3, 1:]) != 0.0).any(axis=(0, 1))
     knuckle = _knuckles(real(coefficients), owner)

@@ -49,6 +49,7 @@ def bracketed_roots(
     upper: FloatArray,
     at_lower: FloatArray,
     at_upper: FloatArray,
+    start: FloatArray | None = None,
 ) -> FloatArray:
     """Find the one root of each cubic in a bracket in which it changes sign once.
 
@@ -61,6 +62,8 @@ def bracketed_roots(
     at_lower, at_upper : (k,), m
         Values there; one is negative, the other is not. They decide the sign, whatever
         rounding makes of the cubic itself.
+    start : (k,) or None
+        Where the steps begin; where the secant has its root if None.
 
     Returns
     -------
@@ -81,7 +84,10 @@ def bracketed_roots(
     """
     origin, first, second, third = cubic
     limit = FLOOR + RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
-    root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
+    if start is None:
+        root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
+    else:
+        root = start.copy()
     with np.errstate(all="ignore"):
         steep = 3.0 * third
         for _ in range(STEPS):
