@@ -131,7 +131,6 @@ def record(
     >>> import numpy as np
     >>> from assoc_hull.analysis.record import record
     >>> from assoc_hull.analysis.record_fields import FIELDS
-    from assoc_hull.model.named import Named
     >>> found = record({name: np.array([1.0]) for name in FIELDS}, {}, 0)
     >>> found.volume, found.error["volume"]
     (1.0, None)
