@@ -96,8 +96,8 @@ def hydrostatics(
     >>> from assoc_hull.analysis.hydrostatics import hydrostatics
     >>> from assoc_hull.sources import examples
     >>> hull = examples.wigley()
-    >>> round(hydrostatics(hull, draught=6.25).volume)  # 4/9 L B T
-    2777
+    >>> round(hydrostatics(hull, draught=6.25).cb, 3)  # 4/9
+    0.444
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,

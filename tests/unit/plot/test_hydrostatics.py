@@ -95,7 +95,7 @@ def test_bonjean_curves_start_at_their_stations(
     assert_allclose(np.array(reach) / reach[10], found.area[-1] / found.area[-1, 10], atol=1e-9)
 
 
-@pytest.mark.parametrize("paper", ["A3", "A1"])
+@pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
 def test_words_are_apart_and_within_the_frame(
     table: HydrostaticTable, wigley: Hull, paper: str, boxes_of: Boxes
 ) -> None:
