@@ -29,8 +29,10 @@ def test_a_wigley_hull_has_a_strip_between_all_neighbours() -> None:
     """Stem and stern post are rails, keel and deck edge the sides."""
     net = gather(wigley())
     layout = lay_out(net, 100.0, closed=True)
-    assert layout.lost == () and len(layout.frames) == 20
-    assert layout.cells.plane.all() and layout.edge.all()
+    assert layout.lost == ()
+    assert len(layout.frames) == 20
+    assert layout.cells.plane.all()
+    assert layout.edge.all()
     first, last = layout.frames[0], layout.frames[-1]
     assert _rail(net, first, "aft") == ["profile"] == _rail(net, last, "fore")
     for frame in layout.frames:
@@ -62,8 +64,9 @@ def test_the_carrier_comes_apart_at_bulb_and_bossing(bulk_carrier: ah.Hull) -> N
 def test_lines_that_run_to_a_point_make_a_rail_of_it() -> None:
     """The tip of the ellipsoid; all diagonals arrive there."""
     layout = lay_out(gather(ellipsoid_net(11, 6)), 100.0, closed=False)
-    curve, begin, finish = layout.frames[0].aft[0]
-    assert begin == finish and len(layout.frames[0].aft) == 1
+    _curve, begin, finish = layout.frames[0].aft[0]
+    assert begin == finish
+    assert len(layout.frames[0].aft) == 1
     assert np.diff(layout.cells.anchor_start).tolist() == [11] * 10
 
 

@@ -102,7 +102,7 @@ def test_the_surface_is_closed(surface: tuple[HullState, Net, CoonsStrips]) -> N
 
 def test_anchors_lie_in_the_surface(surface: tuple[HullState, Net, CoonsStrips]) -> None:
     """Points of waterlines and diagonals between the sections are points of the surface."""
-    _, net, strips = surface
+    _, _net, strips = surface
     cells, walked = strips.cells, strips.walked
     v = 0.43
     for strip in np.flatnonzero(cells.plane)[:6].tolist():
