@@ -138,7 +138,7 @@ class PathShapes:
 
     def _keys(self, begins: FloatArray) -> FloatArray:
         """Give fractions as keys: those of one path lie between its number and the next."""
-        key: FloatArray = 2.0 * self._owner + np.clip(begins, 0.0, 1.0)
+        key: FloatArray = np.asarray(2.0 * self._owner + np.clip(begins, 0.0, 1.0), np.float64)
         return key
 
     def _bit(self, path: IntArray, w: FloatArray, key: FloatArray) -> IntArray:
