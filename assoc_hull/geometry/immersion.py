@@ -28,10 +28,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersion_half import Half, half
 from assoc_hull.geometry.immersion_strips import Prepared, prepare
-from assoc_hull.geometry.tile_sums import is_plain, real
 
 __all__ = ["Prepared", "immersed", "prepare"]
 

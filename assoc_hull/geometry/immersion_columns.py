@@ -12,10 +12,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_extents import Places, extent, slopes, waterline_rate, wider
 from assoc_hull.geometry.immersion_roots import Tilted, cuts
 from assoc_hull.geometry.immersion_tiles import CHUNK, Tiles, integrals, powers
-from assoc_hull.geometry.tile_sums import real, sum_by
+from assoc_hull.geometry.tile_sums import sum_by
 
 __all__ = ["Cross", "Half", "add_solid", "cross"]
 

@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_places import Brackets, joined, places, states_at
 from assoc_hull.geometry.immersion_roots import Tilted
 from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.quadrature import bunched
-from assoc_hull.geometry.tile_sums import real
 
 __all__ = ["Parts", "parts_of"]
 

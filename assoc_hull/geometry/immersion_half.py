@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_columns import Half, add_solid, cross
 from assoc_hull.geometry.immersion_events import Parts, parts_of
 from assoc_hull.geometry.immersion_extents import wider, widest
@@ -12,7 +13,7 @@ from assoc_hull.geometry.immersion_places import states
 from assoc_hull.geometry.immersion_roots import Tilted, candidates, mixed, tilt
 from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, from_curves, integrals, subset
-from assoc_hull.geometry.tile_sums import is_plain, mix, real, sum_by
+from assoc_hull.geometry.tile_sums import mix, sum_by
 
 __all__ = ["Half", "curve_by_curve", "half"]
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.bernstein import stationary, value
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_tiles import Tiles
 from assoc_hull.geometry.roots import bracketed_roots
-from assoc_hull.geometry.tile_sums import is_plain, real
 
 __all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "mixed", "tilt", "turns"]
 

@@ -17,7 +17,7 @@ from assoc_hull.geometry.quadrature import lobatto
 
 __all__ = ["Prepared", "prepare"]
 
-_LEAST_FINE, _FINE = 16, 1  # points of the rule for strips in which something happens
+_MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
 @attrs.frozen(eq=False)
@@ -109,7 +109,7 @@ def prepare(strips: Strips, factor: int = 1) -> Prepared:
     nodes = [np.concatenate(parts) for parts in zip(*rules, strict=True)]
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
     tiles = from_curves(strips.curves(strip, v))
-    fine = np.maximum(_LEAST_FINE, _FINE * order)
+    fine = order + _MORE
     return Prepared(strips, fine, strip, v, weight, tiles, _weighted(tiles, weight, heeled=False))
 
 

@@ -22,9 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
-from assoc_hull.geometry.tile_sums import mix, real, root
+from assoc_hull.geometry.tile_sums import mix, root
 
 __all__ = ["CHUNK", "HEELED", "PLAIN", "Tiles", "from_curves", "integrals", "powers", "subset"]
 

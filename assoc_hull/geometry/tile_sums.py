@@ -10,19 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
+from assoc_hull.geometry.dual import sum_by as sum_rows_by
 
-__all__ = ["is_plain", "mix", "real", "root", "sum_by"]
-
-
-def is_plain(values: object) -> bool:
-    """Tell real numbers from those that carry derivatives along."""
-    return isinstance(values, np.ndarray) and values.dtype == np.float64
-
-
-def real(values: FloatArray) -> FloatArray:
-    """Give the numbers on which decisions are taken, without what derivatives they carry."""
-    part: FloatArray = values.real
-    return part
+__all__ = ["mix", "root", "sum_by"]
 
 
 def root(values: FloatArray) -> FloatArray:
@@ -78,6 +69,7 @@ def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
     if count == 1:
         alone: FloatArray = values.sum(axis=1)[:, None]
         return alone
-    if np.iscomplexobj(values):
-        return sum_by(values.real, owner, count) + 1j * sum_by(values.imag, owner, count)
+    if not is_plain(values):
+        summed: FloatArray = sum_rows_by(values.T, owner, count).T
+        return summed
     return np.stack([np.bincount(owner, row, count) for row in values])

@@ -20,7 +20,7 @@ _PLACES = ("boundary", "waterlines", "buttocks", "diagonals", "frames")
 _APART = 1e-5
 """Anchors lie so far apart on both rails, in lengths of the rail."""
 
-_SAMPLES = np.linspace(0.0, 1.0, 9)
+_SAMPLES = np.linspace(1e-6, 1.0 - 1e-6, 9)  # a knuckle at the end belongs to what follows
 _STEADY = 0.02
 """Along an anchor x grows everywhere by this part of its mean growth at least."""
 
