@@ -52,11 +52,11 @@ class Cells:
         The bit of `paths` that each tile takes from the rail with v = 0 and v = 1.
     low, high : (t,) int
         The bit at whose beginning the tile begins and ends, on its own rail; -1 for the
-        beginning of the cell at `low`, for its end at `high`.
+        beginning of the cell at `low`, for its end at `high`; -2 for the end at `low` too.
     plane : (n,) bool
         Both rails are sections: anchors are walked by x, so that all curves are sections.
-    deck : (n,) bool
-        A closed deck joins the last anchor to the centre plane.
+    deck : (t,) bool
+        The tile joins the last anchor straight to the centre plane: a closed deck.
     order : (n,) int
         Gauss points along v.
     """
@@ -89,8 +89,8 @@ class CoonsStrips:
         The cells.
     walked : PathShapes
         Their paths.
-    aft, fore : (t, 4, 3), m
-        The rails' parts of each tile.
+    aft, span : (t, 4, 3), m
+        The part of each tile on the rail with v = 0, and from there to that with v = 1.
     blend : (t, 4, 4)
         As that of the cells, but in u, from 0 to 1 along each tile.
     """
@@ -98,20 +98,20 @@ class CoonsStrips:
     cells: Cells
     walked: PathShapes
     aft: FloatArray
-    fore: FloatArray
+    span: FloatArray
     blend: FloatArray
 
     @classmethod
     def on(cls, cells: Cells, batch: SplineBatch) -> CoonsStrips:
         """Put cells on splines."""
         walked = shapes(cells.paths, batch)
-        low = np.where(cells.low < 0, 0.0, walked.begin[cells.low])
+        low = np.where(cells.low < 0, np.where(cells.low < -1, 1.0, 0.0), walked.begin[cells.low])
         high = np.where(cells.high < 0, 1.0, walked.begin[cells.high])
         rails = []
         for bit in (cells.aft, cells.fore):
             begin, span = walked.begin[bit], walked.finish[bit] - walked.begin[bit]
             rails.append(stretch(walked.cubic[bit], (low - begin) / span, (high - begin) / span))
-        return cls(cells, walked, rails[0], rails[1], stretch(cells.blend, low, high))
+        return cls(cells, walked, rails[0], rails[1] - rails[0], stretch(cells.blend, low, high))
 
     @property
     def count(self) -> int:
@@ -130,17 +130,14 @@ class CoonsStrips:
         start = _starts(cells.tile_start, strip)
         bow = self._bows(strip, v)
         anchor = _starts(cells.anchor_start, strip)[curve] + cells.first[tile]
-        blend = self.blend[tile]
-        rise = blend[:, :, 0, None] * bow[anchor][:, None]
-        for j in (1, 2, 3):
-            rise = rise + blend[:, :, j, None] * bow[anchor + j][:, None]
-        at = v[curve][:, None, None]
-        aft, span = self.aft[tile], (self.fore - self.aft)[tile]
-        point = aft + at * span + rise[:, :, :3]
+        rise = _combined(self.blend[tile], bow, anchor)
+        span = self.span[tile]
+        point = self.aft[tile] + v[curve][:, None, None] * span + rise[:, :, :3]
         across = span + rise[:, :, 3:]
-        if not cells.deck[strip].any():
-            return IsoCurves(start, point, across, np.zeros(len(tile), np.bool_))
-        return _with_decks(start, point, across, cells.deck[strip])
+        deck = cells.deck[tile]
+        for shape in (point, across):
+            shape[deck, 1, 1] = -shape[deck, 0, 1]
+        return IsoCurves(start, point, across, deck)
 
     def _bows(self, strip: IntArray, v: FloatArray) -> FloatArray:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
@@ -151,7 +148,7 @@ class CoonsStrips:
         curve, anchor = _spread(cells.anchor_start, strip)
         path = cells.anchor[anchor]
         at, plane = v[curve], cells.plane[strip[curve]]
-        first, last = self.walked.ends()
+        first, last = self.walked.ends
         bow = np.zeros((len(path) + 3, 6), v.dtype)
         for chosen, walk in (
             (np.flatnonzero((path >= 0) & plane), self.walked.at_part),
@@ -182,23 +179,7 @@ def _spread(start: IntArray, strip: IntArray) -> tuple[IntArray, IntArray]:
     return curve, np.arange(len(curve)) - first[curve] + start[strip][curve]
 
 
-def _with_decks(
-    start: IntArray, point: FloatArray, across: FloatArray, deck: NDArray[np.bool_]
-) -> IsoCurves:
-    """Add a straight tile from the deck edge to the centre plane to the curves that have one."""
-    last = start[1:][deck]
-    edge, move = point[last - 1].sum(axis=1), across[last - 1].sum(axis=1)
-    in_ = np.array([0.0, -1.0, 0.0])
-    nil = np.zeros_like(edge)
-    added = [np.stack([each, each * in_, nil, nil], axis=1) for each in (edge, move)]
-    owner = np.repeat(np.arange(len(deck)), np.diff(start))
-    owner = np.concatenate([owner, np.flatnonzero(deck)])
-    order = np.argsort(owner, kind="stable")
-    new = start + np.concatenate([[0], np.cumsum(deck)])
-    flag = np.concatenate([np.zeros(len(point), bool), np.ones(len(edge), bool)])
-    return IsoCurves(
-        new,
-        np.concatenate([point, added[0]])[order],
-        np.concatenate([across, added[1]])[order],
-        flag[order],
-    )
+def _combined(blend: FloatArray, bow: FloatArray, first: IntArray) -> FloatArray:
+    """Give the sums of four rows of `bow` each, (s, 4, 6), by the weights `blend` (s, 4, 4)."""
+    four: FloatArray = np.matmul(blend, bow[first[:, None] + np.arange(4)])
+    return four

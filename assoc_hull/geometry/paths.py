@@ -8,6 +8,7 @@ smooth as the splines are.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -86,57 +87,63 @@ class PathShapes:
     begin: FloatArray
     finish: FloatArray
 
+    @cached_property
     def ends(self) -> tuple[FloatArray, FloatArray]:
-        """Give the first and the last place of each path, (p, 3) each, m."""
+        """The first and the last place of each path, (p, 3) each, m."""
         last = self.paths.start[1:] - 1
         return self.cubic[self.paths.start[:-1], 0], self.cubic[last].sum(axis=1)
 
     def at(self, path: IntArray, w: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give places and derivatives by the fraction, (k, 3) each, m."""
-        return self._on(self._bit(path, w, self.begin), w)
+        return self._on(self._bit(path, w, self._begins), w)
 
-    def at_part(
-        self, path: IntArray, part: FloatArray, axis: int = 0
-    ) -> tuple[FloatArray, FloatArray]:
-        """Give the places that lie by given parts of the way along one coordinate.
+    def at_part(self, path: IntArray, part: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the places that lie by given parts of the way along x.
 
         Parameters
         ----------
         path : (k,) int
-            Paths along which the coordinate only grows, or only falls.
+            Paths along which x only grows, or only falls.
         part : (k,)
             From 0 to 1.
-        axis : int
-            The coordinate.
 
         Returns
         -------
         place, slope : (k, 3), m
             The places, and their derivatives by `part`.
         """
-        first, last = (end[:, axis] for end in self.ends())
-        span = np.where(last == first, 1.0, last - first)
-        where = self.paths.start[:-1].repeat(np.diff(self.paths.start))
-        owner = np.arange(self.paths.count).repeat(np.diff(self.paths.start))
-        reached = (self.cubic[:, 0, axis] - self.cubic[where, 0, axis]) / span[owner]
-        bit = self._bit(path, part, reached)
-        target = first[path] + part * span[path]
-        cubic = self.cubic[bit]
-        u = _solve(cubic[:, :, axis], target)
-        place = ((cubic[:, 3] * u[:, None] + cubic[:, 2]) * u[:, None] + cubic[:, 1]) * u[
-            :, None
-        ] + cubic[:, 0]
-        slope = (3.0 * cubic[:, 3] * u[:, None] + 2.0 * cubic[:, 2]) * u[:, None] + cubic[:, 1]
-        return place, slope * (span[path] / slope[:, axis])[:, None]
+        first, last = (end[path, 0] for end in self.ends)
+        span = last - first
+        cubic = self.cubic[self._bit(path, part, self._reached)]
+        u = _solve(cubic[:, :, 0], first + part * span)[:, None]
+        place = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + cubic[:, 0]
+        slope = (3.0 * cubic[:, 3] * u + 2.0 * cubic[:, 2]) * u + cubic[:, 1]
+        return place, slope * (span / slope[:, 0])[:, None]
 
-    def _bit(self, path: IntArray, w: FloatArray, begins: FloatArray) -> IntArray:
+    @cached_property
+    def _begins(self) -> FloatArray:
+        return self._keys(self.begin)
+
+    @cached_property
+    def _reached(self) -> FloatArray:
+        """Say what part of the way along x lies before each bit, as keys."""
+        first, last = (end[self._owner, 0] for end in self.ends)
+        return self._keys(
+            (self.cubic[:, 0, 0] - first) / np.where(last == first, 1.0, last - first)
+        )
+
+    @cached_property
+    def _owner(self) -> IntArray:
+        return np.arange(self.paths.count).repeat(np.diff(self.paths.start))
+
+    def _keys(self, begins: FloatArray) -> FloatArray:
+        """Give fractions as keys: those of one path lie between its number and the next."""
+        key: FloatArray = 2.0 * self._owner + np.clip(begins, 0.0, 1.0)
+        return key
+
+    def _bit(self, path: IntArray, w: FloatArray, key: FloatArray) -> IntArray:
         """Find the bit of each path on which a fraction lies."""
         start = self.paths.start
-        if self.paths.count == len(begins):  # one bit each
-            return path
-        owner = np.arange(self.paths.count).repeat(np.diff(start))
-        # Fractions of one path lie between its number and the next: one search for all.
-        key = 2.0 * owner + np.clip(begins, 0.0, 1.0)
         found = np.searchsorted(key, 2.0 * path + w, side="right") - 1
         return np.clip(found, start[path], start[path + 1] - 1)
 

@@ -203,6 +203,9 @@ def _cells(
             first, aft, fore = draft.cell[j]
             tiles += [(first, *tile) for tile in _tiles(walked, aft, fore)]
             cell += [j] * (len(tiles) - len(cell))
+        if deck[i]:
+            tiles.append((*tiles[-1][:3], -2, -1))
+            cell.append(cell[-1])
         tile_start.append(len(tiles))
     table = np.array(tiles, np.int64).reshape(-1, 5)
     anchor_start = np.array(draft.anchor_start, np.int64)
@@ -224,7 +227,7 @@ def _cells(
         column[3],
         column[4],
         plane,
-        deck,
+        column[3] == -2,
         np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
     )
 

@@ -58,7 +58,7 @@ def test_a_part_of_the_way_along_x_is_found(part: float) -> None:
     batch = _wave()
     path = shapes(Paths.of([[(0, 0.5, 1.0), (1, 0.0, 1.0), (2, 0.0, 1.0)], [(3, 0.0, 1.0)]]), batch)
     place, slope = path.at_part(np.array([0, 1]), np.array([part, part]))
-    first, last = path.ends()
+    first, last = path.ends
     expected = first[:, 0] + part * (last - first)[:, 0]
     assert place[:, 0] == pytest.approx(expected, abs=1e-12)
     assert slope[:, 0] == pytest.approx((last - first)[:, 0], rel=1e-12)
