@@ -101,7 +101,7 @@ def hydrostatics(
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
-        "appendages": appendages, "keel_thickness": keel_thickness,
+        "appendages": appendages, "keel_thickness": keel_thickness, "fingerprint": "",
     }  # fmt: skip
     body = body_of(hull)
     header = header_of(hull, body, terms)
