@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_states import DECK, KEEL, Inclination, Look, look
+from assoc_hull.geometry.immersion_states import DECK, KEEL, Inclination, look
 from assoc_hull.geometry.isocurves import Strips
 
 __all__ = ["Brackets", "joined", "places"]
@@ -86,49 +86,50 @@ def places(strips: Strips, inclination: Inclination, brackets: Brackets) -> Brac
 
 def _closed(strips: Strips, inclination: Inclination, brackets: Brackets) -> Brackets:
     """Close each bracket on the first change of state that is seen."""
-    low, high, above = brackets.low.copy(), brackets.high.copy(), brackets.above.copy()
-    ends = [look(strips, inclination, brackets.strip, v, brackets.level) for v in (low, high)]
-    point = _deciding(brackets, *ends)
-    row = np.arange(len(low))
-    miss = np.stack([each.over[row, point] for each in ends], axis=1)
+    v = np.stack([brackets.low, brackets.high], axis=1)
+    above = brackets.above.copy()
+    over = np.stack(
+        [look(strips, inclination, brackets.strip, v[:, i], brackets.level).over for i in (0, 1)],
+        axis=1,
+    )
     for _ in range(_TRIALS):
-        alive = np.flatnonzero(high - low > _CLOSE)
+        alive = np.flatnonzero(v[:, 1] - v[:, 0] > _CLOSE)
         if not len(alive):
             break
-        trial = _trials(low[alive], high[alive], miss[alive])
+        below = brackets.below[alive, None]
+        trial = _trials(v[alive], _misses(over[alive], below[:, 0] ^ above[alive]))
         some = np.repeat(alive, 3)
         seen = look(strips, inclination, brackets.strip[some], trial.ravel(), brackets.level[some])
-        kind, off = seen.state.reshape(-1, 3), seen.over[np.arange(len(some)), point[some]]
-        kept = np.cumprod(kind == brackets.below[alive, None], axis=1).sum(axis=1)
-        each = np.arange(len(alive))
-        edges = np.concatenate([low[alive, None], trial, high[alive, None]], axis=1)
-        kinds = np.concatenate([kind, above[alive, None]], axis=1)
-        misses = np.concatenate([miss[alive, :1], off.reshape(-1, 3), miss[alive, 1:]], axis=1)
-        low[alive], high[alive] = edges[each, kept], edges[each, kept + 1]
-        above[alive] = kinds[each, kept]
-        miss[alive] = np.stack([misses[each, kept], misses[each, kept + 1]], axis=1)
-    return attrs.evolve(brackets, low=low, high=high, above=above)
+        state = seen.state.reshape(-1, 3)
+        kept = np.cumprod(state == below, axis=1).sum(axis=1)
+        row, ends = np.arange(len(alive))[:, None], np.stack([kept, kept + 1], axis=1)
+        v[alive] = np.concatenate([v[alive, :1], trial, v[alive, 1:]], axis=1)[row, ends]
+        between = seen.over.reshape(len(alive), 3, -1)
+        rungs = np.concatenate([over[alive, :1], between, over[alive, 1:]], axis=1)
+        over[alive] = rungs[row, ends]
+        above[alive] = np.concatenate([state, above[alive, None]], axis=1)[row[:, 0], kept]
+    return attrs.evolve(brackets, low=v[:, 0].copy(), high=v[:, 1].copy(), above=above)
 
 
-def _deciding(brackets: Brackets, low: Look, high: Look) -> IntArray:
-    """Say which of the points of `Look.over` passes the plane in each bracket.
+def _misses(over: FloatArray, change: IntArray) -> FloatArray:
+    """Give by how much, at both ends, the point is off the plane that passes it, (n, 2).
 
     If neither end of the curve does, it is the critical point up to which, counted from the
-    lowest, the wetter of both ends is wet.
+    lowest, the wetter of both is wet.
     """
-    inner = np.maximum(low.wet, high.wet) + 1
-    kind = brackets.below ^ brackets.above
-    point = np.where(kind & KEEL, 0, np.where(kind & DECK, 1, inner))
-    return np.clip(point, 0, low.over.shape[1] - 1)
+    wet = (over[:, :, 2:] <= 0.0).sum(axis=2).max(axis=1)
+    point = np.where(change & KEEL, 0, np.where(change & DECK, 1, wet + 1))
+    point = np.minimum(point, over.shape[2] - 1)
+    return np.take_along_axis(over, point[:, None, None], axis=2)[:, :, 0]
 
 
-def _trials(low: FloatArray, high: FloatArray, miss: FloatArray) -> FloatArray:
+def _trials(v: FloatArray, miss: FloatArray) -> FloatArray:
     """Give three places in each bracket: two about where the chord says, one far from it.
 
     The chord errs by the square of the bracket's length; so if the two enclose the place,
     the digits double. Without a chord, quarters.
     """
-    length = high - low
+    length = v[:, 1] - v[:, 0]
     one, other = miss[:, 0], miss[:, 1]
     with np.errstate(over="ignore", invalid="ignore"):
         chord = np.isfinite(one - other) & (one * other < 0.0)
@@ -139,5 +140,5 @@ def _trials(low: FloatArray, high: FloatArray, miss: FloatArray) -> FloatArray:
     far = np.where(share > 0.5, 0.5 * before, 0.5 * (1.0 + after))
     far = np.where(chord, far, 0.5)
     inside = np.sort(np.stack([before, after, far], axis=1), axis=1)
-    trial: FloatArray = low[:, None] + length[:, None] * inside
+    trial: FloatArray = v[:, :1] + length[:, None] * inside
     return trial

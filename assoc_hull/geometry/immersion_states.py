@@ -44,12 +44,6 @@ class Look:
     state: IntArray
     over: FloatArray
 
-    @property
-    def wet(self) -> IntArray:
-        """How many of the critical points are wet."""
-        count: IntArray = (self.over[:, 2:] <= 0.0).sum(axis=1)
-        return count
-
 
 def states(
     tiles: Tiles, tilted: Tilted, curve: IntArray, level: FloatArray, times: IntArray
