@@ -16,6 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.mesh_flotation import mesh_flotation
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersion import immersed
 from benchmarks.clock import Figure
 from benchmarks.hydrostatic_hull import (
     EVEN,
@@ -26,6 +27,7 @@ from benchmarks.hydrostatic_hull import (
     measured,
     triangles,
 )
+from benchmarks.hydrostatic_net import net
 from benchmarks.hydrostatic_peers import Job, capytaine_job, trimesh_job
 
 __all__ = ["figures", "ours", "ours_at_heights"]
@@ -43,15 +45,18 @@ GOALS = {"trimesh": 8, "capytaine": 500}
 
 
 def ours(position: Position) -> Job:
-    """Give our side: everything from the hull to the values, the fit included."""
-    return mesh_route(MESH, position)
+    """Give our side: from the points of a net to the values, lofting included.
+
+    What points to what in the net is known before, as the peers know their triangles.
+    """
+    lines = net()
+    return Job(lambda: None, lambda _: measured(lines.measure(position.planes()), position))
 
 
 def ours_at_heights(position: Position) -> Callable[[FloatArray], Any]:
-    """Give our side for many heights of the plane in one call."""
-    mesh = triangles(MESH)
-    hull = mesh_flotation(mesh.xyz, mesh.face)
-    return lambda heights: hull.measure(position.planes(heights))
+    """Give our side for many heights of the plane in one call, and so for one."""
+    body = net().fitted()
+    return lambda heights: immersed(body, position.planes(heights))
 
 
 def mesh_route(n: int, position: Position) -> Job:

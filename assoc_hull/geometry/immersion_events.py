@@ -1,7 +1,7 @@
 """Strips in which something happens below a plane: where, and how finely to integrate.
 
 From one curve of a strip to the next the immersed part may change its kind: the keel comes
-out of the water, the deck edge goes under, a piece appears, the waterline passes a knuckle.
+out of the water, the deck edge goes under, a piece appears.
 The place along v is found by bisection, and either side of it gets a rule of its own.
 
 A strip in which nothing happens *yet* counts too, in part: as such a place leaves the strip

@@ -19,7 +19,7 @@ CLOSE = 1e-12
 
 _TRIALS = 60
 _SEVERAL = 6  # changes between two neighbouring curves, at most
-_DECK, _KEEL, _CUT, _KNUCKLE = 1, 2, 4, 1024
+_DECK, _KEEL, _CUT, _EDGE = 1, 2, 4, 1024
 
 
 @attrs.frozen(eq=False)
@@ -225,17 +225,17 @@ def states(
     -------
     (r, k) int
         A number made of how often the curve is cut, whether keel and deck end are wet, and
-        how many knuckles are.
+        the deck's edge is.
     """
     rows, count = len(level), tiles.curves
     times = np.bincount(row * count + curve, minlength=rows * count).reshape(rows, count)
     keel = tilted.control[0][tiles.start[:-1]] <= level
     deck = tilted.control[3][tiles.start[1:] - 1] <= level
     state: IntArray = _CUT * times + _KEEL * keel + _DECK * deck
-    if len(tiles.knuckle):
-        owner = tiles.curve[tiles.knuckle]
+    if len(tiles.edge):
+        owner = tiles.curve[tiles.edge]
         at = level[:, owner] if level.shape[1] > 1 else level
-        one, knuckle = np.nonzero(tilted.control[0][tiles.knuckle] <= at)
-        wet = np.bincount(one * count + owner[knuckle], minlength=rows * count)
-        state = state + _KNUCKLE * wet.reshape(rows, count)
+        one, edge = np.nonzero(tilted.control[0][tiles.edge] <= at)
+        wet = np.bincount(one * count + owner[edge], minlength=rows * count)
+        state = state + _EDGE * wet.reshape(rows, count)
     return state

@@ -37,7 +37,6 @@ PLAIN, HEELED = 7, 11
 the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
-_SMOOTH = 0.5  # rad: below this angle two tiles meet without a knuckle
 
 _NODES, _WEIGHTS = gauss(_POINTS)
 _VALUE = _NODES[:, None] ** np.arange(4)
@@ -61,8 +60,8 @@ class Tiles:
         The tile is closed deck.
     lean : (s,) bool
         x or x_v are not the same all along the tile.
-    knuckle : (n,) int
-        Tiles that begin at a knuckle.
+    edge : (n,) int
+        Tiles with which a closed deck begins.
     """
 
     coefficients: FloatArray
@@ -70,7 +69,7 @@ class Tiles:
     start: IntArray
     deck: NDArray[np.bool_]
     lean: NDArray[np.bool_]
-    knuckle: IntArray
+    edge: IntArray
 
     @property
     def curves(self) -> int:
@@ -103,8 +102,7 @@ def from_curves(curves: IsoCurves) -> Tiles:
     coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
     lean = (real(coefficients[0::3, 1:]) != 0.0).any(axis=(0, 1))
-    knuckle = _knuckles(real(coefficients), owner)
-    return Tiles(coefficients, owner, curves.start, curves.deck, lean, knuckle)
+    return Tiles(coefficients, owner, curves.start, curves.deck, lean, _edges(curves.deck, owner))
 
 
 def subset(tiles: Tiles, curve: IntArray) -> Tiles:
@@ -126,15 +124,13 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     start = np.concatenate([[0], np.cumsum(sizes)])
     owner = np.repeat(np.arange(len(curve)), sizes)
     rows = np.arange(start[-1]) + (tiles.start[curve] - start[:-1])[owner]
-    sharp = np.zeros(len(tiles.curve), bool)
-    sharp[tiles.knuckle] = True
     return Tiles(
         np.take(tiles.coefficients, rows, axis=2),
         owner,
         start,
         tiles.deck[rows],
         tiles.lean[rows],
-        np.flatnonzero(sharp[rows]),
+        _edges(tiles.deck[rows], owner),
     )
 
 
@@ -211,12 +207,6 @@ def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
     return both[:, :_POINTS], both[:, _POINTS:]
 
 
-def _knuckles(coefficients: FloatArray, curve: IntArray) -> IntArray:
-    """Find the tiles that begin at a knuckle: places where the direction jumps."""
-    point = coefficients[:3]
-    into = point[:, 1, :-1] + 2.0 * point[:, 2, :-1] + 3.0 * point[:, 3, :-1]
-    out = point[:, 1, 1:]
-    along = (into * out).sum(axis=0)
-    lengths = (into * into).sum(axis=0) * (out * out).sum(axis=0)
-    bent = along < np.cos(_SMOOTH) * np.sqrt(lengths)
-    return np.flatnonzero(bent & (curve[1:] == curve[:-1])) + 1
+def _edges(deck: NDArray[np.bool_], curve: IntArray) -> IntArray:
+    """Find the tiles with which a deck begins."""
+    return np.flatnonzero(deck[1:] & ~deck[:-1] & (curve[1:] == curve[:-1])) + 1

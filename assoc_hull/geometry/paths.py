@@ -26,6 +26,9 @@ _STEPS = 60
 
 _DONE = 1e-15
 
+_QUICK, _SMALL = 8, 1e-9
+"""Steps of Newton's rule without a bracket, and the last of them at most."""
+
 
 @attrs.frozen(eq=False)
 class Paths:
@@ -138,7 +141,7 @@ class PathShapes:
 
     def _keys(self, begins: FloatArray) -> FloatArray:
         """Give fractions as keys: those of one path lie between its number and the next."""
-        key: FloatArray = 2.0 * self._owner + np.clip(begins, 0.0, 1.0)
+        key: FloatArray = np.asarray(2.0 * self._owner + np.clip(begins, 0.0, 1.0), np.float64)
         return key
 
     def _bit(self, path: IntArray, w: FloatArray, key: FloatArray) -> IntArray:
@@ -199,11 +202,32 @@ def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
 
 
 def _solve(cubic: FloatArray, target: FloatArray) -> FloatArray:
-    """Find where monotone cubics (k, 4) reach a value: Newton's rule within a bracket."""
+    """Find where monotone cubics (k, 4) reach a value: Newton's rule, else within a bracket."""
     shifted = cubic[:, 0] - target
+    first, second, third = cubic[:, 1], cubic[:, 2], cubic[:, 3]
+    double, triple = 2.0 * second, 3.0 * third
+    slope = first + second + third
+    u = -shifted / np.where(slope == 0.0, 1.0, slope)
+    with np.errstate(all="ignore"):
+        for _ in range(_QUICK):
+            step = ((third * u + second) * u + first) * u
+            step += shifted
+            step /= (triple * u + double) * u + first
+            u -= step
+            # The rule squares an error: what is left after such a step is rounding.
+            if np.abs(step).max(initial=0.0) <= _SMALL:
+                break
+    lost = np.flatnonzero(~((u >= -_DONE) & (u <= 1.0 + _DONE) & (np.abs(step) <= _SMALL)))
+    if len(lost):
+        u[lost] = _bracketed(cubic[lost], shifted[lost])
+    return np.clip(u, 0.0, 1.0)
+
+
+def _bracketed(cubic: FloatArray, shifted: FloatArray) -> FloatArray:
+    """Find the root in [0, 1] of monotone cubics with the given constants, step by safe step."""
     slope = cubic[:, 1] + cubic[:, 2] + cubic[:, 3]
     rising = slope >= 0.0
-    low, high = np.zeros(len(target)), np.ones(len(target))
+    low, high = np.zeros(len(shifted)), np.ones(len(shifted))
     u = np.clip(-shifted / np.where(slope == 0.0, 1.0, slope), 0.0, 1.0)
     for _ in range(_STEPS):
         value = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + shifted
