@@ -63,7 +63,8 @@ def immersion(
     }
     header = header_of(hull, body, terms)
     load = Load(
-        number(weight, "weight", _WHERE),
+        # What is no finite number is refused with the range, which needs the hull.
+        weight if isinstance(weight, float) else number(weight, "weight", _WHERE),
         rho,
         shell_factor,
         None if lcg is None else number(lcg, "lcg", _WHERE),
