@@ -117,7 +117,7 @@ def test_weights_find_their_draughts(hull: ah.Hull) -> None:
     record = ah.hydrostatics(hull, draughts=(found.draught_aft, found.draught_fore))
     assert record.displacement == pytest.approx(5125.0, rel=1e-12)
     assert found.trim_by_stern < 0.0
-    with pytest.raises(ah.OutOfRangeError, match="weight of nan t is none.*from 0 to 8200 t"):
+    with pytest.raises(ah.OutOfRangeError, match=r"weight of nan t is none.*from 0 to 8200 t"):
         ah.immersion(hull, math.nan)
     with pytest.raises(ah.BadInputError, match="weight is 'heavy'"):
         ah.immersion(hull, "heavy")  # type: ignore[arg-type]
