@@ -19,7 +19,7 @@ from assoc_hull.analysis.floating import Limits
 from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.analysis.net.cells import Layout, lay_out
 from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.sections import Sections, flat_ends, sections_of
+from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.coons import CoonsStrips
 from assoc_hull.geometry.curves import FloatArray
@@ -98,11 +98,7 @@ class Flotation:
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
-        ends = flat_ends(self.net, self.closed)
-        if ends is None:
-            return np.zeros(len(planes.height))
-        area: FloatArray = sections_below(ends, planes).sum(axis=1)
-        return area
+        return flat_ends_below(self.net, self.closed, planes)
 
     def changes(self, planes: Planes) -> Sequence[Change]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
