@@ -62,7 +62,7 @@ def _where(tiles: Tiles, tilted: Tilted) -> tuple[IntArray, FloatArray]:
     lower, upper = turns(tilted, wave)
     low, high = lower > 0.0, upper < 1.0
     begin, end = tiles.start[:-1], tiles.start[1:] - 1
-    knots = np.concatenate([begin, tiles.edge, turn])
+    knots = np.concatenate([begin, tiles.edge[tiles.edge >= 0], turn])
     tile = np.concatenate([knots, end, wave[low], wave[high]])
     u = [np.zeros(len(knots)), np.ones(len(end)), lower[low], upper[high]]
     return tile, np.concatenate(u)

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual import real
-from assoc_hull.geometry.immersion_places import Brackets, joined, places, states_at
+from assoc_hull.geometry.immersion_places import Brackets, joined, places
 from assoc_hull.geometry.immersion_roots import Tilted
+from assoc_hull.geometry.immersion_states import Inclination, states_at
 from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.quadrature import bunched
 
@@ -103,7 +104,7 @@ def parts_of(
         _brackets(prepared, levels, state, plane, curve),
         _dips(prepared, inclination, levels, state, soon),
     )
-    found = places(prepared.strips, *inclination, brackets)
+    found = places(prepared.strips, inclination, brackets)
     near = soon.plane * prepared.strips.count + prepared.strip[soon.curve]
     keys, row = np.unique(np.concatenate([found.row, near]), return_inverse=True)
     shares = _shares(soon.share, row[len(found) :], len(keys))
@@ -206,7 +207,7 @@ def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
 
 def _dips(
     prepared: Prepared,
-    inclination: tuple[FloatArray, FloatArray],
+    inclination: Inclination,
     levels: FloatArray,
     state: IntArray,
     soon: Soon,

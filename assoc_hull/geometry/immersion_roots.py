@@ -19,7 +19,7 @@ from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_tiles import Tiles
 from assoc_hull.geometry.roots import bracketed_roots
 
-__all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "mixed", "tilt", "turns"]
+__all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "tilt", "turns"]
 
 
 @attrs.frozen(eq=False)
@@ -156,24 +156,6 @@ def candidates(tilted: Tilted, levels: FloatArray) -> tuple[IntArray, IntArray]:
     tile = np.repeat(np.arange(len(count)), count)
     before = np.cumsum(count) - count
     return tile, np.arange(len(tile)) + (first - before)[tile]
-
-
-def mixed(tilted: Tilted, level: FloatArray) -> IntArray:
-    """Find the tiles that may meet their own level.
-
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    level : (s,), m
-        Plain; one for each.
-
-    Returns
-    -------
-    (p,) int
-        The tiles.
-    """
-    return np.flatnonzero((tilted.low <= level) & (tilted.high > level))
 
 
 def turns(tilted: Tilted, tile: IntArray) -> tuple[FloatArray, FloatArray]:

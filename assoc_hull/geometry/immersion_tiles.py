@@ -27,7 +27,17 @@ from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.tile_sums import mix, root
 
-__all__ = ["CHUNK", "HEELED", "PLAIN", "Tiles", "from_curves", "integrals", "powers", "subset"]
+__all__ = [
+    "CHUNK",
+    "HEELED",
+    "PLAIN",
+    "Tiles",
+    "expand",
+    "from_curves",
+    "integrals",
+    "powers",
+    "subset",
+]
 
 CHUNK = 2048
 """Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
@@ -60,8 +70,8 @@ class Tiles:
         The tile is closed deck.
     lean : (s,) bool
         x or x_v are not the same all along the tile.
-    edge : (n,) int
-        Tiles with which a closed deck begins.
+    edge : (k,) int
+        The tile with which the closed deck of each curve begins; -1 where there is none.
     """
 
     coefficients: FloatArray
@@ -102,11 +112,33 @@ def from_curves(curves: IsoCurves) -> Tiles:
     coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
     lean = (real(coefficients[0::3, 1:]) != 0.0).any(axis=(0, 1))
-    return Tiles(coefficients, owner, curves.start, curves.deck, lean, _edges(curves.deck, owner))
+    edge = _edges(curves.deck, owner, curves.count)
+    return Tiles(coefficients, owner, curves.start, curves.deck, lean, edge)
+
+
+def expand(tiles: Tiles, curve: IntArray) -> tuple[IntArray, IntArray]:
+    """List the tiles of some curves, possibly repeatedly.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        The tiles.
+    curve : (n,) int
+        Which curves.
+
+    Returns
+    -------
+    (t,) int, (t,) int
+        The tiles, and to which of the n each belongs.
+    """
+    sizes = tiles.start[curve + 1] - tiles.start[curve]
+    begin = np.cumsum(sizes) - sizes
+    row = np.repeat(np.arange(len(curve)), sizes)
+    return np.arange(len(row)) + (tiles.start[curve] - begin)[row], row
 
 
 def subset(tiles: Tiles, curve: IntArray) -> Tiles:
-    """Take some curves, possibly repeatedly.
+    """Take some curves.
 
     Parameters
     ----------
@@ -120,17 +152,16 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     Tiles
         Their tiles, in that order.
     """
-    sizes = np.diff(tiles.start)[curve]
-    start = np.concatenate([[0], np.cumsum(sizes)])
-    owner = np.repeat(np.arange(len(curve)), sizes)
-    rows = np.arange(start[-1]) + (tiles.start[curve] - start[:-1])[owner]
+    rows, owner = expand(tiles, curve)
+    start = np.searchsorted(owner, np.arange(len(curve) + 1))
+    deck = tiles.deck[rows]
     return Tiles(
         np.take(tiles.coefficients, rows, axis=2),
         owner,
         start,
-        tiles.deck[rows],
+        deck,
         tiles.lean[rows],
-        _edges(tiles.deck[rows], owner),
+        _edges(deck, owner, len(curve)),
     )
 
 
@@ -207,6 +238,9 @@ def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
     return both[:, :_POINTS], both[:, _POINTS:]
 
 
-def _edges(deck: NDArray[np.bool_], curve: IntArray) -> IntArray:
-    """Find the tiles with which a deck begins."""
-    return np.flatnonzero(deck[1:] & ~deck[:-1] & (curve[1:] == curve[:-1])) + 1
+def _edges(deck: NDArray[np.bool_], curve: IntArray, count: int) -> IntArray:
+    """Find the tiles with which decks begin."""
+    tile = np.flatnonzero(deck[1:] & ~deck[:-1] & (curve[1:] == curve[:-1])) + 1
+    edge = np.full(count, -1)
+    edge[curve[tile]] = tile
+    return edge
