@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.paths import Bit
-from assoc_hull.model.family import BoundaryKind, Sort
+from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["Net", "Part", "gather", "walk"]
@@ -50,6 +50,8 @@ class Net:
         The two curves of each crossing.
     place : (k, 2), m
         Where on each of the two it lies.
+    watched : (k,) bool
+        It defines neither: the curves may pass one another, along a flat by much.
     """
 
     batch: SplineBatch
@@ -63,6 +65,7 @@ class Net:
     centre: NDArray[np.bool_]
     meets: IntArray
     place: FloatArray
+    watched: NDArray[np.bool_]
 
     def __attrs_post_init__(self) -> None:
         freeze(
@@ -106,7 +109,7 @@ def gather(state: HullState) -> Net:
     across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
     offset = table.offset.data[lines]
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    meets, place = _crossings(state, curves, batch)
+    meets, place, watched = _crossings(state, curves, batch)
     return Net(
         batch,
         curves,
@@ -119,13 +122,14 @@ def gather(state: HullState) -> Net:
         flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
         meets,
         place,
+        watched,
     )
 
 
 def _crossings(
     state: HullState, curves: IntArray, batch: SplineBatch
-) -> tuple[IntArray, FloatArray]:
-    """Give which two curves of the net cross in each crossing, and where on them.
+) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+    """Give which two curves of the net cross where, and which crossings define none.
 
     Watched crossings count: a surface within their gap is as good as the net itself.
     """
@@ -142,7 +146,7 @@ def _crossings(
     both = number[table.curve.data[rows]]
     place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
-    return both[good], place[good]
+    return both[good], place[good], table.role.data[rows[good]] == Role.WATCHED
 
 
 def walk(net: Net, part: Part) -> list[Bit]:

@@ -107,6 +107,7 @@ def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
         centre=net.centre[stay],
         meets=meets,
         place=place,
+        watched=net.watched[good],
     )
 
 
