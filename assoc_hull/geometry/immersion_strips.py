@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_critical import Critical, critical
 from assoc_hull.geometry.immersion_roots import Tilted, tilt
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, integrals, subset
@@ -59,6 +60,14 @@ class Prepared:
     def upright(self) -> Tilted:
         """Heights over the planes of no trim and no heel."""
         return tilt(self.tiles, np.zeros(1), np.zeros(1))
+
+    @cached_property
+    def depth(self) -> FloatArray:
+        """Height of each strip between the ends of its tiles, m, (strips,)."""
+        height = real(self.tiles.coefficients[2, 0])
+        begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
+        depth: FloatArray = np.maximum.reduceat(height, begin) - np.minimum.reduceat(height, begin)
+        return depth
 
     @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:
