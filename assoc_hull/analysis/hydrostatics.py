@@ -22,7 +22,7 @@ from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.arguments import choice, flag, number, numbers
 from assoc_hull.errors import BadInputError
 
-__all__ = ["hydrostatic_table", "hydrostatics"]
+__all__ = ["hydrostatic_table", "hydrostatics", "position_of", "trusted_table"]
 
 _WHERE = "in hydrostatics"
 
@@ -106,8 +106,8 @@ def hydrostatics(
     body = body_of(hull)
     header = header_of(hull, body, terms)
     require_numbers(draughts if draught is None else draught, body.limits)
-    position = _position(header, draught, draughts, heel_deg, draught_to)
-    return _table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
+    position = position_of(header, draught, draughts, heel_deg, draught_to)
+    return trusted_table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
 
 
 def hydrostatic_table(
@@ -173,7 +173,7 @@ def hydrostatic_table(
         for trim in slopes
     ]
     shape = (len(levels), len(slopes))
-    return _table(body, positions, header, shape, on_error, estimate=estimate)
+    return trusted_table(body, positions, header, shape, on_error, estimate=estimate)
 
 
 def _keel(header: HydrostaticHeader, draught_to: str) -> float:
@@ -182,7 +182,7 @@ def _keel(header: HydrostaticHeader, draught_to: str) -> float:
     return header.keel_thickness if draught_to == "keel" else 0.0
 
 
-def _position(
+def position_of(
     header: HydrostaticHeader,
     draught: float | None,
     draughts: tuple[float, float] | None,
@@ -203,7 +203,7 @@ def _position(
     return FloatingPosition(aft - keel, fore - keel, heel_deg)
 
 
-def _table(
+def trusted_table(
     body: FloatingBody,
     positions: Sequence[FloatingPosition],
     header: HydrostaticHeader,
