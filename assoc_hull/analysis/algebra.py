@@ -28,7 +28,7 @@ from assoc_hull.analysis.sums import Sums
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
-__all__ = ["Setting", "propagate", "values_of"]
+__all__ = ["Setting", "Values", "propagate", "values_of"]
 
 Values = dict[str, NDArray[Any]]
 

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from assoc_hull.analysis.algebra import Setting, propagate, values_of
+from assoc_hull.analysis.algebra import Setting, Values, propagate, values_of
 from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, require_afloat
-from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.floating_body import FloatingBody, Measurable, StationAreas
 from assoc_hull.analysis.freeboard import freeboard
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.hydrostatic_table import AppendageShare, HydrostaticTable
-from assoc_hull.analysis.sums import Layout, change_of, sums_of
+from assoc_hull.analysis.sums import Layout, Sums, change_of, sums_of
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
-__all__ = ["table_of"]
+__all__ = ["table_of", "values_at"]
 
 
 def table_of(
@@ -52,11 +52,8 @@ def table_of(
         A position in which the hull does not float, with the range.
     """
     planes = require_afloat(positions, body.limits, header.length)
-    setting = Setting(header.length, header.breadth, header.rho, header.shell_factor, header.kg)
-    layout = Layout(0.5 * header.length, header.transom)
-    stations = body.stations(planes)
-    measured = with_appendages(body.measure(planes), header.appendages, planes)
-    sums = sums_of(measured, stations, body.transom(planes), layout)
+    setting, layout = _terms(header)
+    stations, sums = _measured(body, planes, header)
     errors: dict[str, FloatArray] = {}
     if estimate:
         changes = [change_of(each, stations, layout) for each in body.changes(planes)]
@@ -71,6 +68,34 @@ def table_of(
         tuple(_share(each, planes, sums.volume) for each in header.appendages),
         tuple(notes),
     )
+
+
+def values_at(body: Measurable, planes: Planes, header: HydrostaticHeader) -> Values:
+    """Compute every value of the record below planes, (d,) each, in any arithmetic.
+
+    Parameters
+    ----------
+    body : Measurable
+        The hull.
+    planes : Planes
+        Where it floats, which is not checked.
+    header : HydrostaticHeader
+        Dimensions, water, KG, appendages and what counts.
+    """
+    return values_of(_measured(body, planes, header)[1], planes, _terms(header)[0])
+
+
+def _terms(header: HydrostaticHeader) -> tuple[Setting, Layout]:
+    setting = Setting(header.length, header.breadth, header.rho, header.shell_factor, header.kg)
+    return setting, Layout(0.5 * header.length, header.transom)
+
+
+def _measured(
+    body: Measurable, planes: Planes, header: HydrostaticHeader
+) -> tuple[StationAreas, Sums]:
+    stations = body.stations(planes)
+    measured = with_appendages(body.measure(planes), header.appendages, planes)
+    return stations, sums_of(measured, stations, body.transom(planes), _terms(header)[1])
 
 
 def _share(appendage: Appendage, planes: Planes, whole: FloatArray) -> AppendageShare:

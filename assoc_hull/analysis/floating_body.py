@@ -11,7 +11,7 @@ from assoc_hull.analysis.floating import Limits
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Immersed, Planes
 
-__all__ = ["Change", "FloatingBody", "StationAreas"]
+__all__ = ["Change", "FloatingBody", "Measurable", "StationAreas"]
 
 
 @attrs.frozen(eq=False)
@@ -55,13 +55,8 @@ class Change:
     transom: FloatArray | None = None
 
 
-class FloatingBody(Protocol):
+class Measurable(Protocol):
     """A hull that can be cut by planes; both sides of it, m."""
-
-    @property
-    def limits(self) -> Limits:
-        """What a waterplane must lie between, and the deck edge."""
-        ...
 
     def measure(self, planes: Planes) -> Immersed:
         """Give the integrals below each plane."""
@@ -73,6 +68,15 @@ class FloatingBody(Protocol):
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        ...
+
+
+class FloatingBody(Measurable, Protocol):
+    """One that also knows where it floats, and how far its numbers can be trusted."""
+
+    @property
+    def limits(self) -> Limits:
+        """What a waterplane must lie between, and the deck edge."""
         ...
 
     def changes(self, planes: Planes) -> Sequence[Change]:

@@ -13,7 +13,7 @@ import attrs
 
 from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.analysis.compute import table_of
-from assoc_hull.analysis.floating import FloatingPosition, planes_of, rising
+from assoc_hull.analysis.floating import FloatingPosition, planes_of, require_numbers, rising
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
@@ -22,7 +22,7 @@ from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.arguments import choice, flag, number, numbers
 from assoc_hull.errors import BadInputError
 
-__all__ = ["hydrostatic_table", "hydrostatics"]
+__all__ = ["hydrostatic_table", "hydrostatics", "position_of", "trusted_table"]
 
 _WHERE = "in hydrostatics"
 
@@ -105,8 +105,9 @@ def hydrostatics(
     }  # fmt: skip
     body = body_of(hull)
     header = header_of(hull, body, terms)
-    position = _position(header, draught, draughts, heel_deg, draught_to)
-    return _table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
+    require_numbers(draughts if draught is None else draught, body.limits)
+    position = position_of(header, draught, draughts, heel_deg, draught_to)
+    return trusted_table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
 
 
 def hydrostatic_table(
@@ -160,10 +161,11 @@ def hydrostatic_table(
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
         "appendages": appendages, "keel_thickness": keel_thickness, "date": date,
     }  # fmt: skip
-    levels = rising(draughts, "draughts", _WHERE).tolist()
     slopes = rising(trims, "trims", _WHERE).tolist()
     body = body_of(hull)
     header = header_of(hull, body, terms)
+    require_numbers(draughts, body.limits)
+    levels = rising(draughts, "draughts", _WHERE).tolist()
     lift = -_keel(header, draught_to)
     positions = [
         FloatingPosition(lift + t + 0.5 * trim, lift + t - 0.5 * trim, heel_deg)
@@ -171,7 +173,7 @@ def hydrostatic_table(
         for trim in slopes
     ]
     shape = (len(levels), len(slopes))
-    return _table(body, positions, header, shape, on_error, estimate=estimate)
+    return trusted_table(body, positions, header, shape, on_error, estimate=estimate)
 
 
 def _keel(header: HydrostaticHeader, draught_to: str) -> float:
@@ -180,7 +182,7 @@ def _keel(header: HydrostaticHeader, draught_to: str) -> float:
     return header.keel_thickness if draught_to == "keel" else 0.0
 
 
-def _position(
+def position_of(
     header: HydrostaticHeader,
     draught: float | None,
     draughts: tuple[float, float] | None,
@@ -201,7 +203,7 @@ def _position(
     return FloatingPosition(aft - keel, fore - keel, heel_deg)
 
 
-def _table(
+def trusted_table(
     body: FloatingBody,
     positions: Sequence[FloatingPosition],
     header: HydrostaticHeader,

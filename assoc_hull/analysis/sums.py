@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 
 from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersed import Immersed
 
 __all__ = ["Layout", "Sums", "change_of", "sums_of"]
@@ -141,24 +144,33 @@ def _joined(
 
 def _largest(stations: StationAreas, middle: float) -> IntArray:
     """Give which station is the largest, (d,): of equal ones that next to Lpp / 2."""
-    most = stations.area.max(axis=1, keepdims=True)
-    off = np.where(stations.area >= most * (1.0 - 1e-12), np.abs(stations.x - middle), np.inf)
+    area = real(stations.area)
+    most = area.max(axis=1, keepdims=True)
+    off = np.where(area >= most * (1.0 - 1e-12), np.abs(real(stations.x) - middle), np.inf)
     found: IntArray = off.argmin(axis=1)
     return found
 
 
 def _section(stations: StationAreas, x: float) -> FloatArray:
     """Give the area of a section at x, (d,), m2, by Lagrange's cubic where no station is."""
-    near = int(np.argmin(np.abs(stations.x - x)))
-    if abs(stations.x[near] - x) <= 1e-9 * max(abs(x), 1.0):
+    known, count = real(stations.x), min(4, len(stations.x))
+    near = int(np.argmin(np.abs(known - x)))
+    if is_plain(stations.x) and abs(known[near] - x) <= 1e-9 * max(abs(x), 1.0):
         found: FloatArray = stations.area[:, near]
         return found
-    count = min(4, len(stations.x))
-    first = int(np.clip(np.searchsorted(stations.x, x) - 2, 0, len(stations.x) - count))
-    knots = stations.x[first : first + count]
-    weights = [
-        float(np.prod([(x - b) / (a - b) for j, b in enumerate(knots) if j != i]))
-        for i, a in enumerate(knots)
-    ]
-    area: FloatArray = stations.area[:, first : first + count] @ np.array(weights)
-    return area
+    first = int(np.clip(np.searchsorted(known, x) - 2, 0, len(known) - count))
+    knots = [stations.x[i] for i in range(first, first + count)]
+    areas = [stations.area[:, i] for i in range(first, first + count)]
+    return lagrange(knots, areas, x)
+
+
+def lagrange(knots: Sequence[FloatArray], values: Sequence[FloatArray], x: float) -> FloatArray:
+    """Give at x the polynomial that has given values at given places."""
+    found = 0.0 * values[0]
+    for i, (knot, value) in enumerate(zip(knots, values, strict=True)):
+        weight = 1.0 + 0.0 * knot
+        for j, other in enumerate(knots):
+            if j != i:
+                weight = weight * (x - other) / (knot - other)
+        found = found + weight * value
+    return found

@@ -22,8 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.paths import Paths, PathShapes, shapes, stretch
+from assoc_hull.geometry.tile_sums import nil
 
 __all__ = ["Cells", "CoonsStrips"]
 
@@ -149,7 +151,7 @@ class CoonsStrips:
         path = cells.anchor[anchor]
         at, plane = v[curve], cells.plane[strip[curve]]
         first, last = self.walked.ends
-        bow = np.zeros((len(path) + 3, 6), v.dtype)
+        bow = nil((len(path) + 3, 6), v, first)
         for chosen, walk in (
             (np.flatnonzero((path >= 0) & plane), self.walked.at_part),
             (np.flatnonzero((path >= 0) & ~plane), self.walked.at),
@@ -181,5 +183,10 @@ def _spread(start: IntArray, strip: IntArray) -> tuple[IntArray, IntArray]:
 
 def _combined(blend: FloatArray, bow: FloatArray, first: IntArray) -> FloatArray:
     """Give the sums of four rows of `bow` each, (s, 4, 6), by the weights `blend` (s, 4, 4)."""
-    four: FloatArray = np.matmul(blend, bow[first[:, None] + np.arange(4)])
-    return four
+    if is_plain(blend) and is_plain(bow):
+        four: FloatArray = np.matmul(blend, bow[first[:, None] + np.arange(4)])
+        return four
+    total = blend[:, :, 0, None] * bow[first][:, None]
+    for j in (1, 2, 3):
+        total = total + blend[:, :, j, None] * bow[first + j][:, None]
+    return total

@@ -19,7 +19,7 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, NoReturn, Self, cast
+from typing import Any, Literal, NoReturn, Self, cast
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
@@ -108,6 +108,11 @@ class Dual(NDArrayOperatorsMixin):
         return self.value.size
 
     @property
+    def real(self) -> FloatArray:
+        """The values alone, under the name that they have in complex numbers."""
+        return self.value
+
+    @property
     def T(self) -> Dual:  # noqa: N802
         """Axes in reverse order."""
         return self.transpose()
@@ -157,9 +162,9 @@ class Dual(NDArrayOperatorsMixin):
         """Give all entries in one row."""
         return _one(np.ravel, self)
 
-    def copy(self) -> Dual:
+    def copy(self, order: Literal["C", "F", "A", "K"] = "C") -> Dual:
         """Give the same numbers in memory of their own."""
-        return Dual(self.value.copy(), self.dot.copy())
+        return Dual(self.value.copy(order), self.dot.copy(order))
 
     def __array__(self, *_: Any, **__: Any) -> NoReturn:
         _refuse("an array of plain numbers made of values with tangents", "use real(x) for values")

@@ -6,6 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersion_half import curve_by_curve
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
@@ -45,17 +46,16 @@ def sections_below(curves: IsoCurves, planes: Planes) -> FloatArray:
     forward = np.zeros_like(curves.across)
     forward[:, 0, 0] = 1.0
     tiles = from_curves(attrs.evolve(curves, across=forward))
-    found = np.empty((len(planes.height), tiles.curves))
-    for row in range(len(planes.height)):
-        found[row] = _one(tiles, planes, row)
+    found = np.stack([_one(tiles, planes, row) for row in range(len(planes.height))])
     freeze(found)
     return found
 
 
 def _one(tiles: Tiles, planes: Planes, row: int) -> FloatArray:
     """Take each curve as a strip of its own: its volume per metre is the area."""
-    level = planes.height[row : row + 1].repeat(tiles.curves)
+    level = np.repeat(planes.height[row : row + 1], tiles.curves)
     trim, heel = planes.tan_trim[row : row + 1], planes.tan_heel[row : row + 1]
     port = curve_by_curve(tiles, level, trim, heel)[0]
-    area: FloatArray = port + (curve_by_curve(tiles, level, trim, -heel)[0] if heel[0] else port)
+    upright = is_plain(heel) and heel[0] == 0.0
+    area: FloatArray = port + (port if upright else curve_by_curve(tiles, level, trim, -heel)[0])
     return area

@@ -7,10 +7,11 @@ import numpy as np
 
 from assoc_hull.geometry.bernstein import value
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_roots import Tilted, turns
 from assoc_hull.geometry.immersion_tiles import Tiles
 
-__all__ = ["Critical", "critical"]
+__all__ = ["Critical", "critical", "critical_at", "nearest"]
 
 
 @attrs.frozen(eq=False)
@@ -45,7 +46,11 @@ def critical(tiles: Tiles, tilted: Tilted) -> Critical:
     Critical
         Their critical points.
     """
-    tile, u = _where(tiles, tilted)
+    return critical_at(tiles, tilted, *_where(tiles, tilted))
+
+
+def critical_at(tiles: Tiles, tilted: Tilted, tile: IntArray, u: FloatArray) -> Critical:
+    """Give points of tiles, tile and u (n,) each, as critical ones."""
     origin, first, second, third = np.take(tilted.height, tile, axis=1)
     across = np.take(tiles.coefficients[3:], tile, axis=2)
     x_v, y_v, z_v = value(across[:, 0], across[:, 1], across[:, 2], across[:, 3], u)
@@ -64,5 +69,40 @@ def _where(tiles: Tiles, tilted: Tilted) -> tuple[IntArray, FloatArray]:
     begin, end = tiles.start[:-1], tiles.start[1:] - 1
     knots = np.concatenate([begin, tiles.edge[tiles.edge >= 0], turn])
     tile = np.concatenate([knots, end, wave[low], wave[high]])
-    u = [np.zeros(len(knots)), np.ones(len(end)), lower[low], upper[high]]
-    return tile, np.concatenate(u)
+    inner = np.concatenate([lower[low], upper[high]])
+    turns_at = _moved(tilted, tile[len(knots) + len(end) :], inner)
+    return tile, np.concatenate([np.zeros(len(knots)), np.ones(len(end)), turns_at])
+
+
+def _moved(tilted: Tilted, tile: IntArray, u: FloatArray) -> FloatArray:
+    """Carry derivatives through turns that were found among plain numbers."""
+    if is_plain(tilted.height):
+        return u
+    _, first, second, third = np.take(tilted.height, tile, axis=1)
+    slope = first + u * (2.0 * second + u * (3.0 * third))
+    bend = real(2.0 * second + 6.0 * u * third)
+    moved: FloatArray = u - (slope - real(slope)) / np.where(bend == 0.0, np.inf, bend)
+    return moved
+
+
+def nearest(points: Critical, level: FloatArray, curves: int) -> IntArray:
+    """Give which of its critical points lies nearest to the level of each curve.
+
+    Parameters
+    ----------
+    points : Critical
+        Of so many curves.
+    level : (curves,), m
+        Plain.
+    curves : int
+        Number of curves.
+
+    Returns
+    -------
+    (curves,) int
+        Of the points.
+    """
+    over = np.abs(real(points.height) - level[points.curve])
+    order = np.lexsort((over, points.curve))
+    found: IntArray = order[np.searchsorted(points.curve[order], np.arange(curves))]
+    return found

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual import real
+from assoc_hull.geometry.immersion_follow import followed
 from assoc_hull.geometry.immersion_places import Brackets, joined, places
 from assoc_hull.geometry.immersion_roots import Tilted
 from assoc_hull.geometry.immersion_states import Inclination, states_at
@@ -107,7 +108,8 @@ def parts_of(
         _brackets(prepared, levels, state, plane, curve),
         _dips(prepared, inclination, levels, state, soon),
     )
-    found = places(prepared.strips, inclination, brackets)
+    found = places(prepared.plain, inclination, brackets)
+    found = followed(prepared, tilted, levels, found)
     near = soon.plane * prepared.strips.count + prepared.strip[soon.curve]
     keys, row = np.unique(np.concatenate([found.row, near]), return_inverse=True)
     shares = _shares(soon.share, row[len(found) :], len(keys))
@@ -185,12 +187,12 @@ def _intervals(keys: IntArray, found: Brackets) -> tuple[FloatArray, FloatArray,
     none = np.full(len(keys), -1)
     edge = np.concatenate([np.zeros(len(keys)), 0.5 * (found.low + found.high), np.ones(len(keys))])
     owner = np.concatenate([keys, found.row, keys])
-    order = np.lexsort((edge, owner))
+    order = np.lexsort((real(edge), owner))
     edge, owner = edge[order], owner[order]
     after = np.concatenate([none, found.above, none])[order][:-1]
     before = np.concatenate([none, found.below, none])[order][1:]
     wet = np.where(after >= 0, after, before) != 0
-    inside = np.flatnonzero((owner[1:] == owner[:-1]) & wet & (edge[1:] > edge[:-1]))
+    inside = np.flatnonzero((owner[1:] == owner[:-1]) & wet & (np.diff(real(edge)) > 0.0))
     return edge[inside], edge[inside + 1] - edge[inside], owner[inside]
 
 
@@ -230,7 +232,7 @@ def _dips(
     begin, end = prepared.v[curve, None], prepared.v[inner, None]
     trial = begin + (end - begin) * 0.5 ** np.arange(_LADDER, 0, -1)
     seen = states_at(
-        prepared.strips,
+        prepared.plain,
         inclination,
         np.repeat(prepared.strip[curve], _LADDER),
         trial.ravel(),

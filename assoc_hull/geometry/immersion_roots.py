@@ -21,6 +21,10 @@ from assoc_hull.geometry.roots import bracketed_roots
 
 __all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "tilt", "turns"]
 
+_LEAST = 1e-30
+"""Added to a cut with derivatives: a part of a tile from 0 to 0 has an area that grows with the
+cut, but as the square root of a square, which at nil has no derivative."""
+
 
 @attrs.frozen(eq=False)
 class Tilted:
@@ -277,9 +281,9 @@ def _polished(tilted: Tilted, tile: IntArray, level: FloatArray, u: FloatArray) 
     if is_plain(height) and is_plain(level):
         return u
     first, second, third, fourth = np.take(height, tile, axis=1)
-    above = value(first - level, second, third, fourth, u)
+    above = first - level + u * (second + u * (third + u * fourth))
     slope = second + u * (2.0 * third + u * (3.0 * fourth))
     # What is left of the residual is rounding: only its derivative is wanted.
     steep = np.abs(real(slope)) > 0.0
     change = (above - real(above)) / np.where(steep, slope, 1.0)
-    return u - np.where(steep, change, 0.0)
+    return u - np.where(steep, change, 0.0) + _LEAST

@@ -40,6 +40,8 @@ class Prepared:
         of a strip lie at v = 0 and 1.
     tiles : Tiles
         The curves.
+    plain : Strips
+        The body in plain numbers, for decisions.
     """
 
     strips: Strips
@@ -48,11 +50,12 @@ class Prepared:
     v: FloatArray
     weight: FloatArray
     tiles: Tiles
-    _plain: FloatArray
+    plain: Strips
+    _whole: FloatArray
 
     def weighted(self, heeled: bool) -> FloatArray:
         """Integrals of the tiles, by the weights of their curves: (7, s), with heel (11, s)."""
-        return self._heeled if heeled else self._plain
+        return self._heeled if heeled else self._whole
 
     @cached_property
     def _heeled(self) -> FloatArray:
@@ -109,7 +112,7 @@ class Prepared:
         return level
 
 
-def prepare(strips: Strips, factor: int = 1) -> Prepared:
+def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Prepared:
     """Integrate the tiles of a body's curves.
 
     Parameters
@@ -119,6 +122,8 @@ def prepare(strips: Strips, factor: int = 1) -> Prepared:
         degree as Gauss's of n.
     factor : int
         By how much to raise the order along v: two orders tell the error of one.
+    plain : Strips or None
+        The body in plain numbers, if `strips` gives others: decisions look at these.
 
     Returns
     -------
@@ -139,7 +144,9 @@ def prepare(strips: Strips, factor: int = 1) -> Prepared:
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
     tiles = from_curves(strips.curves(strip, v))
     fine = order + _MORE
-    return Prepared(strips, fine, strip, v, weight, tiles, _weighted(tiles, weight, heeled=False))
+    whole = _weighted(tiles, weight, heeled=False)
+    known = strips if plain is None else plain
+    return Prepared(strips, fine, strip, v, weight, tiles, known, whole)
 
 
 def _weighted(tiles: Tiles, weight: FloatArray, heeled: bool) -> FloatArray:

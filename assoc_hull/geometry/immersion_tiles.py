@@ -25,7 +25,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
-from assoc_hull.geometry.tile_sums import mix, root
+from assoc_hull.geometry.tile_sums import differs, mix, root
 
 __all__ = [
     "CHUNK",
@@ -111,7 +111,7 @@ def from_curves(curves: IsoCurves) -> Tiles:
     rows = [each[:, power, axis] for each in both for axis in range(3) for power in range(4)]
     coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
-    lean = (real(coefficients[0::3, 1:]) != 0.0).any(axis=(0, 1))
+    lean = np.asarray(differs(coefficients[0::3, 1:]).any(axis=(0, 1)))
     edge = _edges(curves.deck, owner, curves.count)
     return Tiles(coefficients, owner, curves.start, curves.deck, lean, edge)
 

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.segments import power, segment_start
 
 __all__ = ["Bit", "PathShapes", "Paths", "shapes"]
@@ -125,15 +126,14 @@ class PathShapes:
 
     @cached_property
     def _begins(self) -> FloatArray:
-        return self._keys(self.begin)
+        return self._keys(real(self.begin))
 
     @cached_property
     def _reached(self) -> FloatArray:
         """Say what part of the way along x lies before each bit, as keys."""
-        first, last = (end[self._owner, 0] for end in self.ends)
-        return self._keys(
-            (self.cubic[:, 0, 0] - first) / np.where(last == first, 1.0, last - first)
-        )
+        first, last = (real(end)[self._owner, 0] for end in self.ends)
+        span = np.where(last == first, 1.0, last - first)
+        return self._keys((real(self.cubic)[:, 0, 0] - first) / span)
 
     @cached_property
     def _owner(self) -> IntArray:
@@ -147,7 +147,7 @@ class PathShapes:
     def _bit(self, path: IntArray, w: FloatArray, key: FloatArray) -> IntArray:
         """Find the bit of each path on which a fraction lies."""
         start = self.paths.start
-        found = np.searchsorted(key, 2.0 * path + w, side="right") - 1
+        found = np.searchsorted(key, 2.0 * path + real(w), side="right") - 1
         return np.clip(found, start[path], start[path + 1] - 1)
 
     def _on(self, bit: IntArray, w: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -179,7 +179,7 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     base = base[owner]
     cubic = stretch(power(batch)[paths.segment], paths.low, paths.high)
     # A path that is a point has one bit, from 0 to 1 like any other.
-    point = whole == 0.0
+    point = real(whole) == 0.0
     whole = np.where(point, 1.0, whole)
     finish = np.where(point, 1.0, (total[1:] - base) / whole)
     return PathShapes(paths, cubic, (total[:-1] - base) / whole, finish)
@@ -202,6 +202,18 @@ def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
 
 
 def _solve(cubic: FloatArray, target: FloatArray) -> FloatArray:
+    """Find where monotone cubics (k, 4) reach a value, in the arithmetic of both."""
+    u = _solve_plain(real(cubic), real(target))
+    if is_plain(cubic) and is_plain(target):
+        return u
+    missed = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + cubic[:, 0] - target
+    rate = real((3.0 * cubic[:, 3] * u + 2.0 * cubic[:, 2]) * u + cubic[:, 1])
+    # What is left of the residual is rounding: only its derivative is wanted.
+    found: FloatArray = u - (missed - real(missed)) / np.where(rate == 0.0, 1.0, rate)
+    return found
+
+
+def _solve_plain(cubic: FloatArray, target: FloatArray) -> FloatArray:
     """Find where monotone cubics (k, 4) reach a value: Newton's rule, else within a bracket."""
     shifted = cubic[:, 0] - target
     first, second, third = cubic[:, 1], cubic[:, 2], cubic[:, 3]

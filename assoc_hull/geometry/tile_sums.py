@@ -8,12 +8,28 @@ them. The sums below are kept together here, so that one place knows how each ty
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.dual import is_plain, real
+from assoc_hull.geometry.dual import Dual, as_array, is_plain, real
 from assoc_hull.geometry.dual import sum_by as sum_rows_by
 
-__all__ = ["mix", "root", "sum_by"]
+__all__ = ["differs", "mix", "nil", "root", "sum_by"]
+
+
+def differs(values: FloatArray) -> NDArray[np.bool_]:
+    """Tell which numbers are not nil, or have a derivative that is not."""
+    if isinstance(values, Dual):
+        return np.asarray((values.value != 0.0) | (values.dot != 0.0).any(axis=0))
+    return np.asarray(values != 0.0)
+
+
+def nil(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
+    """Give zeros of the arithmetic that results from all of some numbers."""
+    for each in like:
+        if isinstance(each, Dual):
+            return as_array(Dual.constant(np.zeros(shape), each.count))
+    return np.zeros(shape, np.result_type(*like))
 
 
 def root(values: FloatArray) -> FloatArray:
@@ -69,6 +85,10 @@ def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
     if count == 1:
         alone: FloatArray = values.sum(axis=1)[:, None]
         return alone
+    if isinstance(values, Dual):
+        dot = values.dot.reshape(values.count * len(values), values.shape[1])
+        sums = sum_by(dot, owner, count).reshape(values.count, len(values), count)
+        return as_array(Dual(sum_by(values.value, owner, count), sums))
     if not is_plain(values):
         summed: FloatArray = sum_rows_by(values.T, owner, count).T
         return summed

@@ -15,7 +15,11 @@ from assoc_hull.geometry.evaluation import derivative, evaluate
 __all__ = ["Anchor", "Spans", "anchors", "spans"]
 
 _PLACES = ("boundary", "waterlines", "buttocks", "diagonals", "frames")
-"""Where two lines cross one another between sections, the family that stands first is taken."""
+"""Where two lines cross one another between sections, the family that stands first is taken.
+
+Borders of flats come last: a waterline that leaves the flat between two sections says more of
+the hull there than the border, along which nothing bends.
+"""
 
 _APART = 1e-5
 """Anchors lie so far apart on both rails, in lengths of the rail."""
@@ -43,8 +47,6 @@ class Anchor:
         Where it lies on the rails.
     low, high : float
         How far up the rails that is, from 0 to 1.
-    corner : bool
-        The hull has a knuckle along it.
     """
 
     parts: tuple[Part, ...]
@@ -52,7 +54,6 @@ class Anchor:
     fore: Spot
     low: float
     high: float
-    corner: bool = False
 
 
 @attrs.frozen
@@ -86,7 +87,7 @@ def spans(net: Net) -> Spans:
                 marks.setdefault(both[own], []).append((place[own], both[other], place[other]))
     for curve in sorted(marks):
         order = sorted(marks[curve])
-        rank = _PLACES.index(net.family[curve])
+        rank = len(_PLACES) if net.flat[curve] else _PLACES.index(net.family[curve])
         for (t0, c0, s0), (t1, c1, s1) in itertools.pairwise(order):
             if t1 > t0:
                 found.append(((curve, t0, t1), (c0, s0), (c1, s1), rank))

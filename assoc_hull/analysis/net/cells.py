@@ -9,7 +9,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.anchors import Spot, anchors, spans, steady
+from assoc_hull.analysis.net.anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.sections import CENTRE
@@ -107,7 +107,11 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         found[i], run = anchors(given, every)
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        first, blend = blends(np.array([0.5 * (each.low + each.high) for each in run]))
+        first, blend = blends(
+            np.array([0.5 * (each.low + each.high) for each in run]),
+            [_side(net, each, net.flat) for each in run],
+            [_side(net, each, net.knuckle) for each in run],
+        )
         for j, (below, above) in enumerate(itertools.pairwise(run)):
             aft = draft.add(_between(found[i].aft, below.aft, above.aft))
             fore = draft.add(_between(found[i].fore, below.fore, above.fore))
@@ -128,16 +132,26 @@ def _top(frame: Frame) -> list[Part]:
     return [(rail[-1][0], rail[-1][2], rail[-1][2]) for rail in (frame.aft, frame.fore)]
 
 
-def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
+def _side(net: Net, anchor: Anchor, which: NDArray[np.bool_]) -> bool:
+    """Tell whether an anchor runs along curves of a kind."""
+    return any(which[part[0]] for part in anchor.parts)
+
+
+def blends(
+    height: FloatArray, flat: Sequence[bool] = (), knuckle: Sequence[bool] = ()
+) -> tuple[IntArray, FloatArray]:
     """Give how the cells of a strip carry on between the anchors, as cubics.
 
     Each cubic has the values of the two anchors at its ends, and there the slopes of the
-    parabolas through three neighbouring anchors.
+    parabolas through three neighbouring anchors. At the border of a flat, to which the hull is
+    tangent, the slope is nil; at a knuckle each side has its own, that of the straight line.
 
     Parameters
     ----------
     height : (a,)
         Where the anchors lie, ascending, a >= 2.
+    flat, knuckle : sequence of bool
+        Which anchors are borders of flats, and knuckles; none if not given.
 
     Returns
     -------
@@ -147,8 +161,8 @@ def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
         By which weights: ``sum_j cubic[:, i, j] value[first + j]`` is the coefficient of f^i.
     """
     count = len(height)
-    width = np.diff(height)
     slope = _slopes(height)
+    slope[np.flatnonzero(flat)] = 0.0
     first = np.clip(np.arange(count - 1) - 1, 0, max(count - 4, 0))
     column = first[:, None] + np.arange(4)
     inside = column < count
@@ -156,10 +170,15 @@ def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
     cell = np.arange(count - 1)
     one = np.eye(count)
     below, above = (np.take_along_axis(one[cell + k], column, 1) * inside for k in (0, 1))
+    width = np.diff(height)[:, None]
     leave, arrive = (
-        np.take_along_axis(slope[cell + k] * width[:, None], column, 1) * inside for k in (0, 1)
+        np.take_along_axis(slope[cell + k] * width, column, 1) * inside for k in (0, 1)
     )
     step = above - below
+    sharp = np.zeros(count, np.bool_)
+    sharp[np.flatnonzero(knuckle)] = True
+    leave = np.where(sharp[:-1, None], step, leave)
+    arrive = np.where(sharp[1:, None], step, arrive)
     cubic = [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step]
     return first, np.stack(cubic, axis=1)
 

@@ -7,10 +7,13 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.dual import real
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.segments import power
 
-__all__ = ["CENTRE", "Sections", "flat_ends", "sections_of"]
+__all__ = ["CENTRE", "Sections", "flat_ends_below", "sections_of"]
 
 CENTRE = 1e-4
 """A curve that ends so near to the centre plane (m) ends on it."""
@@ -59,10 +62,13 @@ def sections_of(net: Net, closed: bool) -> Sections:
     return Sections(_curves(net, chosen, closed), chosen, station, x, names)
 
 
-def flat_ends(net: Net, closed: bool) -> IsoCurves | None:
-    """Take the transom and other ends in planes across the ship; None if there are none."""
+def flat_ends_below(net: Net, closed: bool, planes: Planes) -> FloatArray:
+    """Give the area of transom and other ends in planes across the ship, (d,), m2."""
     chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
-    return _curves(net, chosen, closed) if len(chosen) else None
+    if not len(chosen):
+        return np.zeros(len(planes.height))
+    area: FloatArray = sections_below(_curves(net, chosen, closed), planes).sum(axis=1)
+    return area
 
 
 def _curves(net: Net, chosen: IntArray, closed: bool) -> IsoCurves:
@@ -74,7 +80,8 @@ def _curves(net: Net, chosen: IntArray, closed: bool) -> IsoCurves:
         last = cubic[-1].sum(axis=0)
         covered = bool(closed and abs(last[1]) > CENTRE)
         if covered:
-            lid = np.array([last, [0.0, -last[1], 0.0], [0.0] * 3, [0.0] * 3])
+            across = last * np.array([0.0, -1.0, 0.0])
+            lid = np.stack([last, across, 0.0 * last, 0.0 * last])
             cubic = np.concatenate([cubic, lid[None]])
         tiles.append(cubic)
         deck += [False] * (len(cubic) - covered) + [True] * covered
@@ -87,7 +94,7 @@ def _upward(cubic: FloatArray) -> FloatArray:
     """Turn a curve so that it runs from keel to deck: it encloses area to port."""
     first, last = cubic[:, 0], cubic.sum(axis=1)
     swept = (0.5 * (first[:, 1] + last[:, 1]) * (last[:, 2] - first[:, 2])).sum()
-    if swept >= 0.0:
+    if real(swept) >= 0.0:
         return cubic
     c0, c1, c2, c3 = (cubic[::-1, i] for i in range(4))
     return np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)

@@ -71,12 +71,12 @@ def test_lines_that_run_to_a_point_make_a_rail_of_it() -> None:
 
 
 def test_a_thinned_net_lacks_every_other_section() -> None:
-    """The outermost stay; what is left out differs between the two choices; lines follow."""
+    """What is left out differs between the two choices, the outermost included; lines follow."""
     state = wigley()
     net = gather(state)
     even, odd = (every_other_section(net, first) for first in (0, 1))
     assert not (even & odd).any()
-    assert int((even | odd).sum()) == 17  # 19 sections but the two outermost
+    assert int((even | odd).sum()) == 19
     fewer = thinned(state, net, even)
     assert len(planes(fewer)) == 19 - int(even.sum())
     level = fewer.name.index("WL 2.5")

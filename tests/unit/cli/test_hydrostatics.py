@@ -109,7 +109,7 @@ def test_a_table_is_written(hull: Path, facts: Json, tmp_path: Path) -> None:
     [
         (["--draught", "9"], ["draught of 9 m", "from 0 to 8 m"]),
         (["--draught", "-1"], ["draught of -1 m", "below the keel", "from 0 to 8 m"]),
-        (["--draught", "nan"], ["nan", "finite"]),
+        (["--draught", "nan"], ["draught of nan m", "from 0 to 8 m"]),
         (["--heel", "95"], ["heel of 95 deg"]),
         (["--table", "4:2:1"], ["does not rise"]),
         (["--table", "4:8"], ["FROM:TO:STEP"]),
@@ -118,7 +118,7 @@ def test_a_table_is_written(hull: Path, facts: Json, tmp_path: Path) -> None:
         (["--trims", "1"], ["--trims", "--table"]),
         (["--lcg", "1"], ["--lcg", "--weight"]),
         (["--weight", "1e6"], ["weight of 1000000 t", "more than the hull carries"]),
-        (["--weight", "nan"], ["nan", "finite"]),
+        (["--weight", "nan"], ["weight of nan t is none", "from 0 to 8200 t"]),
         (["--rho", "0"], ["rho is 0.0"]),
         (["--appendage", "fin,1,2"], ["NAME,VOLUME,X,Y,Z,AREA"]),
         (["--appendage", "fin,nan,0,0,0,0"], ["volume is nan"]),

@@ -1,0 +1,217 @@
+"""Exact derivatives of hydrostatics: the kernel's own sums, differentiated.
+
+Everything runs through the same code as the values, on arrays that carry tangents
+(`assoc_hull.geometry.dual`): the loft with its chord lengths, the surface, its cuts by the
+plane, the places where the immersed part changes its kind, and the algebra of the record.
+
+Reference: A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, ch. 3
+(forward mode).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.compute import values_at
+from assoc_hull.analysis.floating import planes_of
+from assoc_hull.analysis.flotation import Flotation, flotation
+from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.hydrostatics import DraughtTo, OnError, position_of, trusted_table
+from assoc_hull.analysis.measured_hull import HasState, header_of
+from assoc_hull.analysis.parameters import Parameter, Position, Shape
+from assoc_hull.analysis.record import Hydrostatics
+from assoc_hull.analysis.record_fields import FIELDS
+from assoc_hull.analysis.varied import Varied
+from assoc_hull.arguments import all_of, choice
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, SplineBatch, freeze
+from assoc_hull.geometry.dual import Dual, as_array, real
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.loft_tangents import loft_tangents
+from assoc_hull.model.recipe import curve_data
+
+__all__ = ["Derivatives", "hydrostatic_derivatives"]
+
+_WHERE = "in hydrostatic_derivatives"
+_AT_ONCE = 8
+"""Tangents that are carried along together, which bounds the memory."""
+
+
+@attrs.frozen(eq=False)
+class Derivatives:
+    """Derivatives of a record of hydrostatics by k parameters.
+
+    Attributes
+    ----------
+    value : Hydrostatics
+        The record.
+    names, units : tuple of k str
+        The parameters and their units.
+    columns : mapping of str to (k,)
+        By field of the record: its derivatives, in its unit per unit of each parameter; nan
+        where the record has no value.
+    """
+
+    value: Hydrostatics
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    columns: Mapping[str, FloatArray]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(*self.columns.values())
+
+    def of(self, name: str) -> FloatArray:
+        """Give the derivatives of one field of the record, (k,).
+
+        Raises
+        ------
+        BadInputError
+            The record has no such field.
+        """
+        return self.columns[choice(name, "the field", self.columns, _WHERE)]
+
+    def matrix(self, names: Iterable[str]) -> FloatArray:
+        """Give the derivatives of some fields, (n, k): a row each."""
+        return np.stack([self.of(name) for name in names])
+
+
+def hydrostatic_derivatives(
+    hull: HasState,
+    wrt: Iterable[Parameter],
+    *,
+    draught: float | None = None,
+    draughts: tuple[float, float] | None = None,
+    heel_deg: float = 0.0,
+    rho: float = SALT,
+    shell_factor: float = 1.0,
+    kg: float | None = None,
+    transom: bool = False,
+    on_error: OnError = "refuse",
+    appendages: Iterable[Appendage] = (),
+    keel_thickness: float = 0.0,
+    draught_to: DraughtTo = "moulded",
+) -> Derivatives:
+    """Differentiate the hydrostatics of a hull at one floating position.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    wrt : iterable of k parameters
+        By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
+        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.parameters`.
+    draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
+        As for `hydrostatics`.
+    keel_thickness, draught_to
+        As for `hydrostatics`.
+
+    Returns
+    -------
+    Derivatives
+        The record, and its derivatives.
+
+    Raises
+    ------
+    WrongTypeError, BadInputError, UnknownNameError, FreedomError, PointRoleError
+        A parameter that cannot be used; else as `hydrostatics`.
+
+    Notes
+    -----
+    Particulars (Lpp, B), water, KG and appendages stay as they are. The layout of the surface
+    is that of the hull as it stands; where a value has a kink (the largest station changes,
+    a section begins to be wet) the derivative is that to one side.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.derivatives import hydrostatic_derivatives
+    >>> from assoc_hull.analysis.parameters import DRAUGHT, PointMove
+    >>> from assoc_hull.sources import examples
+    >>> wrt = [DRAUGHT, PointMove("WL 2.5 x ST 7")]
+    >>> found = hydrostatic_derivatives(examples.wigley(), wrt, draught=6.25)
+    >>> found.of("volume").round(2).tolist(), round(found.value.waterplane_area, 2)
+    ([666.67, 24.35], 666.67)
+    """
+    terms: dict[str, object] = {
+        "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
+        "appendages": appendages, "keel_thickness": keel_thickness,
+    }  # fmt: skip
+    body = flotation(hull.state)
+    header = header_of(hull, body, terms)
+    position = position_of(header, draught, draughts, heel_deg, draught_to)
+    parameters = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]
+    table = trusted_table(body, [position], header, (1, 1), on_error, estimate=False)
+    plane = planes_of([position], header.length)
+    return Derivatives(
+        table[0],
+        tuple(each.title for each in parameters),
+        tuple(each.per for each in parameters),
+        MappingProxyType(_differentiated(body, plane, header, parameters)),
+    )
+
+
+def _differentiated(
+    body: Flotation, plane: Planes, header: HydrostaticHeader, wrt: Sequence[Parameter]
+) -> dict[str, FloatArray]:
+    """Give the derivatives, (k,) by field; those by the position, which are cheap, apart."""
+    found = {name: np.zeros(len(wrt)) for name in FIELDS}
+    positions = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Position)]
+    shapes = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Shape)]
+    for i in range(0, len(positions), _AT_ONCE):
+        some = positions[i : i + _AT_ONCE]
+        tilted = _planes(plane, header.length, [each for _, each in some])
+        _put(found, [k for k, _ in some], values_at(body, tilted, header))
+    for i in range(0, len(shapes), _AT_ONCE):
+        few = shapes[i : i + _AT_ONCE]
+        varied = Varied(body, _batch(body, [each for _, each in few]))
+        _put(found, [k for k, _ in few], values_at(varied, plane, header))
+    return found
+
+
+def _put(found: dict[str, FloatArray], where: list[int], values: Mapping[str, Any]) -> None:
+    """Put the tangents of values at one position in their places; nan where there is no value."""
+    for name, value in values.items():
+        dot = value.dot[:, 0] if isinstance(value, Dual) else 0.0
+        found[name][where] = np.where(np.isnan(real(value)[0]), np.nan, dot)
+
+
+def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
+    """Give the plane with its tangents."""
+    aft, fore, heel = np.array([each.rates for each in some]).T[..., None]
+    turn = np.radians(heel) * (1.0 + plain.tan_heel**2)
+    return Planes(
+        as_array(Dual(plain.height, aft)),
+        as_array(Dual(plain.tan_trim, (fore - aft) / length)),
+        as_array(Dual(plain.tan_heel, turn)),
+    )
+
+
+def _batch(body: Flotation, some: Sequence[Shape]) -> SplineBatch:
+    """Loft the lines anew, with tangents."""
+    data = curve_data(body.state, body.net.curve)
+    if not np.array_equal(data.xyz, body.net.batch.xyz):
+        raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
+    curves = body.state.curves
+    row = np.concatenate([curves.rows.data[each] for each in body.net.curve.tolist()])
+    xyz, direction, end_vector = (
+        np.zeros((len(some), *each.shape)) for each in (data.xyz, data.direction, data.end_vector)
+    )
+    for k, each in enumerate(some):
+        move, gradient = each.moves(body.state)
+        xyz[k] = move[row]
+        if gradient is not None:
+            direction[k], end_vector[k] = _turned(data, gradient[row])
+    return loft_tangents(data, xyz, direction, end_vector).batch()
+
+
+def _turned(data: CurveData, gradient: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give how given directions turn: by the gradient at their points, (n, 3, 3)."""
+    ends = gradient[np.stack([data.start[:-1], data.start[1:] - 1], axis=1)]
+    turned = np.einsum("meij,mej->mei", ends, data.end_vector)
+    tangent = (data.end_kind == EndKind.TANGENT)[..., None]
+    return np.einsum("nij,nj->ni", gradient, data.direction), np.where(tangent, turned, 0.0)

@@ -1,0 +1,75 @@
+"""A hull whose lines carry derivatives along, put together as it was without them.
+
+The layout is that of the hull as it stands: which cell lies where, where along its segments
+a line ends on another, what is decided. So the sums are differentiated, not the decisions.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.floating_body import StationAreas
+from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.analysis.net.sections import flat_ends_below, sections_of
+from assoc_hull.geometry.coons import CoonsStrips
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.dual import is_plain
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+
+__all__ = ["Varied"]
+
+
+@attrs.frozen(eq=False)
+class Varied:
+    """The surface of a net whose splines are of any arithmetic; implements `Measurable`.
+
+    Attributes
+    ----------
+    base : Flotation
+        The hull in plain numbers, which gives the layout.
+    batch : SplineBatch
+        Its splines: with tangents, complex, or of points that have moved a little.
+    """
+
+    base: Flotation
+    batch: SplineBatch
+
+    @cached_property
+    def net(self) -> Net:
+        """The lines."""
+        return attrs.evolve(self.base.net, batch=self.batch)
+
+    @cached_property
+    def prepared(self) -> Prepared:
+        """The surface with its integrals."""
+        strips = CoonsStrips.on(self.base.layout.cells, self.batch)
+        return prepare(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
+
+    def measure(self, planes: Planes) -> Immersed:
+        """Give the integrals below each plane."""
+        return immersed(self.prepared, planes)
+
+    def stations(self, planes: Planes) -> StationAreas:
+        """Give the areas of the stations below each plane."""
+        found = sections_of(self.net, self.base.closed)
+        area = found.per_station(sections_below(found.curves, planes))
+        return StationAreas(self._places(found.x), area, found.names)
+
+    def _places(self, x: FloatArray) -> FloatArray:
+        """Give where the stations are: where the first points of their first pieces have gone."""
+        sections = self.base.sections
+        first = sections.curve[np.searchsorted(sections.station, np.arange(len(x)))]
+        row = self.batch.start[first]
+        was = self.base.net.batch.xyz[row, 0]
+        gone: FloatArray = x + (self.batch.xyz[row, 0] - was)
+        return gone
+
+    def transom(self, planes: Planes) -> FloatArray:
+        """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        return flat_ends_below(self.net, self.base.closed, planes)
