@@ -61,11 +61,13 @@ class Parts:
     plane, strip : (n,) int
         For which plane, across which strip.
     v, weight : (n,)
-        Where, and the share in the integrals; nil for curves that only tell extents.
+        Where, and the share in the integrals.
     instead, replaced : (m,) int
         For which plane, which curve of the plain rule.
     share : (m,)
         How much of it is replaced.
+    places : Brackets
+        Where the immersed part changes its kind.
     """
 
     plane: IntArray
@@ -75,6 +77,7 @@ class Parts:
     instead: IntArray
     replaced: IntArray
     share: FloatArray
+    places: Brackets
 
 
 def parts_of(
@@ -147,10 +150,6 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
     """Lay the fine rule between all places of one strip and plane."""
     count = prepared.strips.count
     v, weight, owner = _fine_points(prepared, keys, found)
-    # The places themselves have no share, but there a waterplane may end.
-    v = np.concatenate([v, found.low, found.high])
-    owner = np.concatenate([owner, found.row, found.row])
-    weight = np.concatenate([weight, np.zeros(2 * len(found))])
     first = np.searchsorted(prepared.strip, keys % count)
     sizes = np.searchsorted(prepared.strip, keys % count, "right") - first
     again = np.repeat(np.arange(len(keys)), sizes)
@@ -163,6 +162,7 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
         instead=(keys // count)[again],
         replaced=first[again] + within,
         share=np.take(shares, again),
+        places=found,
     )
 
 

@@ -18,7 +18,17 @@ from assoc_hull.geometry.immersion_roots import Tilted, brackets, tilt
 from assoc_hull.geometry.immersion_tiles import Tiles, expand, from_curves
 from assoc_hull.geometry.isocurves import Strips
 
-__all__ = ["DECK", "KEEL", "Inclination", "Look", "batches", "look", "states", "states_at"]
+__all__ = [
+    "DECK",
+    "KEEL",
+    "Inclination",
+    "Look",
+    "batches",
+    "look",
+    "states",
+    "states_at",
+    "times_cut",
+]
 
 Inclination = tuple[FloatArray, FloatArray]
 """Tangents of trim and heel, (1,) each, plain."""
@@ -76,6 +86,11 @@ def states(
     return state
 
 
+def times_cut(state: IntArray) -> IntArray:
+    """Tell from states how often curves are cut."""
+    return state % _EDGE // _CUT
+
+
 def batches(
     strips: Strips, strip: IntArray, v: FloatArray, plain: bool = False
 ) -> Iterator[tuple[IntArray, IntArray, Tiles]]:
@@ -99,7 +114,11 @@ def batches(
     Tiles
         of these.
     """
-    _, first, which = np.unique(2.0 * strip + v, return_index=True, return_inverse=True)
+    if is_plain(v):
+        _, first, which = np.unique(2.0 * strip + v, return_index=True, return_inverse=True)
+    else:
+        # Equal places may move differently.
+        first = which = np.arange(len(strip))
     order = np.argsort(which, kind="stable")
     for begin in range(0, len(first), _CURVES):
         some = first[begin : begin + _CURVES]

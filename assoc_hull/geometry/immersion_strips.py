@@ -93,9 +93,7 @@ class Prepared:
         curve, tiles = self.ends
         found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
         moves = np.flatnonzero(~self._level(found))
-        return Critical(
-            curve[found.curve[moves]], np.take(found.height, moves), np.take(found.change, moves)
-        )
+        return attrs.evolve(found, curve=curve[found.curve]).take(moves)
 
     def _level(self, found: Critical) -> NDArray[np.bool_]:
         """Tell which points belong to an edge that is level along the strip, as most keels are.
