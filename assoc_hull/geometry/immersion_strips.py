@@ -68,11 +68,11 @@ class Prepared:
 
     @cached_property
     def depth(self) -> FloatArray:
-        """Height of each strip between the ends of its tiles, m, (strips,)."""
-        height = real(self.tiles.coefficients[2, 0])
+        """Height of each strip, m, (strips,); 1 where it has none."""
+        low, high = self.upright.low, self.upright.high
         begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
-        depth: FloatArray = np.maximum.reduceat(height, begin) - np.minimum.reduceat(height, begin)
-        return depth
+        depth = np.maximum.reduceat(high, begin) - np.minimum.reduceat(low, begin)
+        return np.where(depth > 0.0, depth, 1.0)
 
     @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:
@@ -102,7 +102,7 @@ class Prepared:
         """
         end = self.ends[0][found.curve]
         strip, fore = self.strip[end], self.v[end] == 1.0
-        least = _LEVEL * np.maximum(self.depth[strip], np.finfo(float).tiny)
+        least = _LEVEL * self.depth[strip]
         step = np.rint(real(found.height) / least).astype(np.int64)
         _, which = np.unique(strip + self.strips.count * step, return_inverse=True)
         both = (np.bincount(which, fore) > 0.0) & (np.bincount(which, ~fore) > 0.0)
