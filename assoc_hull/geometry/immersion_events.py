@@ -21,8 +21,8 @@ from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_follow import followed
 from assoc_hull.geometry.immersion_places import Brackets, joined, places
 from assoc_hull.geometry.immersion_roots import Tilted
-from assoc_hull.geometry.immersion_states import Inclination, states_at
-from assoc_hull.geometry.immersion_strips import Prepared
+from assoc_hull.geometry.immersion_states import Inclination, flickers, states_at
+from assoc_hull.geometry.immersion_strips import LEVEL, Prepared
 from assoc_hull.geometry.quadrature import bunched
 from assoc_hull.geometry.tile_sums import root
 
@@ -102,8 +102,7 @@ def parts_of(
         None if nothing happens anywhere.
     """
     soon = _soon(prepared, tilted, levels)
-    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
-    plane, curve = np.nonzero(changed)
+    plane, curve = _changes(prepared, tilted, real(levels), state)
     if not len(plane) and not len(soon.plane):
         return None
     inclination = real(tilted.trim), real(tilted.heel)
@@ -118,6 +117,21 @@ def parts_of(
     shares = _shares(soon.share, row[len(found) :], len(keys))
     known = np.isin(keys, found.row)
     return _rules(prepared, keys, np.where(known, 1.0, shares), found)
+
+
+def _changes(
+    prepared: Prepared, tilted: Tilted, levels: FloatArray, state: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Find planes and curves after which the state changes, and not only by rounding."""
+    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
+    plane, curve = np.nonzero(changed)
+    if not len(plane):
+        return plane, curve
+    least = LEVEL * prepared.depth[prepared.strip[curve]]
+    change = state[plane, curve] ^ state[plane, curve + 1]
+    pair = np.stack([curve, curve + 1])
+    real_ones = ~flickers(prepared.tiles, tilted, pair, levels[plane], change, least)
+    return plane[real_ones], curve[real_ones]
 
 
 def _brackets(

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual import is_plain, real
@@ -24,6 +25,7 @@ __all__ = [
     "Inclination",
     "Look",
     "batches",
+    "flickers",
     "look",
     "states",
     "states_at",
@@ -84,6 +86,50 @@ def states(
     wet = (edge >= 0) & (tilted.control[0][edge] <= level)
     state: IntArray = _CUT * times + KEEL * keel + DECK * deck + _EDGE * wet
     return state
+
+
+def flickers(
+    tiles: Tiles,
+    tilted: Tilted,
+    pair: IntArray,
+    level: FloatArray,
+    change: IntArray,
+    least: FloatArray,
+) -> NDArray[np.bool_]:
+    """Tell where states of neighbouring curves differ only by rounding.
+
+    Parameters
+    ----------
+    tiles, tilted : Tiles, Tilted
+        The tiles.
+    pair : (2, n) int
+        The neighbours.
+    level : (n,), m
+        The plane's height.
+    change : (n,) int
+        In which bits their states differ.
+    least : (n,), m
+        What is closer to the plane lies in it.
+
+    Returns
+    -------
+    (n,) bool
+        Keel, end or deck's edge of both lie in the plane, and no other than these differ but
+        for the cuts that come with them.
+    """
+    edge = tiles.edge[pair]
+    heights = (
+        (KEEL, tilted.control[0][tiles.start[pair]]),
+        (DECK, tilted.control[3][tiles.start[pair + 1] - 1]),
+        (_EDGE, np.where(edge >= 0, tilted.control[0][edge], np.inf)),
+    )
+    some, all_in = np.zeros(len(change), bool), np.ones(len(change), bool)
+    for bit, height in heights:
+        differs = (change & bit) != 0
+        within = (np.abs(height - level) <= least).all(axis=0)
+        some, all_in = some | differs, all_in & (within | ~differs)
+    flicker: NDArray[np.bool_] = some & all_in
+    return flicker
 
 
 def times_cut(state: IntArray) -> IntArray:

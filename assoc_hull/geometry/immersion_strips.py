@@ -17,9 +17,11 @@ from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, integrals, s
 from assoc_hull.geometry.isocurves import Strips
 from assoc_hull.geometry.quadrature import lobatto
 
-__all__ = ["Prepared", "prepare"]
+__all__ = ["LEVEL", "Prepared", "prepare"]
 
-_LEVEL = 1e-9  # of a strip's depth: so much is no slope
+LEVEL = 1e-9
+"""Of a strip's depth: so much is no slope."""
+
 _MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
@@ -102,7 +104,7 @@ class Prepared:
         """
         end = self.ends[0][found.curve]
         strip, fore = self.strip[end], self.v[end] == 1.0
-        least = _LEVEL * self.depth[strip]
+        least = LEVEL * self.depth[strip]
         step = np.rint(real(found.height) / least).astype(np.int64)
         _, which = np.unique(strip + self.strips.count * step, return_inverse=True)
         both = (np.bincount(which, fore) > 0.0) & (np.bincount(which, ~fore) > 0.0)

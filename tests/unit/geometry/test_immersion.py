@@ -327,3 +327,18 @@ def test_waterplanes_under_heel_end_where_the_section_touches_the_plane() -> Non
     found, known = (immersed(prepare(form), planes([3.0], 0.01, 0.3)) for form in (coarse, fine))
     for name in ("x_least", "x_most"):
         assert abs(getattr(found, name)[0] - getattr(known, name)[0]) <= 1e-8
+
+
+def test_an_edge_that_is_level_but_for_rounding_is_no_event() -> None:
+    """A deck at 12 m but for the last bits of a sum: V does not notice on which side it lies."""
+    form = FormStrips(
+        breadth=16.0 * Polynomial([0.5, 1.0]) * Polynomial([1.0, -1.0]),
+        keel=Polynomial([0.1, -1.7, 2.3]),
+        height=Polynomial([12.0 - 0.1, 1.7, -2.3]),
+        rake=Polynomial([0.0]),
+        strips=3,
+        points=2,
+    )
+    deck = 12.0 * (1.0 + np.array([-1e-14, 0.0, 1e-14]))
+    volume = immersed(prepare(form), planes(deck)).volume
+    assert np.ptp(volume) <= 1e-11 * volume[1]
