@@ -75,7 +75,7 @@ class Row:
 
     def scale(self, name: str) -> float:
         """What rounding of the value is measured by."""
-        lengths = ("lcb", "tcb", "kb", "lcf", "tcf")
+        lengths = ("lcb", "tcb", "kb", "lcf", "tcf", "bwl")
         if name in lengths:
             return 100.0
         return self.truth.i_l if name == "i_lt" else abs(float(getattr(self.truth, name)))
@@ -85,7 +85,7 @@ class Row:
 def rows() -> list[Row]:
     """All families, sizes and positions, with their truth."""
     truth = {
-        "wigley": StripBody.of(prepare(exact_hulls.wigley(points=800)), 5.0, 12.5),
+        "wigley": StripBody.of(prepare(exact_hulls.wigley(points=600)), 5.0, 12.5),
         "ellipsoid": StripBody.of(prepare(exact_hulls.ellipsoid(points=200)), 0.0, 12.0),
     }
     return list(_rows(truth))
