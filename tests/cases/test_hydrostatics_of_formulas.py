@@ -75,9 +75,10 @@ class Row:
 
     def scale(self, name: str) -> float:
         """What rounding of the value is measured by."""
-        lengths = ("lcb", "tcb", "kb", "lcf", "tcf", "bwl")
-        if name in lengths:
+        if name in ("lcb", "tcb", "kb", "lcf", "tcf"):
             return 100.0
+        if name in ("lwl", "bwl"):
+            return 1e6  # extents are read between curves: a micrometre is nothing
         return self.truth.i_l if name == "i_lt" else abs(float(getattr(self.truth, name)))
 
 

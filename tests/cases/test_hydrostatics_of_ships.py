@@ -56,13 +56,8 @@ def test_series_60_has_its_sectional_areas(
     """Areas of the 25 stations over the largest, within .0015 rms of the published column."""
     body = todd[cb]
     path = data_folder / "series60" / f"s60_cb0{100 * cb:.0f}_offsets.csv"
-    lines = [line.split(",") for line in path.read_text("utf-8").splitlines() if line[0] in "012"]
-    lines += [
-        line.split(",")
-        for line in path.read_text("utf-8").splitlines()
-        if line[0] in "3456789"
-    ]
-    table = np.array([(float(line[0]), float(line[-1])) for line in lines])
+    rows = [line.split(",") for line in path.read_text("utf-8").splitlines() if line[0].isdigit()]
+    table = np.array([(float(row[0]), float(row[-1])) for row in rows])
     table = table[np.argsort(-table[:, 0])]
     found = body.stations(level(body.state.particulars.draught))
     spacing = body.state.particulars.length / 20.0
@@ -72,25 +67,37 @@ def test_series_60_has_its_sectional_areas(
     assert np.sqrt((off**2).mean()) <= 1.5e-3
 
 
-@CASES
-def test_areas_do_not_overshoot_between_the_stations_of_a_parallel_body(
-    todd: dict[float, Flotation], cb: float
+def test_areas_do_not_overshoot_between_the_stations_of_the_parallel_body(
+    todd: dict[float, Flotation],
 ) -> None:
-    """A cubic through the stations does, by .05 %; the surface by no more than 1e-5."""
-    body = todd[cb]
-    ship = body.state.particulars
-    for draught in (0.5 * ship.draught, ship.draught):
-        plane = level(draught)
-        own = body.stations(plane).area[0]
-        flat = body.sections.x[own > own.max() * (1.0 - 1e-4)]
-        x = np.linspace(0.0, ship.length, 1001)
-        area = section_areas(body, x, plane)[0]
-        assert np.isfinite(area).sum() > 900
-        over = float(np.nanmax(area) / own.max() - 1.0)
-        print(f"\nSeries 60 CB {cb:.2f}, {draught:.2f} m: most over the largest {over:+.1e}")
-        assert over <= 1e-5
-        inside = (x >= flat[0]) & (x <= flat[-1])
-        assert (area[inside] >= own.max() * (1.0 - 2e-4)).all()
+    """Of CB .70, between ST 10 and ST 11, which are equal.
+
+    A cubic through the areas of the stations does by .05 %; the surface, which goes through the
+    waterlines there, leaves no more than a tenth of that.
+    """
+    body = todd[0.70]
+    plane = level(body.state.particulars.draught)
+    x = np.linspace(10.0, 11.0, 201) * 0.05 * body.state.particulars.length
+    area, own = section_areas(body, x, plane)[0], body.stations(plane).area[0]
+    print(f"\nSeries 60 CB .70: {area.max() / own.max() - 1.0:+.1e} over the largest station")
+    assert own[body.sections.names.index("ST 10")] == pytest.approx(own.max(), rel=1e-9)
+    assert own[body.sections.names.index("ST 11")] == pytest.approx(own.max(), rel=1e-9)
+    assert area.max() <= own.max() * (1.0 + 5e-5)
+    assert area.min() >= own.max() * (1.0 - 1e-9)
+
+
+def test_areas_anywhere_are_those_of_the_stations_there(todd: dict[float, Flotation]) -> None:
+    """On stations and next to them; nil beyond the ends, nan between an end and a station."""
+    body = todd[0.60]
+    plane = level(4.0, 6.5)
+    own = body.stations(plane)
+    x = own.x[1:-1]
+    np.testing.assert_array_equal(section_areas(body, x, plane), own.area[:, 1:-1])
+    ahead, behind = (section_areas(body, x[1:-1] + step, plane) for step in (1e-4, -1e-4))
+    np.testing.assert_allclose(ahead, own.area[:, 2:-2], atol=0.01)
+    np.testing.assert_allclose(behind, own.area[:, 2:-2], atol=0.01)
+    assert section_areas(body, np.array([-5.0, 130.0]), plane).tolist() == [[0.0, 0.0]] * 2
+    assert np.isnan(section_areas(body, np.array([-1.0]), plane)).all()
 
 
 def test_parts_between_stations_make_up_the_whole() -> None:
@@ -113,9 +120,7 @@ def test_parts_between_stations_make_up_the_whole() -> None:
 def test_the_adopted_container_ship_displaces_what_its_mesh_does(dtc: ah.Hull) -> None:
     """DTC at 14.5 m: V within .05 %, LCB within .02 % Lpp, S within .3 % of the clipped mesh."""
     found = ah.hydrostatics(dtc, draught=14.5)
-    print(
-        f"\nDTC: V {found.volume:.1f} m3, LCB {found.lcb:.4f} m, S {found.wetted_surface:.1f} m2"
-    )
+    print(f"\nDTC: V {found.volume:.1f} m3, LCB {found.lcb:.4f} m, S {found.wetted_surface:.1f} m2")
     assert len(dtc.groups["sections"].lines) == 41
     assert found.volume == pytest.approx(173398.1, rel=5e-4)
     assert found.lcb == pytest.approx(174.0565, abs=2e-4 * 355.0)
