@@ -12,6 +12,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_critical import critical
 from assoc_hull.geometry.immersion_roots import Tilted, brackets, tilt
 from assoc_hull.geometry.immersion_tiles import Tiles, expand, from_curves
@@ -76,7 +77,7 @@ def states(
 
 
 def batches(
-    strips: Strips, strip: IntArray, v: FloatArray
+    strips: Strips, strip: IntArray, v: FloatArray, plain: bool = False
 ) -> Iterator[tuple[IntArray, IntArray, Tiles]]:
     """Give curves, each but once.
 
@@ -86,6 +87,8 @@ def batches(
         The body.
     strip, v : (n,) int, (n,)
         Which curves are asked for.
+    plain : bool
+        Only decisions are to be taken: without what derivatives the curves carry.
 
     Yields
     ------
@@ -102,7 +105,10 @@ def batches(
         some = first[begin : begin + _CURVES]
         low, high = np.searchsorted(which[order], [begin, begin + len(some)])
         rows = order[low:high]
-        yield rows, which[rows] - begin, from_curves(strips.curves(strip[some], v[some]))
+        curves = strips.curves(strip[some], v[some])
+        if plain and not is_plain(curves.point):
+            curves = attrs.evolve(curves, point=real(curves.point), across=real(curves.across))
+        yield rows, which[rows] - begin, from_curves(curves)
 
 
 def states_at(
@@ -127,7 +133,7 @@ def states_at(
         Their `states`.
     """
     state = np.zeros(len(v), np.int64)
-    for rows, curve, tiles in batches(strips, strip, v):
+    for rows, curve, tiles in batches(strips, strip, v, plain=True):
         state[rows] = _state(tiles, tilt(tiles, *inclination), curve, level[rows])
     return state
 
@@ -143,7 +149,7 @@ def look(
         States, and how far the points that decide about them are from the planes.
     """
     state, over = np.zeros(len(v), np.int64), np.full((len(v), _POINTS), np.inf)
-    for rows, curve, tiles in batches(strips, strip, v):
+    for rows, curve, tiles in batches(strips, strip, v, plain=True):
         tilted = tilt(tiles, *inclination)
         state[rows] = _state(tiles, tilted, curve, level[rows])
         over[rows] = _heights(tiles, tilted)[curve] - level[rows, None]

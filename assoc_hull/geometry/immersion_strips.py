@@ -6,6 +6,7 @@ from functools import cached_property
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -18,6 +19,7 @@ from assoc_hull.geometry.quadrature import lobatto
 
 __all__ = ["Prepared", "prepare"]
 
+_LEVEL = 1e-9  # of a strip's depth: so much is no slope
 _MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
@@ -84,13 +86,30 @@ class Prepared:
         return self._ends_critical(self.upright)
 
     def critical(self, tilted: Tilted) -> Critical:
-        """Critical points of the curves at both ends of all strips."""
+        """Critical points of the curves at both ends of all strips, but for level edges."""
         return self.upright_ends if tilted is self.upright else self._ends_critical(tilted)
 
     def _ends_critical(self, inclined: Tilted) -> Critical:
         curve, tiles = self.ends
         found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
-        return attrs.evolve(found, curve=curve[found.curve])
+        moves = np.flatnonzero(~self._level(found))
+        return Critical(
+            curve[found.curve[moves]], np.take(found.height, moves), np.take(found.change, moves)
+        )
+
+    def _level(self, found: Critical) -> NDArray[np.bool_]:
+        """Tell which points belong to an edge that is level along the strip, as most keels are.
+
+        Such an edge comes out of the water all at once: nothing comes into the strip with it.
+        """
+        end = self.ends[0][found.curve]
+        strip, fore = self.strip[end], self.v[end] == 1.0
+        least = _LEVEL * np.maximum(self.depth[strip], np.finfo(float).tiny)
+        step = np.rint(real(found.height) / least).astype(np.int64)
+        _, which = np.unique(strip + self.strips.count * step, return_inverse=True)
+        both = (np.bincount(which, fore) > 0.0) & (np.bincount(which, ~fore) > 0.0)
+        level: NDArray[np.bool_] = both[which] & (np.abs(real(found.change)) <= least)
+        return level
 
 
 def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Prepared:
@@ -99,7 +118,8 @@ def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Pre
     Parameters
     ----------
     strips : Strips
-        The body.
+        The body. A strip of order n gets Lobatto's rule of n + 1 points, exact to the same
+        degree as Gauss's of n.
     factor : int
         By how much to raise the order along v: two orders tell the error of one.
     plain : Strips or None

@@ -55,9 +55,9 @@ class Changed:
         )
 
 
-def below(change: Any, trim: float, heel: float) -> Any:
+def below(change: Any, trim: float, heel: float, height: float = 5.3) -> Any:
     """The integrals of the changed form as one row."""
-    planes = Planes(np.array([5.3]), np.array([trim]), np.array([heel]))
+    planes = Planes(np.array([height]), np.array([trim]), np.array([heel]))
     found = immersed(prepare(Changed(change)), planes)
     return np.stack([getattr(found, name) for name in [*SUMS, "y_most", "x_most"]])[:, 0]
 
@@ -78,9 +78,10 @@ def test_tangents_of_the_form_are_its_derivatives(trim: float, heel: float) -> N
         assert (np.abs(found.dot[which] - slope) <= 1e-7 * size).all()
 
 
-def test_complex_steps_and_tangents_agree() -> None:
-    """The same derivative both ways, to rounding."""
-    dual = below(Dual(np.zeros(3), np.eye(3)), 0.02, 0.2)
+@pytest.mark.parametrize("height", [0.6, 5.3, 10.6])
+def test_complex_steps_and_tangents_agree(height: float) -> None:
+    """The same derivative both ways, to rounding, also where keel or deck edge pass the plane."""
+    dual = below(Dual(np.zeros(3), np.eye(3)), 0.02, 0.2, height)
     for which in range(3):
-        step = below(1e-30j * np.eye(3)[which], 0.02, 0.2).imag / 1e-30
+        step = below(1e-30j * np.eye(3)[which], 0.02, 0.2, height).imag / 1e-30
         assert np.abs(step - dual.dot[which]).max() <= 1e-12 * np.abs(step).max()
