@@ -21,7 +21,7 @@ from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
 
 __all__ = ["Layout", "lay_out"]
 
-_ORDER, _END_ORDER = 3, 6
+_ORDER, _END_ORDER = 4, 6
 """Gauss points along a strip between sections, and along one at an end of the ship, where
 lines are steeper."""
 
