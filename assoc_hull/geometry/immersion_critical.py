@@ -11,6 +11,9 @@ from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_roots import Tilted, turns
 from assoc_hull.geometry.immersion_tiles import Tiles, powers
 
+_LEVEL = 1e-9
+"""m: a height that bends less along a tile has no turn that could be told to move."""
+
 __all__ = ["Critical", "critical", "critical_at", "nearest"]
 
 
@@ -95,8 +98,8 @@ def _moved(tilted: Tilted, tile: IntArray, u: FloatArray) -> FloatArray:
     _, first, second, third = np.take(tilted.height, tile, axis=1)
     slope = first + u * (2.0 * second + u * (3.0 * third))
     bend = real(2.0 * second + 6.0 * u * third)
-    moved: FloatArray = u - (slope - real(slope)) / np.where(bend == 0.0, np.inf, bend)
-    return moved
+    clear = np.abs(bend) > _LEVEL
+    return u - np.where(clear, (slope - real(slope)) / np.where(clear, bend, 1.0), 0.0)
 
 
 def nearest(points: Critical, level: FloatArray, curves: int) -> IntArray:
