@@ -23,6 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.geometry.backend import compiled
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.isocurves import IsoCurves
@@ -197,15 +198,27 @@ class CoonsStrips:
         """Give one curve for each pair of a strip and a v, (k,) each."""
         cells = self.cells
         where = cells.places(strip)
+        done = self._compiled(where, v)
+        if done is not None:
+            return IsoCurves(where.start, *done, where.deck)
         rise = _combined(self.blend[where.tile], self._bows(where, v), where.first)
         span = self.span[where.tile]
         point = self.aft[where.tile] + v[where.curve][:, None, None] * span + rise[:, :, :3]
         across = span + rise[:, :, 3:]
-        deck = where.deck
-        if deck.any():
-            for shape in (point, across):
-                shape[deck, 1, 1] = -shape[deck, 0, 1]
-        return IsoCurves(where.start, point, across, deck)
+        _lay_decks(where.deck, point, across)
+        return IsoCurves(where.start, point, across, where.deck)
+
+    def _compiled(self, where: Places, v: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+        """Let compiled code do it, if there is any, for plain numbers; None if it cannot."""
+        kernels = compiled()
+        if kernels is None or len(where.other[0]) or not (is_plain(v) and is_plain(self.aft)):
+            return None
+        bow = np.zeros((where.anchors + 3, 6))
+        done = kernels.tiles(where, v, self.walked, (self.aft, self.span, self.blend), bow)
+        if done is not None:
+            _lay_decks(where.deck, *done)
+        found: tuple[FloatArray, FloatArray] | None = done
+        return found
 
     def _bows(self, where: Places, v: FloatArray) -> FloatArray:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
@@ -227,6 +240,13 @@ class CoonsStrips:
             bow[chosen, :3] = place - (begin + at[:, None] * chord)
             bow[chosen, 3:] = slope - chord
         return bow
+
+
+def _lay_decks(deck: NDArray[np.bool_], point: FloatArray, across: FloatArray) -> None:
+    """Let the tiles of decks run in from where they begin, to the centre plane."""
+    if deck.any():
+        for shape in (point, across):
+            shape[deck, 1, 1] = -shape[deck, 0, 1]
 
 
 def _starts(start: IntArray, strip: IntArray) -> IntArray:

@@ -17,7 +17,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.segments import power, segment_start
 
-__all__ = ["Bit", "PathShapes", "Paths", "shapes"]
+__all__ = ["QUICK", "SMALL", "Bit", "PathShapes", "Paths", "shapes"]
 
 Bit = tuple[int, float, float]
 """A segment, and the parameters (0 to 1) between which it is walked; backward if they fall."""
@@ -27,7 +27,7 @@ _STEPS = 60
 
 _DONE = 1e-15
 
-_QUICK, _SMALL = 8, 1e-9
+QUICK, SMALL = 8, 1e-9
 """Steps of Newton's rule without a bracket, and the last of them at most."""
 
 
@@ -221,15 +221,15 @@ def _solve_plain(cubic: FloatArray, target: FloatArray) -> FloatArray:
     slope = first + second + third
     u = -shifted / np.where(slope == 0.0, 1.0, slope)
     with np.errstate(all="ignore"):
-        for _ in range(_QUICK):
+        for _ in range(QUICK):
             step = ((third * u + second) * u + first) * u
             step += shifted
             step /= (triple * u + double) * u + first
             u -= step
             # The rule squares an error: what is left after such a step is rounding.
-            if np.abs(step).max(initial=0.0) <= _SMALL:
+            if np.abs(step).max(initial=0.0) <= SMALL:
                 break
-    good = (u >= -_SMALL) & (u <= 1.0 + _SMALL) & (np.abs(step) <= _SMALL)
+    good = (u >= -SMALL) & (u <= 1.0 + SMALL) & (np.abs(step) <= SMALL)
     if not good.all():
         lost = np.flatnonzero(~good)
         u[lost] = _bracketed(cubic[lost], shifted[lost])

@@ -6,6 +6,7 @@ import pytest
 from assoc_hull.analysis.net.cells import blends, lay_out
 from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.examples.wigley import wigley
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.coons import CoonsStrips
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.isocurves import IsoCurves
@@ -131,3 +132,24 @@ def test_blends_carry_parabolas_on_without_error(count: int) -> None:
         at = height[cell] + f * (height[cell + 1] - height[cell])
         found = (f[:, None] ** np.arange(4)) @ (cubic[cell] @ value[first[cell] : first[cell] + 4])
         assert found == pytest.approx(parabola(at), abs=1e-9)
+
+
+def test_compiled_code_gives_the_same_surface(
+    surface: tuple[HullState, Net, CoonsStrips],
+) -> None:
+    """To rounding; where numba is not installed there is nothing to compare."""
+    pytest.importorskip("numba")
+    strips = surface[2]
+    every = np.arange(strips.count).repeat(3)
+    v = np.tile([0.0, 0.37, 1.0], strips.count)
+    before = backend()
+    try:
+        set_backend("numpy")
+        plain = strips.curves(every, v)
+        set_backend("numba")
+        fast = strips.curves(every, v)
+    finally:
+        set_backend(before)
+    assert fast.start.tolist() == plain.start.tolist()
+    assert fast.point == pytest.approx(plain.point, abs=1e-11)
+    assert fast.across == pytest.approx(plain.across, abs=1e-9)
