@@ -69,9 +69,11 @@ class Prepared:
     @cached_property
     def depth(self) -> FloatArray:
         """Height of each strip between the ends of its tiles, m, (strips,)."""
-        height = real(self.tiles.coefficients[2, 0])
+        height = real(self.tiles.coefficients[2])
+        low, high = height[0], height.sum(axis=0)
         begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
-        depth: FloatArray = np.maximum.reduceat(height, begin) - np.minimum.reduceat(height, begin)
+        top = np.maximum.reduceat(np.maximum(low, high), begin)
+        depth: FloatArray = top - np.minimum.reduceat(np.minimum(low, high), begin)
         return depth
 
     @cached_property
