@@ -15,6 +15,7 @@ import assoc_hull.examples  # else its first import would bind this name again
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
     from assoc_hull.errors import (
@@ -71,6 +72,7 @@ __all__ = [
     "UnknownNameError",
     "__version__",
     "examples",
+    "hydrostatic_derivatives",
     "hydrostatic_table",
     "hydrostatics",
     "immersion",
@@ -82,6 +84,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "analysis.appendage": ("Appendage",),
+    "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
     "errors": (

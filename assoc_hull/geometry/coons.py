@@ -17,6 +17,8 @@ TR-41 (1967).
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +29,40 @@ from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.paths import Paths, PathShapes, shapes, stretch
 from assoc_hull.geometry.tile_sums import nil
 
-__all__ = ["Cells", "CoonsStrips"]
+__all__ = ["Cells", "CoonsStrips", "Places"]
+
+_KEPT = 4
+"""So many answers are kept: the rule along the strips asks the same after each edit."""
+
+
+@attrs.frozen(eq=False)
+class Places:
+    """What curves across given strips are made of, whatever the shape.
+
+    Attributes
+    ----------
+    start : (k + 1,) int
+        Where the tiles of each curve begin.
+    curve, tile : (s,) int
+        The curve of each tile, and the tile of the cells it is.
+    first : (s,) int
+        The first of the four anchors that shape it, counted through all curves.
+    deck : (s,) bool
+        It is closed deck.
+    anchors : int
+        Number of anchors of all curves.
+    plane, other : ((a,), (a,), (a,)) int
+        Anchors that are walked by x, and by their length: their numbers, paths and curves.
+    """
+
+    start: IntArray
+    curve: IntArray
+    tile: IntArray
+    first: IntArray
+    deck: NDArray[np.bool_]
+    anchors: int
+    plane: tuple[IntArray, IntArray, IntArray]
+    other: tuple[IntArray, IntArray, IntArray]
 
 
 @attrs.frozen(eq=False)
@@ -76,9 +111,40 @@ class Cells:
     plane: NDArray[np.bool_]
     deck: NDArray[np.bool_]
     order: IntArray
+    _known: dict[bytes, Places] = attrs.field(factory=dict, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
-        freeze(*attrs.astuple(self, recurse=False)[1:])
+        freeze(*attrs.astuple(self, recurse=False)[1:-1])
+
+    @cached_property
+    def rail(self) -> IntArray:
+        """The bits of all tiles on the rails aft, then on those forward, (2 t,)."""
+        return np.concatenate([self.aft, self.fore])
+
+    def places(self, strip: IntArray) -> Places:
+        """Find what curves across strips (k,) consist of; the last answers are kept."""
+        key = strip.tobytes()
+        if key not in self._known:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            self._known[key] = self._places(strip)
+        return self._known[key]
+
+    def _places(self, strip: IntArray) -> Places:
+        curve, tile = _spread(self.tile_start, strip)
+        whose, anchor = _spread(self.anchor_start, strip)
+        path, flat = self.anchor[anchor], self.plane[strip[whose]]
+        by_x, by_length = np.flatnonzero((path >= 0) & flat), np.flatnonzero((path >= 0) & ~flat)
+        return Places(
+            _starts(self.tile_start, strip),
+            curve,
+            tile,
+            _starts(self.anchor_start, strip)[curve] + self.first[tile],
+            self.deck[tile],
+            len(path),
+            (by_x, path[by_x], whose[by_x]),
+            (by_length, path[by_length], whose[by_length]),
+        )
 
 
 @attrs.frozen(eq=False)
@@ -109,11 +175,13 @@ class CoonsStrips:
         walked = shapes(cells.paths, batch)
         low = np.where(cells.low < 0, np.where(cells.low < -1, 1.0, 0.0), walked.begin[cells.low])
         high = np.where(cells.high < 0, 1.0, walked.begin[cells.high])
-        rails = []
-        for bit in (cells.aft, cells.fore):
-            begin, span = walked.begin[bit], walked.finish[bit] - walked.begin[bit]
-            rails.append(stretch(walked.cubic[bit], (low - begin) / span, (high - begin) / span))
-        return cls(cells, walked, rails[0], rails[1] - rails[0], stretch(cells.blend, low, high))
+        bit, count = cells.rail, len(cells.aft)
+        begin, finish = walked.begin[bit], walked.finish[bit]
+        both = np.stack([low, low, high, high]).reshape(2, -1)
+        part = (both - begin) / (finish - begin)
+        rails = stretch(walked.cubic[bit], part[0], part[1])
+        aft, fore = rails[:count], rails[count:]
+        return cls(cells, walked, aft, fore - aft, stretch(cells.blend, low, high))
 
     @property
     def count(self) -> int:
@@ -128,40 +196,35 @@ class CoonsStrips:
     def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
         """Give one curve for each pair of a strip and a v, (k,) each."""
         cells = self.cells
-        curve, tile = _spread(cells.tile_start, strip)
-        start = _starts(cells.tile_start, strip)
-        bow = self._bows(strip, v)
-        anchor = _starts(cells.anchor_start, strip)[curve] + cells.first[tile]
-        rise = _combined(self.blend[tile], bow, anchor)
-        span = self.span[tile]
-        point = self.aft[tile] + v[curve][:, None, None] * span + rise[:, :, :3]
+        where = cells.places(strip)
+        rise = _combined(self.blend[where.tile], self._bows(where, v), where.first)
+        span = self.span[where.tile]
+        point = self.aft[where.tile] + v[where.curve][:, None, None] * span + rise[:, :, :3]
         across = span + rise[:, :, 3:]
-        deck = cells.deck[tile]
-        for shape in (point, across):
-            shape[deck, 1, 1] = -shape[deck, 0, 1]
-        return IsoCurves(start, point, across, deck)
+        deck = where.deck
+        if deck.any():
+            for shape in (point, across):
+                shape[deck, 1, 1] = -shape[deck, 0, 1]
+        return IsoCurves(where.start, point, across, deck)
 
-    def _bows(self, strip: IntArray, v: FloatArray) -> FloatArray:
+    def _bows(self, where: Places, v: FloatArray) -> FloatArray:
         """Give by how much each anchor of each strip leaves its chord, and the derivative by v.
 
         (b, 6), with three rows of nil behind, so that four can be taken from any.
         """
-        cells = self.cells
-        curve, anchor = _spread(cells.anchor_start, strip)
-        path = cells.anchor[anchor]
-        at, plane = v[curve], cells.plane[strip[curve]]
         first, last = self.walked.ends
-        bow = nil((len(path) + 3, 6), v, first)
-        for chosen, walk in (
-            (np.flatnonzero((path >= 0) & plane), self.walked.at_part),
-            (np.flatnonzero((path >= 0) & ~plane), self.walked.at),
+        bow = nil((where.anchors + 3, 6), v, first)
+        for chosen, path, of, walk in (
+            (*where.plane, self.walked.at_part),
+            (*where.other, self.walked.at),
         ):
             if not len(chosen):
                 continue
-            which, w = path[chosen], at[chosen][:, None]
-            place, slope = walk(which, at[chosen])
-            begin, chord = first[which], (last - first)[which]
-            bow[chosen, :3] = place - (begin + w * chord)
+            at = v[of]
+            place, slope = walk(path, at)
+            begin = first[path]
+            chord = last[path] - begin
+            bow[chosen, :3] = place - (begin + at[:, None] * chord)
             bow[chosen, 3:] = slope - chord
         return bow
 

@@ -21,8 +21,8 @@ from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_follow import followed
 from assoc_hull.geometry.immersion_places import Brackets, joined, places
 from assoc_hull.geometry.immersion_roots import Tilted
-from assoc_hull.geometry.immersion_states import Inclination, states_at
-from assoc_hull.geometry.immersion_strips import Prepared
+from assoc_hull.geometry.immersion_states import Inclination, flickers, states_at
+from assoc_hull.geometry.immersion_strips import LEVEL, Prepared
 from assoc_hull.geometry.quadrature import bunched
 from assoc_hull.geometry.tile_sums import root
 
@@ -61,11 +61,13 @@ class Parts:
     plane, strip : (n,) int
         For which plane, across which strip.
     v, weight : (n,)
-        Where, and the share in the integrals; nil for curves that only tell extents.
+        Where, and the share in the integrals.
     instead, replaced : (m,) int
         For which plane, which curve of the plain rule.
     share : (m,)
         How much of it is replaced.
+    places : Brackets
+        Where the immersed part changes its kind.
     """
 
     plane: IntArray
@@ -75,6 +77,7 @@ class Parts:
     instead: IntArray
     replaced: IntArray
     share: FloatArray
+    places: Brackets
 
 
 def parts_of(
@@ -99,8 +102,7 @@ def parts_of(
         None if nothing happens anywhere.
     """
     soon = _soon(prepared, tilted, levels)
-    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
-    plane, curve = np.nonzero(changed)
+    plane, curve = _changes(prepared, tilted, real(levels), state)
     if not len(plane) and not len(soon.plane):
         return None
     inclination = real(tilted.trim), real(tilted.heel)
@@ -115,6 +117,21 @@ def parts_of(
     shares = _shares(soon.share, row[len(found) :], len(keys))
     known = np.isin(keys, found.row)
     return _rules(prepared, keys, np.where(known, 1.0, shares), found)
+
+
+def _changes(
+    prepared: Prepared, tilted: Tilted, levels: FloatArray, state: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Find planes and curves after which the state changes, and not only by rounding."""
+    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
+    plane, curve = np.nonzero(changed)
+    if not len(plane):
+        return plane, curve
+    least = LEVEL * prepared.depth[prepared.strip[curve]]
+    change = state[plane, curve] ^ state[plane, curve + 1]
+    pair = np.stack([curve, curve + 1])
+    real_ones = ~flickers(prepared.tiles, tilted, pair, levels[plane], change, least)
+    return plane[real_ones], curve[real_ones]
 
 
 def _brackets(
@@ -147,10 +164,6 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
     """Lay the fine rule between all places of one strip and plane."""
     count = prepared.strips.count
     v, weight, owner = _fine_points(prepared, keys, found)
-    # The places themselves have no share, but there a waterplane may end.
-    v = np.concatenate([v, found.low, found.high])
-    owner = np.concatenate([owner, found.row, found.row])
-    weight = np.concatenate([weight, np.zeros(2 * len(found))])
     first = np.searchsorted(prepared.strip, keys % count)
     sizes = np.searchsorted(prepared.strip, keys % count, "right") - first
     again = np.repeat(np.arange(len(keys)), sizes)
@@ -163,6 +176,7 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
         instead=(keys // count)[again],
         replaced=first[again] + within,
         share=np.take(shares, again),
+        places=found,
     )
 
 

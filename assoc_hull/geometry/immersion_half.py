@@ -13,6 +13,7 @@ from assoc_hull.geometry.immersion_roots import Tilted, candidates, tilt
 from assoc_hull.geometry.immersion_states import batches, states
 from assoc_hull.geometry.immersion_strips import Prepared
 from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, expand, integrals
+from assoc_hull.geometry.immersion_tips import tips
 from assoc_hull.geometry.tile_sums import mix, sum_by
 
 __all__ = ["Half", "curve_by_curve", "half"]
@@ -117,7 +118,8 @@ def _corrected(
     """Put the fine rule in the place of the plain one where something happens."""
     weight = parts.share * np.take(prepared.weight, parts.replaced)
     known = _pairs(prepared.tiles, tilted, levels, (parts.replaced, parts.instead), weight)
-    columns, extent = plain.columns - known.columns, plain.extent
+    columns = plain.columns - known.columns
+    extent = wider(plain.extent, tips(prepared.strips, tilted, levels, parts.places))
     for rows, curve, tiles in batches(prepared.strips, parts.strip, parts.v):
         seen = tilt(tiles, tilted.trim, tilted.heel)
         pairs, weight = (curve, parts.plane[rows]), np.take(parts.weight, rows)

@@ -11,7 +11,7 @@ from assoc_hull.geometry.isocurves import Strips
 
 __all__ = ["Brackets", "joined", "places"]
 
-_CLOSE = 1e-12  # of a strip: how exactly a place is wanted
+_CLOSE = 1e-10  # of a strip: integrals go with its power 3/2, extents with its square
 _TRIALS = 60
 _SEVERAL = 6  # changes between two neighbouring curves, at most
 
@@ -88,10 +88,8 @@ def _closed(strips: Strips, inclination: Inclination, brackets: Brackets) -> Bra
     """Close each bracket on the first change of state that is seen."""
     v = np.stack([brackets.low, brackets.high], axis=1)
     above = brackets.above.copy()
-    over = np.stack(
-        [look(strips, inclination, brackets.strip, v[:, i], brackets.level).over for i in (0, 1)],
-        axis=1,
-    )
+    strip, level = np.repeat(brackets.strip, 2), np.repeat(brackets.level, 2)
+    over = look(strips, inclination, strip, v.ravel(), level).over.reshape(len(v), 2, -1)
     for _ in range(_TRIALS):
         alive = np.flatnonzero(v[:, 1] - v[:, 0] > _CLOSE)
         if not len(alive):

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.dual import is_plain, real
@@ -18,7 +19,18 @@ from assoc_hull.geometry.immersion_roots import Tilted, brackets, tilt
 from assoc_hull.geometry.immersion_tiles import Tiles, expand, from_curves
 from assoc_hull.geometry.isocurves import Strips
 
-__all__ = ["DECK", "KEEL", "Inclination", "Look", "batches", "look", "states", "states_at"]
+__all__ = [
+    "DECK",
+    "KEEL",
+    "Inclination",
+    "Look",
+    "batches",
+    "flickers",
+    "look",
+    "states",
+    "states_at",
+    "times_cut",
+]
 
 Inclination = tuple[FloatArray, FloatArray]
 """Tangents of trim and heel, (1,) each, plain."""
@@ -76,6 +88,55 @@ def states(
     return state
 
 
+def flickers(
+    tiles: Tiles,
+    tilted: Tilted,
+    pair: IntArray,
+    level: FloatArray,
+    change: IntArray,
+    least: FloatArray,
+) -> NDArray[np.bool_]:
+    """Tell where states of neighbouring curves differ only by rounding.
+
+    Parameters
+    ----------
+    tiles, tilted : Tiles, Tilted
+        The tiles.
+    pair : (2, n) int
+        The neighbours.
+    level : (n,), m
+        The plane's height.
+    change : (n,) int
+        In which bits their states differ.
+    least : (n,), m
+        What is closer to the plane lies in it.
+
+    Returns
+    -------
+    (n,) bool
+        Keel, end or deck's edge of both lie in the plane, and no other than these differ but
+        for the cuts that come with them.
+    """
+    edge = tiles.edge[pair]
+    heights = (
+        (KEEL, tilted.control[0][tiles.start[pair]]),
+        (DECK, tilted.control[3][tiles.start[pair + 1] - 1]),
+        (_EDGE, np.where(edge >= 0, tilted.control[0][edge], np.inf)),
+    )
+    some, all_in = np.zeros(len(change), bool), np.ones(len(change), bool)
+    for bit, height in heights:
+        differs = (change & bit) != 0
+        within = (np.abs(height - level) <= least).all(axis=0)
+        some, all_in = some | differs, all_in & (within | ~differs)
+    flicker: NDArray[np.bool_] = some & all_in
+    return flicker
+
+
+def times_cut(state: IntArray) -> IntArray:
+    """Tell from states how often curves are cut."""
+    return state % _EDGE // _CUT
+
+
 def batches(
     strips: Strips, strip: IntArray, v: FloatArray, plain: bool = False
 ) -> Iterator[tuple[IntArray, IntArray, Tiles]]:
@@ -99,7 +160,11 @@ def batches(
     Tiles
         of these.
     """
-    _, first, which = np.unique(2.0 * strip + v, return_index=True, return_inverse=True)
+    if is_plain(v):
+        _, first, which = np.unique(2.0 * strip + v, return_index=True, return_inverse=True)
+    else:
+        # Equal places may move differently.
+        first = which = np.arange(len(strip))
     order = np.argsort(which, kind="stable")
     for begin in range(0, len(first), _CURVES):
         some = first[begin : begin + _CURVES]

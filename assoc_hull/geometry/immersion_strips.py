@@ -17,9 +17,11 @@ from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, integrals, s
 from assoc_hull.geometry.isocurves import Strips
 from assoc_hull.geometry.quadrature import lobatto
 
-__all__ = ["Prepared", "prepare"]
+__all__ = ["LEVEL", "Prepared", "prepare"]
 
-_LEVEL = 1e-9  # of a strip's depth: so much is no slope
+LEVEL = 1e-9
+"""Of a strip's depth: so much is no slope."""
+
 _MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
@@ -68,13 +70,11 @@ class Prepared:
 
     @cached_property
     def depth(self) -> FloatArray:
-        """Height of each strip between the ends of its tiles, m, (strips,)."""
-        height = real(self.tiles.coefficients[2])
-        low, high = height[0], height.sum(axis=0)
+        """Height of each strip, m, (strips,); 1 where it has none."""
+        low, high = self.upright.low, self.upright.high
         begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
-        top = np.maximum.reduceat(np.maximum(low, high), begin)
-        depth: FloatArray = top - np.minimum.reduceat(np.minimum(low, high), begin)
-        return depth
+        depth = np.maximum.reduceat(high, begin) - np.minimum.reduceat(low, begin)
+        return np.where(depth > 0.0, depth, 1.0)
 
     @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:
@@ -95,9 +95,7 @@ class Prepared:
         curve, tiles = self.ends
         found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
         moves = np.flatnonzero(~self._level(found))
-        return Critical(
-            curve[found.curve[moves]], np.take(found.height, moves), np.take(found.change, moves)
-        )
+        return attrs.evolve(found, curve=curve[found.curve]).take(moves)
 
     def _level(self, found: Critical) -> NDArray[np.bool_]:
         """Tell which points belong to an edge that is level along the strip, as most keels are.
@@ -106,7 +104,7 @@ class Prepared:
         """
         end = self.ends[0][found.curve]
         strip, fore = self.strip[end], self.v[end] == 1.0
-        least = _LEVEL * np.maximum(self.depth[strip], np.finfo(float).tiny)
+        least = LEVEL * self.depth[strip]
         step = np.rint(real(found.height) / least).astype(np.int64)
         _, which = np.unique(strip + self.strips.count * step, return_inverse=True)
         both = (np.bincount(which, fore) > 0.0) & (np.bincount(which, ~fore) > 0.0)

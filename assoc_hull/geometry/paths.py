@@ -229,8 +229,9 @@ def _solve_plain(cubic: FloatArray, target: FloatArray) -> FloatArray:
             # The rule squares an error: what is left after such a step is rounding.
             if np.abs(step).max(initial=0.0) <= _SMALL:
                 break
-    lost = np.flatnonzero(~((u >= -_DONE) & (u <= 1.0 + _DONE) & (np.abs(step) <= _SMALL)))
-    if len(lost):
+    good = (u >= -_SMALL) & (u <= 1.0 + _SMALL) & (np.abs(step) <= _SMALL)
+    if not good.all():
+        lost = np.flatnonzero(~good)
         u[lost] = _bracketed(cubic[lost], shifted[lost])
     return np.clip(u, 0.0, 1.0)
 

@@ -64,7 +64,7 @@ def box_net(stations: int = 5, deck: str = "closed") -> ah.Hull:
     chine = np.array([[0.0, half, 0.0], [LENGTH, half, 0.0]])
     lines = [
         _end("profile", chine * [1.0, 0.0, 1.0], (0, 1, 0), 0.0),
-        _end("deck edge", chine + [0.0, 0.0, DEPTH], (0, 0, 1), DEPTH),
+        _end("deck edge", chine + np.array([0.0, 0.0, DEPTH]), (0, 0, 1), DEPTH),
         _end("aft end", _rim(0.0), (1, 0, 0), 0.0),
         _end("fore end", _rim(LENGTH), (1, 0, 0), LENGTH),
         LineSource.make("boundary", "chine", chine, boundary=BoundaryKind.KNUCKLE),
