@@ -33,6 +33,9 @@ _GAP = 4e-3
 _TURN, _BACK = np.radians(60.0), np.radians(15.0)
 """A smooth section that turns by so much at a point, and back by so much on either side."""
 
+_HAIRPIN = np.radians(150.0)
+"""A smooth section that turns by more at a point runs back on itself."""
+
 _EXPECTED = 0.03
 """Areas of sections differ from what the others expect by less than this, of the largest."""
 
@@ -165,7 +168,8 @@ def _kinked(net: Net, sections: Sections, kinds: NDArray[np.int8]) -> Iterator[s
         middle = turn[1:-1]
         back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
         smooth = kinds[a + 2 : b - 2] == PointKind.SMOOTH
-        sharp = np.flatnonzero((np.abs(middle) > _TURN) & (back > _BACK) & smooth)
+        kink = (np.abs(middle) > _TURN) & (back > _BACK)
+        sharp = np.flatnonzero((kink | (np.abs(middle) > _HAIRPIN)) & smooth)
         if len(sharp):
             y, z = net.batch.xyz[a + 2 + sharp[0], 1:].tolist()
             angle = float(np.degrees(abs(middle[sharp[0]])))

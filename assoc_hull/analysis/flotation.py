@@ -107,7 +107,7 @@ class Flotation:
     def changes(self, planes: Planes) -> Sequence[Change]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         return self.spread.changes(
-            self.measure(planes), self._by_waterplanes(planes), self.sections, planes
+            self.measure(planes), self.by_waterplanes(planes), self.sections, planes
         )
 
     def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
@@ -122,7 +122,7 @@ class Flotation:
         """
         found = [*open_sections(self.net, self.sections, planes), *self._doubtful_lines]
         if numbers and not found:
-            routes = self.measure(planes).volume, self._by_waterplanes(planes).volume
+            routes = self.measure(planes).volume, self.by_waterplanes(planes).volume
             found += doubtful_numbers(self.sections, self.spread.sections, routes, planes)
         return tuple(found)
 
@@ -130,7 +130,7 @@ class Flotation:
     def _doubtful_lines(self) -> list[str]:
         return doubtful_lines(self.net, self.layout, self.sections, self.kinds)
 
-    def _by_waterplanes(self, planes: Planes) -> Immersed:
+    def by_waterplanes(self, planes: Planes) -> Immersed:
         """Give volume and moments by the vertical route; the last answer is kept."""
         key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
         if key not in self._route:
