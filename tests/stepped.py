@@ -15,7 +15,6 @@ from assoc_hull.analysis.measured_hull import HasState, header_of
 from assoc_hull.analysis.parameters import Parameter, Position, Shape
 from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.analysis.varied import Varied
-from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.recipe import curve_data
@@ -28,7 +27,7 @@ KINKED = {"a_max", "x_a_max", "cx", "cp", "bwl", "lwl", "cb_lwl", "cp_lwl"}
 """What comes of a greatest value: several stations or breadths may be equally great."""
 
 _FAR = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
-_AHEAD = {0: -1.5, 1: 2.0, 2: -0.5}
+_AHEAD = {1: -1.0, 2: 1.0}
 
 
 @attrs.frozen(eq=False)
@@ -61,22 +60,20 @@ class Floats:
             ]
             values = values_at(self.body, Planes(*numbers), self.header)
         else:
-            data, move = self._moves(parameter)
-            batch = as_batch(data, data.xyz + 1j * STEP * move)
-            values = values_at(Varied(self.body, batch), plane, self.header)
+            values = values_at(self._varied(parameter, 1j * STEP), plane, self.header)
         return {name: float(np.imag(values[name][0])) / STEP for name in FIELDS}
 
     def central(self, parameter: Parameter, step: float) -> dict[str, float]:
         """Derivatives by differences of plain numbers; nan where there is a kink."""
-        values = {i: self._at(parameter, i * step) for i in range(-2, 3)}
+        values = {i: self._at(parameter, i * step) for i in (-2, -1, 1, 2)}
         found = {}
         for name in FIELDS:
             far, ahead, back = (
                 sum(weight * values[sign * i][name] for i, weight in rule.items()) / (sign * step)
                 for rule, sign in ((_FAR, 1), (_AHEAD, 1), (_AHEAD, -1))
             )
-            size = max(abs(far), abs(values[0][name]) * 1e-3)
-            kink = name in KINKED and abs(ahead - back) > 1e-3 * size
+            size = max(abs(far), abs(values[1][name]) * 1e-3)
+            kink = name in KINKED and np.ptp([far, ahead, back]) > 1e-3 * size
             found[name] = np.nan if kink else far
         return found
 
@@ -90,15 +87,17 @@ class Floats:
             )
             values = values_at(body, planes_of([moved], self.header.length), self.header)
         else:
-            data, move = self._moves(parameter)
-            batch = loft(attrs.evolve(data, xyz=data.xyz + amount * move))
             plane = planes_of([position], self.header.length)
-            values = values_at(Varied(body, batch), plane, self.header)
+            values = values_at(self._varied(parameter, amount), plane, self.header)
         return {name: float(value[0]) for name, value in values.items()}
 
-    def _moves(self, parameter: Parameter) -> tuple[CurveData, FloatArray]:
+    def _varied(self, parameter: Parameter, amount: complex) -> Varied:
+        """The hull whose points have moved by a plain or complex amount."""
         assert isinstance(parameter, Shape)
-        curve = self.body.net.curve
-        rows = self.body.state.curves.rows.data
-        row = np.concatenate([rows[each] for each in curve.tolist()])
-        return curve_data(self.body.state, curve), parameter.moves(self.body.state)[0][row]
+        curve, state = self.body.net.curve, self.body.state
+        row = np.concatenate([state.curves.rows.data[each] for each in curve.tolist()])
+        data = curve_data(state, curve)
+        points: Any = amount * parameter.moves(state)[0] + state.rows.xyz.data[: state.rows.count]
+        plain = np.isrealobj(points)
+        batch = loft(attrs.evolve(data, xyz=points[row])) if plain else as_batch(data, points[row])
+        return Varied(self.body, batch, points)

@@ -30,7 +30,7 @@ from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.analysis.varied import Varied
 from assoc_hull.arguments import all_of, choice
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, SplineBatch, freeze
+from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, freeze
 from assoc_hull.geometry.dual import Dual, as_array, real
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.loft_tangents import loft_tangents
@@ -168,7 +168,7 @@ def _differentiated(
         _put(found, [k for k, _ in some], values_at(body, tilted, header))
     for i in range(0, len(shapes), _AT_ONCE):
         few = shapes[i : i + _AT_ONCE]
-        varied = Varied(body, _batch(body, [each for _, each in few]))
+        varied = _varied(body, [each for _, each in few])
         _put(found, [k for k, _ in few], values_at(varied, plane, header))
     return found
 
@@ -191,7 +191,7 @@ def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
     )
 
 
-def _batch(body: Flotation, some: Sequence[Shape]) -> SplineBatch:
+def _varied(body: Flotation, some: Sequence[Shape]) -> Varied:
     """Loft the lines anew, with tangents."""
     data = curve_data(body.state, body.net.curve)
     if not np.array_equal(data.xyz, body.net.batch.xyz):
@@ -201,12 +201,15 @@ def _batch(body: Flotation, some: Sequence[Shape]) -> SplineBatch:
     xyz, direction, end_vector = (
         np.zeros((len(some), *each.shape)) for each in (data.xyz, data.direction, data.end_vector)
     )
+    place = body.state.rows.xyz.data[: body.state.rows.count]
+    moves = np.zeros((len(some), *place.shape))
     for k, each in enumerate(some):
-        move, gradient = each.moves(body.state)
-        xyz[k] = move[row]
+        moves[k], gradient = each.moves(body.state)
+        xyz[k] = moves[k, row]
         if gradient is not None:
             direction[k], end_vector[k] = _turned(data, gradient[row])
-    return loft_tangents(data, xyz, direction, end_vector).batch()
+    batch = loft_tangents(data, xyz, direction, end_vector).batch()
+    return Varied(body, batch, as_array(Dual(place, moves)))
 
 
 def _turned(data: CurveData, gradient: FloatArray) -> tuple[FloatArray, FloatArray]:

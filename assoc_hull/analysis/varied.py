@@ -1,7 +1,7 @@
 """A hull whose lines carry derivatives along, put together as it was without them.
 
-The layout is that of the hull as it stands: which cell lies where, where along its segments
-a line ends on another, what is decided. So the sums are differentiated, not the decisions.
+The layout is that of the hull as it stands: which lines bound which cell, what is decided. So
+the sums are differentiated, not the decisions.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.analysis.floating_body import StationAreas
 from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.net.followed import followed
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.analysis.net.sections import flat_ends_below, sections_of
 from assoc_hull.geometry.coons import CoonsStrips
@@ -35,10 +36,13 @@ class Varied:
         The hull in plain numbers, which gives the layout.
     batch : SplineBatch
         Its splines: with tangents, complex, or of points that have moved a little.
+    points : (n, 3), m
+        All points of its tables, in the same arithmetic.
     """
 
     base: Flotation
     batch: SplineBatch
+    points: FloatArray
 
     @cached_property
     def net(self) -> Net:
@@ -48,7 +52,8 @@ class Varied:
     @cached_property
     def prepared(self) -> Prepared:
         """The surface with its integrals."""
-        strips = CoonsStrips.on(self.base.layout.cells, self.batch)
+        cells = followed(self.base.layout, self.base.net, self.batch, self.points)
+        strips = CoonsStrips.on(cells, self.batch)
         return prepare(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
 
     def measure(self, planes: Planes) -> Immersed:

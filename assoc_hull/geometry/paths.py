@@ -17,7 +17,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.segments import power, segment_start
 
-__all__ = ["QUICK", "SMALL", "Bit", "PathShapes", "Paths", "shapes"]
+__all__ = ["QUICK", "SMALL", "Bit", "PathShapes", "Paths", "bit_lengths", "shapes"]
 
 Bit = tuple[int, float, float]
 """A segment, and the parameters (0 to 1) between which it is walked; backward if they fall."""
@@ -169,9 +169,7 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     batch : SplineBatch
         The splines.
     """
-    first = segment_start(batch)
-    length = (batch.knot[first + 1] - batch.knot[first])[paths.segment]
-    length = length * np.abs(paths.high - paths.low)
+    length = bit_lengths(paths, batch)
     owner = np.arange(paths.count).repeat(np.diff(paths.start))
     total = np.concatenate([np.zeros(1), np.cumsum(length)])
     base = total[paths.start[:-1]]
@@ -183,6 +181,15 @@ def shapes(paths: Paths, batch: SplineBatch) -> PathShapes:
     whole = np.where(point, 1.0, whole)
     finish = np.where(point, 1.0, (total[1:] - base) / whole)
     return PathShapes(paths, cubic, (total[:-1] - base) / whole, finish)
+
+
+def bit_lengths(paths: Paths, batch: SplineBatch) -> FloatArray:
+    """Give the chord lengths of the bits, (b,), m."""
+    first = segment_start(batch)
+    part = paths.high - paths.low
+    part = np.where(real(part) < 0.0, -part, part)
+    length: FloatArray = (batch.knot[first + 1] - batch.knot[first])[paths.segment] * part
+    return length
 
 
 def stretch(cubic: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

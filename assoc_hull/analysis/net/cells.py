@@ -15,11 +15,12 @@ from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.geometry.coons import Cells
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
+from assoc_hull.geometry.tile_sums import nil
 
-__all__ = ["Layout", "lay_out"]
+__all__ = ["Layout", "blends", "lay_out"]
 
 _ORDER, _END_ORDER = 4, 6
 """Gauss points along a strip between sections, and along one at an end of the ship, where
@@ -46,12 +47,28 @@ class Layout:
         What could not be understood.
     edge : (n,) bool
         The upper side of the strip lies off the centre plane: a deck edge.
+    cell_start : (n + 1,) int
+        Where the cells of each strip begin.
+    rails : (c, 2) int
+        The paths of each cell along its rails, with v = 0 and 1.
+    cell : (t,) int
+        The cell of each tile.
+    flat, knuckle : (a,) bool
+        Anchors that are borders of flats, and knuckles.
     """
 
     cells: Cells
     frames: tuple[Frame, ...]
     lost: tuple[Unbounded, ...]
     edge: NDArray[np.bool_]
+    cell_start: IntArray
+    rails: IntArray
+    cell: IntArray
+    flat: NDArray[np.bool_]
+    knuckle: NDArray[np.bool_]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.edge, self.cell_start, self.rails, self.cell, self.flat, self.knuckle)
 
     def deck_edge(self, net: Net) -> FloatArray:
         """Give places along the deck edge, (k, 3), m; the top of the hull if it has none."""
@@ -78,6 +95,8 @@ class _Draft:
     anchor_start: list[int] = attrs.field(factory=lambda: [0])
     anchor: list[int] = attrs.field(factory=list)
     blend: list[FloatArray] = attrs.field(factory=list)
+    flat: list[bool] = attrs.field(factory=list)
+    knuckle: list[bool] = attrs.field(factory=list)
     cell: list[tuple[int, int, int]] = attrs.field(factory=list)
     cell_start: list[int] = attrs.field(factory=lambda: [0])
 
@@ -107,11 +126,12 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         found[i], run = anchors(given, every)
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        first, blend = blends(
-            np.array([0.5 * (each.low + each.high) for each in run]),
-            [_side(net, each, net.flat) for each in run],
-            [_side(net, each, net.knuckle) for each in run],
-        )
+        flat = [_side(net, each, net.flat) for each in run]
+        knuckle = [_side(net, each, net.knuckle) for each in run]
+        draft.flat += flat
+        draft.knuckle += knuckle
+        height = np.array([0.5 * (each.low + each.high) for each in run])
+        first, blend = blends(height, flat, knuckle)
         for j, (below, above) in enumerate(itertools.pairwise(run)):
             aft = draft.add(_between(found[i].aft, below.aft, above.aft))
             fore = draft.add(_between(found[i].fore, below.fore, above.fore))
@@ -121,8 +141,11 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
     edge = np.array([_is_edge(net, frame) for frame in found], np.bool_)
-    cells = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
-    return Layout(cells, tuple(found), tuple(lost), edge)
+    cells, cell = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
+    rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
+    start = np.array(draft.cell_start, np.int64)
+    sides = np.array(draft.flat, np.bool_), np.array(draft.knuckle, np.bool_)
+    return Layout(cells, tuple(found), tuple(lost), edge, start, rails, cell, *sides)
 
 
 def _top(frame: Frame) -> list[Part]:
@@ -138,7 +161,9 @@ def _side(net: Net, anchor: Anchor, which: NDArray[np.bool_]) -> bool:
 
 
 def blends(
-    height: FloatArray, flat: Sequence[bool] = (), knuckle: Sequence[bool] = ()
+    height: FloatArray,
+    flat: Sequence[bool] | NDArray[np.bool_] = (),
+    knuckle: Sequence[bool] | NDArray[np.bool_] = (),
 ) -> tuple[IntArray, FloatArray]:
     """Give how the cells of a strip carry on between the anchors, as cubics.
 
@@ -169,11 +194,9 @@ def blends(
     column = np.minimum(column, count - 1)
     cell = np.arange(count - 1)
     one = np.eye(count)
-    below, above = (np.take_along_axis(one[cell + k], column, 1) * inside for k in (0, 1))
+    below, above = (one[(cell + k)[:, None], column] * inside for k in (0, 1))
     width = np.diff(height)[:, None]
-    leave, arrive = (
-        np.take_along_axis(slope[cell + k] * width, column, 1) * inside for k in (0, 1)
-    )
+    leave, arrive = (slope[(cell + k)[:, None], column] * width * inside for k in (0, 1))
     step = above - below
     sharp = np.zeros(count, np.bool_)
     sharp[np.flatnonzero(knuckle)] = True
@@ -187,8 +210,9 @@ def _slopes(height: FloatArray) -> FloatArray:
     """Give by which weights slopes at places follow from values there, (a, a)."""
     count = len(height)
     if count == 2:
-        return np.tile(np.array([-1.0, 1.0]) / (height[1] - height[0]), (2, 1))
-    found = np.zeros((count, count))
+        both: FloatArray = np.array([[-1.0, 1.0], [-1.0, 1.0]]) / (height[1] - height[0])
+        return both
+    found: FloatArray = nil((count, count), height)
     at = np.arange(count)
     three = np.clip(at, 1, count - 2)[:, None] + np.array([-1, 0, 1])
     p = height[three]
@@ -214,7 +238,8 @@ def _between(rail: tuple[Part, ...], low: Spot, high: Spot) -> list[Part]:
 
 def _cells(
     net: Net, draft: _Draft, found: list[Frame], walked: PathShapes, deck: NDArray[np.bool_]
-) -> Cells:
+) -> tuple[Cells, IntArray]:
+    """Cut the cells into tiles; also give the cell of each tile."""
     tiles: list[tuple[int, int, int, int, int]] = []
     tile_start, cell = [0], list[int]()
     for i in range(len(found)):
@@ -234,7 +259,7 @@ def _cells(
         np.bool_,
     )
     column = [table[:, i].copy() for i in range(5)]
-    return Cells(
+    cells = Cells(
         walked.paths,
         anchor_start,
         anchor,
@@ -249,6 +274,7 @@ def _cells(
         column[3] == -2,
         np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
     )
+    return cells, np.array(cell, np.int64)
 
 
 def _tiles(walked: PathShapes, aft: int, fore: int) -> list[tuple[int, int, int, int]]:

@@ -52,6 +52,8 @@ class Net:
         Where on each of the two it lies.
     watched : (k,) bool
         It defines neither: the curves may pass one another, along a flat by much.
+    row : (k,) int
+        The point that it is.
     """
 
     batch: SplineBatch
@@ -66,18 +68,11 @@ class Net:
     meets: IntArray
     place: FloatArray
     watched: NDArray[np.bool_]
+    row: IntArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(
-            self.curve,
-            self.end,
-            self.flat,
-            self.knuckle,
-            self.x,
-            self.centre,
-            self.meets,
-            self.place,
-        )
+        freeze(self.curve, self.end, self.flat, self.knuckle, self.x, self.centre)
+        freeze(self.meets, self.place, self.watched, self.row)
 
     @cached_property
     def knots(self) -> tuple[list[float], ...]:
@@ -109,7 +104,7 @@ def gather(state: HullState) -> Net:
     across = flat & (np.abs(normal[:, 0]) == 1.0) & (end | (np.array(family) == "sections"))
     offset = table.offset.data[lines]
     batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
-    meets, place, watched = _crossings(state, curves, batch)
+    row, meets, place = _crossings(state, curves, batch)
     return Net(
         batch,
         curves,
@@ -122,14 +117,15 @@ def gather(state: HullState) -> Net:
         flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
         meets,
         place,
-        watched,
+        state.rows.role.data[row] == Role.WATCHED,
+        row,
     )
 
 
 def _crossings(
     state: HullState, curves: IntArray, batch: SplineBatch
-) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-    """Give which two curves of the net cross where, and which crossings define none.
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Give all crossings, which two curves of the net cross there, and where on them.
 
     Watched crossings count: a surface within their gap is as good as the net itself.
     """
@@ -146,7 +142,7 @@ def _crossings(
     both = number[table.curve.data[rows]]
     place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)
-    return both[good], place[good], table.role.data[rows[good]] == Role.WATCHED
+    return rows[good], both[good], place[good]
 
 
 def walk(net: Net, part: Part) -> list[Bit]:

@@ -108,6 +108,7 @@ def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
         meets=meets,
         place=place,
         watched=net.watched[good],
+        row=net.row[good],
     )
 
 
