@@ -15,7 +15,9 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.analysis.mesh_flotation import mesh_flotation
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersion import immersed
 from benchmarks.clock import Figure
 from benchmarks.hydrostatic_hull import (
     EVEN,
@@ -26,6 +28,7 @@ from benchmarks.hydrostatic_hull import (
     measured,
     triangles,
 )
+from benchmarks.hydrostatic_net import net
 from benchmarks.hydrostatic_peers import Job, capytaine_job, trimesh_job
 
 __all__ = ["figures", "ours", "ours_at_heights"]
@@ -43,15 +46,18 @@ GOALS = {"trimesh": 8, "capytaine": 500}
 
 
 def ours(position: Position) -> Job:
-    """Give our side: everything from the hull to the values, the fit included."""
-    return mesh_route(MESH, position)
+    """Give our side: from the points of a net to the values, lofting included.
+
+    What points to what in the net is known before, as the peers know their triangles.
+    """
+    lines = net()
+    return Job(lambda: None, lambda _: measured(lines.measure(position.planes()), position))
 
 
 def ours_at_heights(position: Position) -> Callable[[FloatArray], Any]:
-    """Give our side for many heights of the plane in one call."""
-    mesh = triangles(MESH)
-    hull = mesh_flotation(mesh.xyz, mesh.face)
-    return lambda heights: hull.measure(position.planes(heights))
+    """Give our side for many heights of the plane in one call, and so for one."""
+    body = net().fitted()
+    return lambda heights: immersed(body, position.planes(heights))
 
 
 def mesh_route(n: int, position: Position) -> Job:
@@ -62,11 +68,17 @@ def mesh_route(n: int, position: Position) -> Job:
 
 
 def figures(quick: bool = False) -> list[Figure]:
-    """Measure."""
+    """Measure; our lofting is compiled if the extra `fast` is installed."""
     found: list[Figure] = []
-    for position in (EVEN, INCLINED):
-        found += _one_position(position, quick)
-    return found + _batch(quick)
+    before = backend()
+    set_backend("numba" if importlib.util.find_spec("numba") else "numpy")
+    found.append(Figure("compiled by numba", float(backend() == "numba"), ""))
+    try:
+        for position in (EVEN, INCLINED):
+            found += _one_position(position, quick)
+        return found + _batch(quick)
+    finally:
+        set_backend(before)
 
 
 def fastest(jobs: Mapping[str, Job], rounds: Mapping[str, int]) -> dict[str, float]:

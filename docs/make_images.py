@@ -21,7 +21,9 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.plot import lines_plan, neighbourhood
+from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.sources import examples
 
 FOLDER = Path(__file__).parent / "images"
@@ -41,8 +43,16 @@ def one_way() -> Figure:
     return neighbourhood(hull, "WL 2.5", paper="A4")
 
 
+def curves() -> Figure:
+    """Draw the hydrostatic curves of Series 60 CB 0.70."""
+    draughts = [1.0 + 0.5 * k for k in range(17)]
+    table = hydrostatic_table(examples.series60(cb=0.70), draughts, estimate=False)
+    return hydrostatic_curves(table, paper="A4")
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
+    "hydrostatic_curves": curves,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

@@ -150,23 +150,37 @@ class FormStrips:
 
     def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
         """Curves at v."""
-        eta, zeta = self.profile
-        t, scale, size = (strip + v) / self.strips, 1.0 / self.strips, len(eta)
-        point, across = np.zeros((2, len(v), size, 4, 3))
-        for into, change in ((point, 0), (across, 1)):
-            breadth, keel, height, rake = (
-                (form.deriv() if change else form)(t) * scale**change
-                for form in (self.breadth, self.keel, self.height, self.rake)
-            )
-            into[..., 0] = _times(rake, zeta)
-            into[:, :, 0, 0] += self.length * (scale + 0.0 * t if change else t)[:, None]
-            into[..., 1], into[..., 2] = _times(breadth, eta), _times(height, zeta)
-            into[:, :, 0, 2] += keel[:, None]
-        deck = np.zeros((len(v), size), bool)
+        t = (strip + v) / self.strips
+        place = self.length * t
+        point = self._points(place, t, 0)
+        rate = np.full(len(strip), self.length) + 0.0 * t
+        across = self._points(rate, t, 1) * (1.0 / self.strips)
+        size = len(self.profile[0])
+        deck = np.zeros((len(strip), size), bool)
         deck[:, -1] = self.closed
-        return IsoCurves(
-            np.arange(len(v) + 1) * size,
-            point.reshape(-1, 4, 3),
-            across.reshape(-1, 4, 3),
-            deck.ravel(),
-        )
+        starts = np.arange(len(strip) + 1) * size
+        return IsoCurves(starts, point, across, deck.ravel())
+
+    def _points(self, x: FloatArray, t: FloatArray, order: int) -> FloatArray:
+        """Coefficients of points or, of order 1, of their derivatives by t."""
+        eta, zeta = self.profile
+        forms = (self.breadth, self.keel, self.height, self.rake)
+        breadth, keel, height, rake = (_polynomial(form.deriv(order), t) for form in forms)
+        first = np.zeros((len(eta), 4))
+        first[:, 0] = 1.0
+        rows = [
+            _times(rake, zeta) + _times(x, first),
+            _times(breadth, eta),
+            _times(height, zeta) + _times(keel, first),
+        ]
+        points: FloatArray = np.stack(rows, axis=-1).reshape(-1, 4, 3)
+        return points
+
+
+def _polynomial(form: Polynomial, t: FloatArray) -> FloatArray:
+    """Values of a polynomial, in any arithmetic."""
+    coefficients = form.coef.tolist()
+    value: FloatArray = coefficients[-1] + 0.0 * t
+    for each in coefficients[-2::-1]:
+        value = value * t + each
+    return value

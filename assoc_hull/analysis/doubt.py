@@ -22,7 +22,7 @@ from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_sections import sections_below
 
-__all__ = ["doubtful_lines", "doubtful_numbers"]
+__all__ = ["doubtful_lines", "doubtful_numbers", "open_sections"]
 
 _OPEN = 1e-3
 """A section that ends farther from the centre plane, in half breadths of the ship, is open."""
@@ -32,6 +32,9 @@ _GAP = 4e-3
 
 _TURN, _BACK = np.radians(60.0), np.radians(15.0)
 """A smooth section that turns by so much at a point, and back by so much on either side."""
+
+_HAIRPIN = np.radians(150.0)
+"""A smooth section that turns by more at a point runs back on itself."""
 
 _EXPECTED = 0.03
 """Areas of sections differ from what the others expect by less than this, of the largest."""
@@ -44,9 +47,9 @@ _PLACES = 6
 
 
 def doubtful_lines(
-    net: Net, layout: Layout, sections: Sections, kinds: NDArray[np.int8], planes: Planes
+    net: Net, layout: Layout, sections: Sections, kinds: NDArray[np.int8]
 ) -> list[str]:
-    """Say which lines cannot bound a hull.
+    """Say which lines cannot bound a hull, wherever it floats.
 
     Parameters
     ----------
@@ -58,17 +61,18 @@ def doubtful_lines(
         The sections as drawn.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
-    planes : Planes
-        Floating planes: what is above all of them does not matter.
     """
-    half = float(np.abs(net.batch.xyz[:, 1]).max())
     return [
         *_lost(layout),
-        *_open(net, sections, planes, _OPEN * half),
         *_crossing(net, sections),
         *_kinked(net, sections, kinds),
-        *_apart(net, _GAP * half),
+        *_apart(net, _GAP * _half_breadth(net)),
     ]
+
+
+def _half_breadth(net: Net) -> float:
+    """Give the greatest half breadth of the lines, m."""
+    return float(np.abs(net.batch.xyz[:, 1]).max())
 
 
 def doubtful_numbers(
@@ -98,16 +102,19 @@ def _lost(layout: Layout) -> Iterator[str]:
         yield f"{', '.join(each.names)}: between two sections {each.why}"
 
 
-def _open(net: Net, sections: Sections, planes: Planes, most: float) -> Iterator[str]:
-    """Find sections whose lower end is wet and off the centre plane."""
+def open_sections(net: Net, sections: Sections, planes: Planes) -> list[str]:
+    """Say which sections end off the centre plane below one of the planes."""
+    most = _OPEN * _half_breadth(net)
     point = sections.curves.point[sections.curves.start[:-1], 0]
     x, y, z = point.T
     level = planes.height[:, None] + planes.tan_trim[:, None] * x
     level = level + np.abs(planes.tan_heel)[:, None] * np.abs(y)
     wet = (z < level).any(axis=0)
-    for i in np.flatnonzero(wet & (np.abs(y) > most)).tolist():
-        name = net.name[int(sections.curve[i])]
-        yield f"{name} is open: it ends {y[i]:.3f} m off the centre plane, at z {z[i]:.3f} m"
+    return [
+        f"{net.name[int(sections.curve[i])]} is open: it ends {y[i]:.3f} m off the centre plane, "
+        f"at z {z[i]:.3f} m"
+        for i in np.flatnonzero(wet & (np.abs(y) > most)).tolist()
+    ]
 
 
 def _crossing(net: Net, sections: Sections) -> Iterator[str]:
@@ -161,7 +168,8 @@ def _kinked(net: Net, sections: Sections, kinds: NDArray[np.int8]) -> Iterator[s
         middle = turn[1:-1]
         back = np.maximum(turn[:-2] * -np.sign(middle), turn[2:] * -np.sign(middle))
         smooth = kinds[a + 2 : b - 2] == PointKind.SMOOTH
-        sharp = np.flatnonzero((np.abs(middle) > _TURN) & (back > _BACK) & smooth)
+        kink = (np.abs(middle) > _TURN) & (back > _BACK)
+        sharp = np.flatnonzero((kink | (np.abs(middle) > _HAIRPIN)) & smooth)
         if len(sharp):
             y, z = net.batch.xyz[a + 2 + sharp[0], 1:].tolist()
             angle = float(np.degrees(abs(middle[sharp[0]])))
@@ -177,7 +185,7 @@ def _apart(net: Net, most: float) -> Iterator[str]:
         return
     one, other = (evaluate(net.batch, net.meets[:, i], net.place[:, i]) for i in (0, 1))
     gap = np.sqrt(((one - other) ** 2).sum(axis=1))
-    for k in np.flatnonzero(gap > most).tolist():
+    for k in np.flatnonzero((gap > most) & ~net.watched).tolist():
         a, b = (net.name[i] for i in net.meets[k].tolist())
         x, y, z = one[k].tolist()
         yield f"{a} and {b} pass by {gap[k]:.3f} m at x {x:.2f}, y {y:.2f}, z {z:.2f} m"

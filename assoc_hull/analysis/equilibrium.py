@@ -63,7 +63,8 @@ def immersion(
     }
     header = header_of(hull, body, terms)
     load = Load(
-        number(weight, "weight", _WHERE),
+        # What is no finite number is refused with the range, which needs the hull.
+        _tons(weight),
         rho,
         shell_factor,
         None if lcg is None else number(lcg, "lcg", _WHERE),
@@ -73,6 +74,11 @@ def immersion(
         header.appendages,
     )
     return float_at(body, load, header.length)
+
+
+def _tons(weight: object) -> float:
+    """Take a weight; any float will do here."""
+    return weight if isinstance(weight, float) else number(weight, "weight", _WHERE)
 
 
 def freeboard(hull: HasState, position: FloatingPosition) -> Freeboard:

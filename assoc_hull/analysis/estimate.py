@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.floating_body import Change
 from assoc_hull.analysis.net.cells import Layout, lay_out
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.analysis.net.sections import Sections, sections_of
+from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
 from assoc_hull.geometry.coons import CoonsStrips
 from assoc_hull.geometry.curves import FloatArray
@@ -70,6 +70,8 @@ class Spread:
 
     Attributes
     ----------
+    own : Net
+        The lines.
     fine : Prepared
         The same surface with the order along the strips doubled.
     sections : tuple of Coarse
@@ -80,6 +82,7 @@ class Spread:
         The deck is closed.
     """
 
+    own: Net
     fine: Prepared
     sections: tuple[Coarse, ...]
     lines: Coarse
@@ -101,23 +104,25 @@ class Spread:
         planes : Planes
             d planes.
         """
+        areas = own.per_station(sections_below(own.curves, planes))
+        ends = flat_ends_below(self.own, self.closed, planes)
+        still, dry = np.zeros_like(areas), np.zeros_like(ends)
         share = _PART / max(len(self.sections), 1)
         found = [
-            Change(_times(_less(immersed(self.fine, planes), known), 1.0)),
-            Change(_less(route, known)),
+            Change(_less(immersed(self.fine, planes), known), still, dry),
+            Change(_less(route, known), still, dry),
         ]
         found += [
-            Change(_times(_less(immersed(each.prepared, planes), known), share))
+            Change(_times(_less(immersed(each.prepared, planes), known), share), still, dry)
             for each in self.sections
         ]
-        areas = own.per_station(sections_below(own.curves, planes))
         coarse = sections_of(self.lines.net, self.closed)
         fewer = coarse.per_station(sections_below(coarse.curves, planes))
         found.append(
             Change(
                 _times(_less(immersed(self.lines.prepared, planes), known), _PART),
                 _PART * (fewer - areas),
-                np.zeros(len(planes.height)),
+                _PART * (flat_ends_below(self.lines.net, self.closed, planes) - ends),
             )
         )
         return found
@@ -144,6 +149,7 @@ def spread_of(state: HullState, net: Net, strips: CoonsStrips, closed: bool) -> 
         return Coarse(fewer, layout, prepare(CoonsStrips.on(layout.cells, fewer.batch)))
 
     return Spread(
+        net,
         prepare(strips, factor=2),
         tuple(coarse(every_other_section(net, first)) for first in (0, 1)),
         coarse(every_other_line(net)),

@@ -16,7 +16,7 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Planes
 
-__all__ = ["FloatingPosition", "Limits", "planes_of", "require_afloat", "rising"]
+__all__ = ["FloatingPosition", "Limits", "planes_of", "require_afloat", "require_numbers", "rising"]
 
 _WHERE = "in a floating position"
 
@@ -179,6 +179,33 @@ T_F 13 m, heel 0 deg; give one from 0 to 12 m
             why = "lies below the keel" if value <= low else over
             raise OutOfRangeError("a mean draught", value, str(each), why, low, high, "m")
     return planes
+
+
+def require_numbers(draughts: object, limits: Limits) -> None:
+    """Refuse draughts of which one is no finite number, with the range at even keel.
+
+    Parameters
+    ----------
+    draughts : float, or (k,), m
+        What was given; what is no number at all is left to others.
+    limits : Limits
+        Of the hull.
+
+    Raises
+    ------
+    OutOfRangeError
+        One that is nan or infinite.
+    """
+    try:
+        given = np.ravel(np.array(draughts, np.float64)) if draughts is not None else np.zeros(0)
+    except (TypeError, ValueError, OverflowError):
+        return
+    odd = given[~np.isfinite(given)]
+    if len(odd):
+        level = Planes(np.zeros(1), np.zeros(1), np.zeros(1))
+        least, most = (float(each[0]) for each in limits.mean_draughts(level, 0.0))
+        why = "is no finite number"
+        raise OutOfRangeError("a draught", float(odd[0]), _WHERE, why, least, most, "m")
 
 
 def rising(values: object, name: str, where: str) -> FloatArray:

@@ -12,14 +12,15 @@ from weakref import WeakKeyDictionary
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
-from assoc_hull.analysis.doubt import doubtful_lines, doubtful_numbers
+from assoc_hull.analysis.doubt import doubtful_lines, doubtful_numbers, open_sections
 from assoc_hull.analysis.estimate import Spread, by_waterplanes, spread_of
 from assoc_hull.analysis.floating import Limits
 from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.analysis.net.cells import Layout, lay_out
 from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.sections import Sections, flat_ends, sections_of
+from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.coons import CoonsStrips
 from assoc_hull.geometry.curves import FloatArray
@@ -51,12 +52,15 @@ class Flotation:
         How the surface is put together.
     strips : CoonsStrips
         The surface.
+    kinds : (n,) int8
+        The `PointKind` of each defining point of the net.
     """
 
     state: HullState
     net: Net
     layout: Layout
     strips: CoonsStrips
+    kinds: NDArray[np.int8]
     _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
@@ -98,16 +102,12 @@ class Flotation:
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
-        ends = flat_ends(self.net, self.closed)
-        if ends is None:
-            return np.zeros(len(planes.height))
-        area: FloatArray = sections_below(ends, planes).sum(axis=1)
-        return area
+        return flat_ends_below(self.net, self.closed, planes)
 
     def changes(self, planes: Planes) -> Sequence[Change]:
         """Give by how much the integrals may be off; the amounts of several items add up."""
         return self.spread.changes(
-            self.measure(planes), self._by_waterplanes(planes), self.sections, planes
+            self.measure(planes), self.by_waterplanes(planes), self.sections, planes
         )
 
     def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
@@ -120,14 +120,17 @@ class Flotation:
         numbers : bool
             Also compare the numbers with those of other routes, which the estimate needs anyway.
         """
-        kinds = curve_data(self.state, self.net.curve).kind
-        found = doubtful_lines(self.net, self.layout, self.sections, kinds, planes)
+        found = [*open_sections(self.net, self.sections, planes), *self._doubtful_lines]
         if numbers and not found:
-            routes = self.measure(planes).volume, self._by_waterplanes(planes).volume
+            routes = self.measure(planes).volume, self.by_waterplanes(planes).volume
             found += doubtful_numbers(self.sections, self.spread.sections, routes, planes)
         return tuple(found)
 
-    def _by_waterplanes(self, planes: Planes) -> Immersed:
+    @cached_property
+    def _doubtful_lines(self) -> list[str]:
+        return doubtful_lines(self.net, self.layout, self.sections, self.kinds)
+
+    def by_waterplanes(self, planes: Planes) -> Immersed:
         """Give volume and moments by the vertical route; the last answer is kept."""
         key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
         if key not in self._route:
@@ -179,7 +182,8 @@ def flotation(state: HullState) -> Flotation:
         raise BadInputError(
             "no surface between the sections", "in hydrostatics", "draw profile and deck edge"
         )
-    found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch))
+    kinds = curve_data(state, net.curve).kind
+    found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch), kinds)
     _KNOWN[state] = stamp, found
     return found
 

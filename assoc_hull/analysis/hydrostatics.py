@@ -13,7 +13,7 @@ import attrs
 
 from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.analysis.compute import table_of
-from assoc_hull.analysis.floating import FloatingPosition, planes_of, rising
+from assoc_hull.analysis.floating import FloatingPosition, planes_of, require_numbers, rising
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
@@ -96,15 +96,16 @@ def hydrostatics(
     >>> from assoc_hull.analysis.hydrostatics import hydrostatics
     >>> from assoc_hull.sources import examples
     >>> hull = examples.wigley()
-    >>> round(hydrostatics(hull, draught=6.25).volume)  # 4/9 L B T
-    2777
+    >>> round(hydrostatics(hull, draught=6.25).cb, 3)  # 4/9
+    0.444
     """
     terms: dict[str, object] = {
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
-        "appendages": appendages, "keel_thickness": keel_thickness,
+        "appendages": appendages, "keel_thickness": keel_thickness, "fingerprint": "",
     }  # fmt: skip
     body = body_of(hull)
     header = header_of(hull, body, terms)
+    require_numbers(draughts if draught is None else draught, body.limits)
     position = position_of(header, draught, draughts, heel_deg, draught_to)
     return trusted_table(body, [position], header, (1, 1), on_error, estimate=estimate)[0]
 
@@ -160,10 +161,11 @@ def hydrostatic_table(
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
         "appendages": appendages, "keel_thickness": keel_thickness, "date": date,
     }  # fmt: skip
-    levels = rising(draughts, "draughts", _WHERE).tolist()
     slopes = rising(trims, "trims", _WHERE).tolist()
     body = body_of(hull)
     header = header_of(hull, body, terms)
+    require_numbers(draughts, body.limits)
+    levels = rising(draughts, "draughts", _WHERE).tolist()
     lift = -_keel(header, draught_to)
     positions = [
         FloatingPosition(lift + t + 0.5 * trim, lift + t - 0.5 * trim, heel_deg)

@@ -182,7 +182,7 @@ def _require_in_range(sought: _Sought, slope: float, low: float, high: float) ->
     largest = sought.measure(sought.plane(high, slope))
     most = float(largest.volume[0]) * load.rho * load.shell_factor
     if not 0.0 < load.weight <= most:
-        why = "is more than the hull carries" if load.weight > 0.0 else "is none"
+        why = "is more than the hull carries" if load.weight > most else "is none"
         where = f"at trim {-slope * sought.length + 0.0:g} m, heel {load.heel_deg:g} deg"
         raise OutOfRangeError("a weight", load.weight, where, why, 0.0, most, "t")
 

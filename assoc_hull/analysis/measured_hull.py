@@ -41,14 +41,16 @@ def header_of(hull: HasState, body: FloatingBody, terms: Mapping[str, object]) -
     body : FloatingBody
         What is measured of it.
     terms : mapping
-        Fields of the header that the caller chose.
+        Fields of the header that the caller chose. The fingerprint takes longer than the algebra
+        of one position: who shows none gives an empty one.
     """
     ship = hull.state.particulars
     chosen: dict[str, object] = {
         "kg": None, "keel_thickness": 0.0, "transom": False, "date": None, **terms
     }  # fmt: skip
+    if "fingerprint" not in chosen:
+        chosen["fingerprint"] = fingerprint(hull.state)
     return HydrostaticHeader(
         ship=ship.name, length=ship.length, breadth=ship.breadth, draught=ship.draught,
-        deck="closed" if body.limits.closed else "open", fingerprint=fingerprint(hull.state),
-        **chosen,  # type: ignore[arg-type]
+        deck="closed" if body.limits.closed else "open", **chosen,  # type: ignore[arg-type]
     )  # fmt: skip

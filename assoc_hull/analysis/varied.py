@@ -15,7 +15,7 @@ from assoc_hull.analysis.floating_body import StationAreas
 from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.analysis.net.followed import followed
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.analysis.net.sections import flat_ends, sections_of
+from assoc_hull.analysis.net.sections import flat_ends_below, sections_of
 from assoc_hull.geometry.coons import CoonsStrips
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.dual import is_plain
@@ -77,8 +77,4 @@ class Varied:
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
-        ends = flat_ends(self.net, self.base.closed)
-        if ends is None:
-            return np.zeros(len(planes.height))
-        area: FloatArray = sections_below(ends, planes).sum(axis=1)
-        return area
+        return flat_ends_below(self.net, self.base.closed, planes)

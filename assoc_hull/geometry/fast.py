@@ -15,22 +15,27 @@ array([0., 5.])
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
+from assoc_hull.geometry.fast_coons import set_bows, set_tiles
 from assoc_hull.geometry.fast_loft import loft_curves
 from assoc_hull.geometry.fast_meet import meet_curves, place_meetings
 from assoc_hull.geometry.fast_roots import find_roots
 from assoc_hull.geometry.loft_rules import LEAST_COSINE, NO_DIRECTION
 from assoc_hull.geometry.monotone import CONTACT, Parts, Roots
+from assoc_hull.geometry.paths import QUICK, SMALL, PathShapes
 from assoc_hull.geometry.roots import FLOOR, MOST_TRIALS, RELATIVE, STEPS
 from assoc_hull.geometry.tridiagonal import MOST_LEVELS
 from assoc_hull.geometry.workspace import Workspace
 from assoc_hull.tolerance import Tolerances
 
-__all__ = ["loft", "meet", "warm"]
+if TYPE_CHECKING:
+    from assoc_hull.geometry.coons import Places
+
+__all__ = ["loft", "meet", "tiles", "warm"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -129,6 +134,47 @@ def meet(batch: SplineBatch, normal: FloatArray, offsets: FloatArray) -> Roots:
     return Roots(parts, owner, plane, told[0], told[1], sign, t, points, near)
 
 
+def tiles(
+    where: Places,
+    v: FloatArray,
+    walked: PathShapes,
+    shapes: tuple[FloatArray, FloatArray, FloatArray],
+    bow: FloatArray,
+) -> tuple[FloatArray, FloatArray] | None:
+    """Give the tiles of curves across the strips of a Coons surface.
+
+    Parameters
+    ----------
+    where : Places
+        What the curves consist of.
+    v : (k,)
+        Where they lie across their strips.
+    walked : PathShapes
+        The anchors.
+    shapes : ((t, 4, 3), (t, 4, 3), (t, 4, 4))
+        The rails aft, from there to those forward, and the weights of the anchors.
+    bow : (a + 3, 6)
+        Nil; room for what the anchors leave their chords by.
+
+    Returns
+    -------
+    ((s, 4, 3), (s, 4, 3)) or None
+        Coefficients of P and of P_v; None if a place on an anchor needs more care.
+    """
+    chosen, path, curve = where.plane
+    start, cubic = _plain(walked.paths.start), _plain(walked.cubic)
+    v = _plain(v)
+    if not set_bows(
+        _plain(chosen), _plain(path), _plain(curve), v, start, cubic, QUICK, SMALL, bow
+    ):
+        return None
+    point, across = np.empty((2, len(where.tile), 4, 3))
+    aft, span, blend = (_plain(each) for each in shapes)
+    numbers = (_plain(where.tile), _plain(where.curve), _plain(where.first))
+    set_tiles(*numbers, v, aft, span, blend, bow, point, across)
+    return point, across
+
+
 def warm() -> None:
     """Compile the backend, or load what was compiled before.
 
@@ -139,3 +185,8 @@ def warm() -> None:
     line = loft(CurveData.single(np.array([[0.0, 0, 0], [3, 4, 0]])))
     if line is not None:
         meet(line, np.array([1.0, 0.0, 0.0]), np.array([1.5]))
+    none, nil = _plain(np.zeros(0, np.int64)), _plain(np.zeros(1))
+    cubic, room = _plain(np.zeros((1, 4, 3))), np.zeros((4, 6))
+    set_bows(none, none, none, nil, none, cubic, QUICK, SMALL, room)
+    blend, tiles_of_none = _plain(np.zeros((1, 4, 4))), np.zeros((2, 0, 4, 3))
+    set_tiles(none, none, none, nil, cubic, cubic, blend, room, *tiles_of_none)

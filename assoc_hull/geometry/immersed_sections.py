@@ -6,11 +6,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersion_half import curve_by_curve
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
 from assoc_hull.geometry.isocurves import IsoCurves
-from assoc_hull.geometry.tile_sums import is_plain
 
 __all__ = ["sections_below"]
 

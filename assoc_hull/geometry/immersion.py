@@ -28,10 +28,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersion_half import Half, half
 from assoc_hull.geometry.immersion_strips import Prepared, prepare
-from assoc_hull.geometry.tile_sums import is_plain, real
 
 __all__ = ["Prepared", "immersed", "prepare"]
 
@@ -56,8 +56,17 @@ def immersed(prepared: Prepared, planes: Planes) -> Immersed:
 
     Notes
     -----
-    Points on a plane are below it. Extents are those of the cuts of all curves that are
-    integrated, of the ends of the strips and of the places where pieces appear.
+    Points on a plane are below it: at the very height of a flat bottom or a flat deck all
+    values are those just above. Every integral changes continuously with the plane.
+
+    The numbers may be complex or carry tangents; decisions are taken on their real values.
+
+    Extents are those of the cuts of all curves, of the ends of strips, and of the places where
+    pieces appear, which are exact. Between curves only the greatest half breadth is looked
+    for: its error goes with the fourth power of the distance of the curves.
+
+    A body must be closed: an end that lies off the centre plane has to lie in a plane
+    x = const, or under heel it lacks the flux and the waterline there.
     """
     height, trim, heel = planes.height, planes.tan_trim, planes.tan_heel
     parts, places = [], []

@@ -12,10 +12,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_extents import Places, extent, slopes, waterline_rate, wider
 from assoc_hull.geometry.immersion_roots import Tilted, cuts
 from assoc_hull.geometry.immersion_tiles import CHUNK, Tiles, integrals, powers
-from assoc_hull.geometry.tile_sums import real, sum_by
+from assoc_hull.geometry.tile_sums import sum_by
 
 __all__ = ["Cross", "Half", "add_solid", "cross"]
 
@@ -80,8 +81,8 @@ def cross(
         A tile and a plane that may meet.
     level : (d,), m
         Heights of the planes.
-    weight : (k,)
-        Shares of the curves in the integrals along v.
+    weight : (p,)
+        Shares of the pairs in the integrals along v.
 
     Returns
     -------
@@ -92,7 +93,7 @@ def cross(
     if len(tile) <= CHUNK:
         return _cross(tiles, tilted, tile, plane, level, weight)
     parts = [
-        _cross(tiles, tilted, tile[some], plane[some], level, weight)
+        _cross(tiles, tilted, tile[some], plane[some], level, weight[some])
         for some in (slice(i, i + CHUNK) for i in range(0, len(tile), CHUNK))
     ]
     half = parts[0].half
@@ -131,7 +132,7 @@ def _cross(
         slope = slopes(coefficients[:3], found.u)
         forward = forward - slope[0] * waterline_rate(tilted, slope, point[3:])
     columns = np.concatenate([solid, _green(x, y, forward)])
-    columns = columns * (found.sign * np.take(weight, tiles.curve[tile]))
+    columns = columns * (found.sign * np.take(weight, found.pair))
     half = Half(sum_by(columns, plane, len(level)), extent(x, y, plane, len(level)))
     return Cross(half, plane, tile, found.u, y)
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from assoc_hull.geometry.bernstein import value
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_roots import Tilted, turns
-from assoc_hull.geometry.immersion_tiles import Tiles
-from assoc_hull.geometry.tile_sums import is_plain, real
+from assoc_hull.geometry.immersion_tiles import Tiles, powers
 
 _LEVEL = 1e-9
 """m: a height that bends less along a tile has no turn that could be told to move."""
@@ -29,15 +29,29 @@ class Critical:
         How high the point is: q.
     change : m
         q_v, the change of that height along the strip.
+    place, rate : (2, n), m
+        x and y of the point, and x_v and y_v.
     """
 
     curve: IntArray
     height: FloatArray
     change: FloatArray
+    place: FloatArray
+    rate: FloatArray
+
+    def take(self, rows: IntArray) -> Critical:
+        """Take some of the points."""
+        return Critical(
+            self.curve[rows],
+            np.take(self.height, rows),
+            np.take(self.change, rows),
+            np.take(self.place, rows, axis=1),
+            np.take(self.rate, rows, axis=1),
+        )
 
 
 def critical(tiles: Tiles, tilted: Tilted) -> Critical:
-    """Find the ends of curves, their knuckles, and where they turn from up to down or back.
+    """Find the ends of curves, the deck's edge, and where they turn from up to down or back.
 
     Parameters
     ----------
@@ -55,10 +69,10 @@ def critical(tiles: Tiles, tilted: Tilted) -> Critical:
 def critical_at(tiles: Tiles, tilted: Tilted, tile: IntArray, u: FloatArray) -> Critical:
     """Give points of tiles, tile and u (n,) each, as critical ones."""
     origin, first, second, third = np.take(tilted.height, tile, axis=1)
-    across = np.take(tiles.coefficients[3:], tile, axis=2)
-    x_v, y_v, z_v = value(across[:, 0], across[:, 1], across[:, 2], across[:, 3], u)
-    change = z_v - tilted.trim * x_v + tilted.heel * y_v
-    return Critical(tiles.curve[tile], value(origin, first, second, third, u), change)
+    height = value(origin, first, second, third, u)
+    both = (np.take(tiles.coefficients, tile, axis=2) * powers(u)).sum(axis=1)
+    change = both[5] - tilted.trim * both[3] + tilted.heel * both[4]
+    return Critical(tiles.curve[tile], height, change, both[:2], both[3:5])
 
 
 def _where(tiles: Tiles, tilted: Tilted) -> tuple[IntArray, FloatArray]:
@@ -70,7 +84,7 @@ def _where(tiles: Tiles, tilted: Tilted) -> tuple[IntArray, FloatArray]:
     lower, upper = turns(tilted, wave)
     low, high = lower > 0.0, upper < 1.0
     begin, end = tiles.start[:-1], tiles.start[1:] - 1
-    knots = np.concatenate([begin, tiles.knuckle, turn])
+    knots = np.concatenate([begin, tiles.edge[tiles.edge >= 0], turn])
     tile = np.concatenate([knots, end, wave[low], wave[high]])
     inner = np.concatenate([lower[low], upper[high]])
     turns_at = _moved(tilted, tile[len(knots) + len(end) :], inner)

@@ -1,12 +1,13 @@
 """Strips in which something happens below a plane: where, and how finely to integrate.
 
 From one curve of a strip to the next the immersed part may change its kind: the keel comes
-out of the water, the deck edge goes under, a piece appears, the waterline passes a knuckle.
+out of the water, the deck edge goes under, a piece appears.
 The place along v is found by bisection, and either side of it gets a rule of its own.
 
 A strip in which nothing happens *yet* counts too, in part: as such a place leaves the strip
 through an end, the share of the fine rule falls from one to nil over the next strip's worth
-of change. So every integral changes continuously with the plane.
+of change (and not too abruptly: where both rules differ, the derivative of a volume differs
+from the area by as much). So every integral changes continuously with the plane.
 """
 
 from __future__ import annotations
@@ -16,16 +17,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_follow import followed
-from assoc_hull.geometry.immersion_places import Brackets, joined, places, states_at
+from assoc_hull.geometry.immersion_places import Brackets, joined, places
 from assoc_hull.geometry.immersion_roots import Tilted
-from assoc_hull.geometry.immersion_strips import Prepared
+from assoc_hull.geometry.immersion_states import Inclination, flickers, states_at
+from assoc_hull.geometry.immersion_strips import LEVEL, Prepared
 from assoc_hull.geometry.quadrature import bunched
-from assoc_hull.geometry.tile_sums import real
+from assoc_hull.geometry.tile_sums import root
 
 __all__ = ["Parts", "parts_of"]
 
 _LADDER = 7  # curves, ever closer to the end of a strip
+_REACH = 0.02  # of a strip's depth: within it no share of the fine rule goes from one to nil
 
 
 @attrs.frozen(eq=False)
@@ -57,11 +61,13 @@ class Parts:
     plane, strip : (n,) int
         For which plane, across which strip.
     v, weight : (n,)
-        Where, and the share in the integrals; nil for curves that only tell extents.
+        Where, and the share in the integrals.
     instead, replaced : (m,) int
         For which plane, which curve of the plain rule.
     share : (m,)
         How much of it is replaced.
+    places : Brackets
+        Where the immersed part changes its kind.
     """
 
     plane: IntArray
@@ -71,6 +77,7 @@ class Parts:
     instead: IntArray
     replaced: IntArray
     share: FloatArray
+    places: Brackets
 
 
 def parts_of(
@@ -95,8 +102,7 @@ def parts_of(
         None if nothing happens anywhere.
     """
     soon = _soon(prepared, tilted, levels)
-    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
-    plane, curve = np.nonzero(changed)
+    plane, curve = _changes(prepared, tilted, real(levels), state)
     if not len(plane) and not len(soon.plane):
         return None
     inclination = real(tilted.trim), real(tilted.heel)
@@ -104,13 +110,28 @@ def parts_of(
         _brackets(prepared, levels, state, plane, curve),
         _dips(prepared, inclination, levels, state, soon),
     )
-    found = places(prepared.plain, *inclination, brackets)
+    found = places(prepared.plain, inclination, brackets)
     found = followed(prepared, tilted, levels, found)
     near = soon.plane * prepared.strips.count + prepared.strip[soon.curve]
     keys, row = np.unique(np.concatenate([found.row, near]), return_inverse=True)
     shares = _shares(soon.share, row[len(found) :], len(keys))
     known = np.isin(keys, found.row)
     return _rules(prepared, keys, np.where(known, 1.0, shares), found)
+
+
+def _changes(
+    prepared: Prepared, tilted: Tilted, levels: FloatArray, state: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Find planes and curves after which the state changes, and not only by rounding."""
+    changed = (state[:, 1:] != state[:, :-1]) & (prepared.strip[1:] == prepared.strip[:-1])
+    plane, curve = np.nonzero(changed)
+    if not len(plane):
+        return plane, curve
+    least = LEVEL * prepared.depth[prepared.strip[curve]]
+    change = state[plane, curve] ^ state[plane, curve + 1]
+    pair = np.stack([curve, curve + 1])
+    real_ones = ~flickers(prepared.tiles, tilted, pair, levels[plane], change, least)
+    return plane[real_ones], curve[real_ones]
 
 
 def _brackets(
@@ -143,10 +164,6 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
     """Lay the fine rule between all places of one strip and plane."""
     count = prepared.strips.count
     v, weight, owner = _fine_points(prepared, keys, found)
-    # The places themselves have no share, but there a waterplane may end.
-    v = np.concatenate([v, found.low, found.high])
-    owner = np.concatenate([owner, found.row, found.row])
-    weight = np.concatenate([weight, np.zeros(2 * len(found))])
     first = np.searchsorted(prepared.strip, keys % count)
     sizes = np.searchsorted(prepared.strip, keys % count, "right") - first
     again = np.repeat(np.arange(len(keys)), sizes)
@@ -159,6 +176,7 @@ def _rules(prepared: Prepared, keys: IntArray, shares: FloatArray, found: Bracke
         instead=(keys // count)[again],
         replaced=first[again] + within,
         share=np.take(shares, again),
+        places=found,
     )
 
 
@@ -196,19 +214,20 @@ def _soon(prepared: Prepared, tilted: Tilted, levels: FloatArray) -> Soon:
     """Find critical points at the ends of strips that a strip's worth of change may wet or dry."""
     ends = prepared.critical(tilted)
     over = real(ends.height) - real(levels)[:, None]
-    plane, point = np.nonzero(np.abs(over) < np.abs(real(ends.change)))
-    most = np.take(ends.change, point)
-    gap = (np.take(levels, plane) - np.take(ends.height, point)) / most
+    depth = prepared.depth[prepared.strip[ends.curve]]
+    reach = root(ends.change * ends.change + (_REACH * depth) ** 2)
+    plane, point = np.nonzero(np.abs(over) < real(reach))
+    gap = (np.take(levels, plane) - np.take(ends.height, point)) / np.take(reach, point)
     part = 1.0 - gap * gap
-    curve = ends.curve[point]
-    inward = np.where(prepared.v[curve] == 0.0, real(most), -real(most))
+    curve, change = ends.curve[point], real(ends.change)[point]
+    inward = np.where(prepared.v[curve] == 0.0, change, -change)
     share = part * part * (3.0 - 2.0 * part)
     return Soon(plane, curve, share, over[plane, point] * inward < 0.0)
 
 
 def _dips(
     prepared: Prepared,
-    inclination: tuple[FloatArray, FloatArray],
+    inclination: Inclination,
     levels: FloatArray,
     state: IntArray,
     soon: Soon,

@@ -11,9 +11,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_roots import Tilted
 from assoc_hull.geometry.immersion_tiles import Tiles, powers
-from assoc_hull.geometry.tile_sums import is_plain, real, root
+from assoc_hull.geometry.tile_sums import root
 
 __all__ = ["Places", "extent", "slopes", "waterline_rate", "wider", "widest"]
 

@@ -2,7 +2,6 @@
 
 They are found among plain numbers. The point that passes the plane there has the height q(v)
 over planes of the inclination, so a change of q - level moves the place by -1/q_v times that.
-Where a bend becomes a knuckle no plane is needed: there it is the angle that passes a limit.
 """
 
 from __future__ import annotations
@@ -11,12 +10,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_critical import critical, critical_at, nearest
-from assoc_hull.geometry.immersion_places import DECK, KEEL, Brackets
+from assoc_hull.geometry.immersion_places import Brackets
 from assoc_hull.geometry.immersion_roots import Tilted, tilt
+from assoc_hull.geometry.immersion_states import DECK, KEEL
 from assoc_hull.geometry.immersion_strips import Prepared
-from assoc_hull.geometry.immersion_tiles import Tiles, bends, from_curves
-from assoc_hull.geometry.tile_sums import is_plain, real
+from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
 
 __all__ = ["followed"]
 
@@ -24,7 +24,8 @@ _FLAT = 1e-9
 """m along a whole strip: what rises less lies level, and has no place to move to."""
 
 _NEAR = 1e-7
-"""m: if no point is so near to the plane, none passes it. Then a bend becomes a knuckle there."""
+"""m: if no point is so near to the plane, none passes it: a knuckle begins or ends there, or
+two pieces of a section join. The integrands go on smoothly there."""
 
 
 def followed(prepared: Prepared, tilted: Tilted, levels: FloatArray, found: Brackets) -> Brackets:
@@ -53,28 +54,9 @@ def followed(prepared: Prepared, tilted: Tilted, levels: FloatArray, found: Brac
     tiles = from_curves(strips.curves(found.strip, 0.5 * (found.low + found.high)))
     height, change = _passing(tiles, tilt(tiles, tilted.trim, tilted.heel), found)
     over = height - np.take(levels, found.row // strips.count)
-    move = np.where(np.abs(real(over)) < _NEAR, _step(over, change), _step(*_bending(tiles)))
+    passes = (np.abs(real(change)) > _FLAT) & (np.abs(real(over)) < _NEAR)
+    move = np.where(passes, (real(over) - over) / np.where(passes, real(change), 1.0), 0.0)
     return attrs.evolve(found, low=found.low + move, high=found.high + move)
-
-
-def _step(over: FloatArray, change: FloatArray) -> FloatArray:
-    """Give by what places move at which something is nil, from its value and its change by v.
-
-    What is left of the values is rounding: only their derivatives are wanted.
-    """
-    clear = (np.abs(real(change)) > _FLAT) & (np.abs(real(over)) < _NEAR)
-    return np.where(clear, (real(over) - over) / np.where(clear, real(change), 1.0), 0.0)
-
-
-def _bending(tiles: Tiles) -> tuple[FloatArray, FloatArray]:
-    """Give of each curve the bend that is nearest to a knuckle, as `bends` does."""
-    over, change = bends(tiles)
-    inside = np.flatnonzero(np.diff(tiles.curve) == 0)
-    order = inside[np.lexsort((np.abs(real(over)[inside]), tiles.curve[inside]))]
-    first = np.searchsorted(tiles.curve[order], np.arange(tiles.curves))
-    some = np.bincount(tiles.curve[inside], minlength=tiles.curves) > 0
-    chosen = order[np.where(some, first, 0)] if len(order) else np.zeros(tiles.curves, np.int64)
-    return np.where(some, np.take(over, chosen), np.inf), np.take(change, chosen)
 
 
 def _passing(tiles: Tiles, tilted: Tilted, found: Brackets) -> tuple[FloatArray, FloatArray]:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_columns import Half, add_solid, cross
+from assoc_hull.geometry.dual import is_plain, real
+from assoc_hull.geometry.immersion_columns import Cross, Half, add_solid, cross
 from assoc_hull.geometry.immersion_events import Parts, parts_of
 from assoc_hull.geometry.immersion_extents import wider, widest
-from assoc_hull.geometry.immersion_places import states
-from assoc_hull.geometry.immersion_roots import Tilted, candidates, mixed, tilt
+from assoc_hull.geometry.immersion_roots import Tilted, candidates, tilt
+from assoc_hull.geometry.immersion_states import batches, states
 from assoc_hull.geometry.immersion_strips import Prepared
-from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, from_curves, integrals, subset
-from assoc_hull.geometry.tile_sums import is_plain, mix, real, sum_by
+from assoc_hull.geometry.immersion_tiles import HEELED, PLAIN, Tiles, expand, integrals
+from assoc_hull.geometry.immersion_tips import tips
+from assoc_hull.geometry.tile_sums import mix, sum_by
 
 __all__ = ["Half", "curve_by_curve", "half"]
 
@@ -38,14 +40,23 @@ def half(prepared: Prepared, levels: FloatArray, trim: FloatArray, heel: FloatAr
     straight = is_plain(trim) and is_plain(heel) and trim[0] == 0.0 == heel[0]
     tilted = prepared.upright if straight else tilt(tiles, trim, heel)
     ground = real(levels)
-    cut = cross(tiles, tilted, candidates(tilted, ground), levels, prepared.weight)
+    tile, plane = candidates(tilted, ground)
+    weight = np.take(prepared.weight, tiles.curve[tile])
+    cut = cross(tiles, tilted, (tile, plane), levels, weight)
     plain = add_solid(cut.half, _whole(prepared.weighted(tilted.heeled), tilted, ground))
     plain = _as_wide(plain, widest(tiles, tilted, cut.places, prepared.v, prepared.strip))
-    state = states(tiles, tilted, ground[:, None], cut.plane, tiles.curve[cut.tile])
-    parts = parts_of(prepared, tilted, levels, state)
+    parts = parts_of(prepared, tilted, levels, _table(prepared, tilted, ground, cut))
     if parts is not None:
         plain = _corrected(prepared, plain, levels, tilted, parts)
     return Half(_in_plane(plain.columns, heel), plain.extent) if tilted.heeled else plain
+
+
+def _table(prepared: Prepared, tilted: Tilted, levels: FloatArray, cut: Cross) -> IntArray:
+    """Tell the states of all curves for each plane, (d, k)."""
+    tiles, planes = prepared.tiles, len(levels)
+    key = cut.plane * tiles.curves + tiles.curve[cut.tile]
+    times = np.bincount(key, minlength=planes * tiles.curves).reshape(planes, -1)
+    return states(tiles, tilted, np.arange(tiles.curves)[None], levels[:, None], times)
 
 
 def curve_by_curve(
@@ -68,7 +79,8 @@ def curve_by_curve(
         The columns.
     """
     tilted = tilt(tiles, trim, heel)
-    columns = _each(tiles, tilted, level, np.arange(tiles.curves), np.ones(tiles.curves)).columns
+    each = np.arange(tiles.curves)
+    columns = _pairs(tiles, tilted, level, (each, each), np.ones(tiles.curves)).columns
     return _in_plane(columns, heel) if tilted.heeled else columns
 
 
@@ -104,26 +116,39 @@ def _corrected(
     prepared: Prepared, plain: Half, levels: FloatArray, tilted: Tilted, parts: Parts
 ) -> Half:
     """Put the fine rule in the place of the plain one where something happens."""
-    fine = from_curves(prepared.strips.curves(parts.strip, parts.v))
-    better = _each(fine, tilted, levels, parts.plane, parts.weight)
-    coarse = subset(prepared.tiles, parts.replaced)
     weight = parts.share * np.take(prepared.weight, parts.replaced)
-    known = _each(coarse, tilted, levels, parts.instead, weight)
-    return Half(plain.columns + better.columns - known.columns, wider(plain.extent, better.extent))
+    known = _pairs(prepared.tiles, tilted, levels, (parts.replaced, parts.instead), weight)
+    columns = plain.columns - known.columns
+    extent = wider(plain.extent, tips(prepared.strips, tilted, levels, parts.places))
+    for rows, curve, tiles in batches(prepared.strips, parts.strip, parts.v):
+        seen = tilt(tiles, tilted.trim, tilted.heel)
+        pairs, weight = (curve, parts.plane[rows]), np.take(parts.weight, rows)
+        fine = _pairs(tiles, seen, levels, pairs, weight)
+        columns, extent = columns + fine.columns, wider(extent, fine.extent)
+    return Half(columns, extent)
 
 
-def _each(
-    tiles: Tiles, inclined: Tilted, levels: FloatArray, plane: IntArray, weight: FloatArray
+def _pairs(
+    tiles: Tiles,
+    tilted: Tilted,
+    levels: FloatArray,
+    pairs: tuple[IntArray, IntArray],
+    weight: FloatArray,
 ) -> Half:
-    """Integrate curves of which each belongs to one plane."""
-    tilted = tilt(tiles, inclined.trim, inclined.heel)
-    whose = plane[tiles.curve]
+    """Integrate pairs of a curve and a plane, of which each has its own weight."""
+    curve, plane = pairs
+    tile, row = expand(tiles, curve)
+    whose = plane[row]
     ground = real(levels)[whose]
-    tile = mixed(tilted, ground)
-    cut = cross(tiles, tilted, (tile, whose[tile]), levels, weight)
-    wet = np.flatnonzero(tilted.control[3] <= ground)
+    hit = np.flatnonzero((tilted.low[tile] <= ground) & (tilted.high[tile] > ground))
+    cut = cross(tiles, tilted, (tile[hit], whose[hit]), levels, np.take(weight, row[hit]))
+    wet = np.flatnonzero(tilted.control[3][tile] <= ground)
+    some, which = np.unique(tile[wet], return_inverse=True)
     whole = integrals(
-        np.take(tiles.coefficients, wet, axis=2), tiles.deck[wet], tiles.lean[wet], tilted.heeled
+        np.take(tiles.coefficients, some, axis=2),
+        tiles.deck[some],
+        tiles.lean[some],
+        tilted.heeled,
     )
-    shares = np.take(weight, tiles.curve[wet])
-    return add_solid(cut.half, sum_by(whole * shares, whose[wet], len(levels)))
+    shares = np.take(whole, which, axis=1) * np.take(weight, row[wet])
+    return add_solid(cut.half, sum_by(shares, whose[wet], len(levels)))

@@ -6,21 +6,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersion_critical import critical, nearest
-from assoc_hull.geometry.immersion_roots import Tilted, mixed, tilt
-from assoc_hull.geometry.immersion_roots import brackets as changes
-from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
+from assoc_hull.geometry.immersion_states import DECK, KEEL, Inclination, look
 from assoc_hull.geometry.isocurves import Strips
 
-__all__ = ["CLOSE", "DECK", "KEEL", "Brackets", "joined", "places", "states", "states_at"]
+__all__ = ["Brackets", "joined", "places"]
 
-CLOSE = 1e-12
-"""Of a strip: how exactly a place is wanted, and the least distance between two."""
-
+_CLOSE = 1e-10  # of a strip: integrals go with its power 3/2, extents with its square
 _TRIALS = 60
 _SEVERAL = 6  # changes between two neighbouring curves, at most
-DECK, KEEL, _CUT, _KNUCKLE = 1, 2, 4, 1024
-"""Of a state: keel or deck end are wet, how often the curve is cut, how many knuckles are wet."""
 
 
 @attrs.frozen(eq=False)
@@ -56,49 +49,14 @@ class Brackets:
         return Brackets(*(each[rows] for each in attrs.astuple(self, recurse=False)))
 
 
-def places(strips: Strips, trim: FloatArray, heel: FloatArray, brackets: Brackets) -> Brackets:
-    """Find all places at which the state changes.
-
-    Parameters
-    ----------
-    strips : Strips
-        The body.
-    trim, heel : (1,)
-        Inclination of the planes, plain.
-    brackets : Brackets
-        Where to look.
-
-    Returns
-    -------
-    Brackets
-        As close as `CLOSE`; more of them than were given where several changes lie
-        between two curves.
-    """
-    found = []
-    for _ in range(_SEVERAL):
-        if not len(brackets):
-            break
-        close = _closed(strips, trim, heel, brackets)
-        found.append(close)
-        more = np.flatnonzero((close.above != brackets.above) & (close.high < brackets.high))
-        brackets = attrs.evolve(brackets.take(more), low=close.high[more], below=close.above[more])
-    return joined(*found) if found else brackets
-
-
 def joined(*several: Brackets) -> Brackets:
     """Put brackets behind one another."""
     fields = zip(*(attrs.astuple(each, recurse=False) for each in several), strict=True)
     return Brackets(*(np.concatenate(parts) for parts in fields))
 
 
-def states_at(
-    strips: Strips,
-    inclination: tuple[FloatArray, FloatArray],
-    strip: IntArray,
-    v: FloatArray,
-    level: FloatArray,
-) -> IntArray:
-    """Tell the states of curves across strips.
+def places(strips: Strips, inclination: Inclination, brackets: Brackets) -> Brackets:
+    """Find all places at which the state changes.
 
     Parameters
     ----------
@@ -106,135 +64,79 @@ def states_at(
         The body.
     inclination : (1,), (1,)
         Tangents of trim and heel, plain.
-    strip, v : (k,) int, (k,)
-        Which curves.
-    level : (k,), m
-        Height of the plane for each.
+    brackets : Brackets
+        Where to look.
 
     Returns
     -------
-    (k,) int
-        Their `states`.
+    Brackets
+        Closed but for rounding; more of them than were given where several changes lie
+        between two curves.
     """
-    tiles = from_curves(strips.curves(strip, v))
-    return _seen(tiles, tilt(tiles, *inclination), level)
+    found = [brackets.take(np.zeros(0, np.int64))]
+    for _ in range(_SEVERAL):
+        if not len(brackets):
+            break
+        close = _closed(strips, inclination, brackets)
+        found.append(close)
+        more = np.flatnonzero((close.above != brackets.above) & (close.high < brackets.high))
+        brackets = attrs.evolve(brackets.take(more), low=close.high[more], below=close.above[more])
+    return joined(*found)
 
 
-def _seen(tiles: Tiles, tilted: Tilted, level: FloatArray) -> IntArray:
-    """Tell the state of each curve, for a level of its own."""
-    ground = level[tiles.curve]
-    tile = mixed(tilted, ground)
-    found = changes(tilted, tile, ground[tile])
-    curve = tiles.curve[tile[found.pair]]
-    state: IntArray = states(tiles, tilted, level[None], 0 * curve, curve)[0]
-    return state
-
-
-def _closed(strips: Strips, trim: FloatArray, heel: FloatArray, brackets: Brackets) -> Brackets:
+def _closed(strips: Strips, inclination: Inclination, brackets: Brackets) -> Brackets:
     """Close each bracket on the first change of state that is seen."""
-    kind = np.where(brackets.below != brackets.above, brackets.below ^ brackets.above, 0)
-    low, high, above = brackets.low.copy(), brackets.high.copy(), brackets.above.copy()
-    ends = np.stack([low, high], axis=1)
-    row = np.repeat(np.arange(len(low)), 2)
-    _, miss = _look(strips, trim, heel, brackets.take(row), kind[row], ends.ravel())
-    miss = miss.reshape(-1, 2)
+    v = np.stack([brackets.low, brackets.high], axis=1)
+    above = brackets.above.copy()
+    strip, level = np.repeat(brackets.strip, 2), np.repeat(brackets.level, 2)
+    over = look(strips, inclination, strip, v.ravel(), level).over.reshape(len(v), 2, -1)
     for _ in range(_TRIALS):
-        alive = np.flatnonzero(high - low > CLOSE)
+        alive = np.flatnonzero(v[:, 1] - v[:, 0] > _CLOSE)
         if not len(alive):
             break
-        trial = _trials(low[alive], high[alive], miss[alive])
-        row = np.repeat(alive, 3)
-        seen, off = _look(strips, trim, heel, brackets.take(row), kind[row], trial.ravel())
-        same = seen.reshape(-1, 3) == brackets.below[alive, None]
-        kept = np.cumprod(same, axis=1).sum(axis=1)
-        edges = np.concatenate([low[alive, None], trial, high[alive, None]], axis=1)
-        kinds = np.concatenate([seen.reshape(-1, 3), above[alive, None]], axis=1)
-        misses = np.concatenate([miss[alive, :1], off.reshape(-1, 3), miss[alive, 1:]], axis=1)
-        each = np.arange(len(alive))
-        low[alive], high[alive] = edges[each, kept], edges[each, kept + 1]
-        above[alive] = kinds[each, kept]
-        miss[alive] = np.stack([misses[each, kept], misses[each, kept + 1]], axis=1)
-    return attrs.evolve(brackets, low=low, high=high, above=above)
+        below = brackets.below[alive, None]
+        trial = _trials(v[alive], _misses(over[alive], below[:, 0] ^ above[alive]))
+        some = np.repeat(alive, 3)
+        seen = look(strips, inclination, brackets.strip[some], trial.ravel(), brackets.level[some])
+        state = seen.state.reshape(-1, 3)
+        kept = np.cumprod(state == below, axis=1).sum(axis=1)
+        row, ends = np.arange(len(alive))[:, None], np.stack([kept, kept + 1], axis=1)
+        v[alive] = np.concatenate([v[alive, :1], trial, v[alive, 1:]], axis=1)[row, ends]
+        between = seen.over.reshape(len(alive), 3, -1)
+        rungs = np.concatenate([over[alive, :1], between, over[alive, 1:]], axis=1)
+        over[alive] = rungs[row, ends]
+        above[alive] = np.concatenate([state, above[alive, None]], axis=1)[row[:, 0], kept]
+    return attrs.evolve(brackets, low=v[:, 0].copy(), high=v[:, 1].copy(), above=above)
 
 
-def _trials(low: FloatArray, high: FloatArray, miss: FloatArray) -> FloatArray:
+def _misses(over: FloatArray, change: IntArray) -> FloatArray:
+    """Give by how much, at both ends, the point is off the plane that passes it, (n, 2).
+
+    If neither end of the curve does, it is the critical point up to which, counted from the
+    lowest, the wetter of both is wet.
+    """
+    wet = (over[:, :, 2:] <= 0.0).sum(axis=2).max(axis=1)
+    point = np.where(change & KEEL, 0, np.where(change & DECK, 1, wet + 1))
+    point = np.minimum(point, over.shape[2] - 1)
+    return np.take_along_axis(over, point[:, None, None], axis=2)[:, :, 0]
+
+
+def _trials(v: FloatArray, miss: FloatArray) -> FloatArray:
     """Give three places in each bracket: two about where the chord says, one far from it.
 
     The chord errs by the square of the bracket's length; so if the two enclose the place,
     the digits double. Without a chord, quarters.
     """
-    length = high - low
+    length = v[:, 1] - v[:, 0]
     one, other = miss[:, 0], miss[:, 1]
-    chord = one * other < 0.0
-    share = np.where(chord, one / np.where(chord, one - other, 1.0), 0.5)
-    half_width = np.where(chord, np.minimum(0.25, 0.25 * length + 0.3 * CLOSE / length), 0.25)
+    with np.errstate(over="ignore", invalid="ignore"):
+        chord = np.isfinite(one - other) & (one * other < 0.0)
+        share = np.where(chord, one / np.where(chord, one - other, 1.0), 0.5)
+    half_width = np.where(chord, np.minimum(0.25, 0.25 * length + 0.3 * _CLOSE / length), 0.25)
     before = np.clip(share - half_width, 0.25 * share, None)
     after = np.clip(share + half_width, None, share + 0.75 * (1.0 - share))
     far = np.where(share > 0.5, 0.5 * before, 0.5 * (1.0 + after))
     far = np.where(chord, far, 0.5)
     inside = np.sort(np.stack([before, after, far], axis=1), axis=1)
-    trial: FloatArray = low[:, None] + length[:, None] * inside
+    trial: FloatArray = v[:, :1] + length[:, None] * inside
     return trial
-
-
-def _look(
-    strips: Strips,
-    trim: FloatArray,
-    heel: FloatArray,
-    brackets: Brackets,
-    kind: IntArray,
-    v: FloatArray,
-) -> tuple[IntArray, FloatArray]:
-    """Tell the state of one curve for each bracket, and by what height it misses a change."""
-    tiles = from_curves(strips.curves(brackets.strip, v))
-    tilted = tilt(tiles, trim, heel)
-    state = _seen(tiles, tilted, brackets.level)
-    return state, _miss(tiles, tilted, brackets.level, kind)
-
-
-def _miss(tiles: Tiles, tilted: Tilted, level: FloatArray, kind: IntArray) -> FloatArray:
-    """Give the height over the plane of the point at which the state is about to change."""
-    keel = tilted.control[0][tiles.start[:-1]] - level
-    deck = tilted.control[3][tiles.start[1:] - 1] - level
-    miss: FloatArray = np.where(kind & KEEL, keel, deck)
-    inner = (kind & (KEEL | DECK)) == 0
-    if not inner.any():
-        return miss
-    points = critical(tiles, tilted)
-    closest = nearest(points, level, tiles.curves)
-    miss = np.where(inner, points.height[closest] - level, miss)
-    return miss
-
-
-def states(
-    tiles: Tiles, tilted: Tilted, level: FloatArray, row: IntArray, curve: IntArray
-) -> IntArray:
-    """Tell of what kind the immersed part of each curve is.
-
-    Parameters
-    ----------
-    tiles, tilted : Tiles, Tilted
-        k curves.
-    level : (r, 1) or (r, k), m
-        Levels.
-    row, curve : (c,) int
-        Level and curve of each cut.
-
-    Returns
-    -------
-    (r, k) int
-        A number made of how often the curve is cut, whether keel and deck end are wet, and
-        how many knuckles are.
-    """
-    rows, count = len(level), tiles.curves
-    times = np.bincount(row * count + curve, minlength=rows * count).reshape(rows, count)
-    keel = tilted.control[0][tiles.start[:-1]] <= level
-    deck = tilted.control[3][tiles.start[1:] - 1] <= level
-    state: IntArray = _CUT * times + KEEL * keel + DECK * deck
-    if len(tiles.knuckle):
-        owner = tiles.curve[tiles.knuckle]
-        at = level[:, owner] if level.shape[1] > 1 else level
-        one, knuckle = np.nonzero(tilted.control[0][tiles.knuckle] <= at)
-        wet = np.bincount(one * count + owner[knuckle], minlength=rows * count)
-        state = state + _KNUCKLE * wet.reshape(rows, count)
-    return state

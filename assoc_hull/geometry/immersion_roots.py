@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.bernstein import stationary, value
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.immersion_tiles import Tiles
 from assoc_hull.geometry.roots import bracketed_roots
-from assoc_hull.geometry.tile_sums import is_plain, real
+
+__all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "tilt", "turns"]
 
 _LEAST = 1e-8
 """Cuts with derivatives are kept so far from the beginning of a tile: the area of the part up to
 them is the root of a square, which at nil has no derivative, though the area has one."""
-
-__all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "mixed", "tilt", "turns"]
 
 
 @attrs.frozen(eq=False)
@@ -160,24 +160,6 @@ def candidates(tilted: Tilted, levels: FloatArray) -> tuple[IntArray, IntArray]:
     tile = np.repeat(np.arange(len(count)), count)
     before = np.cumsum(count) - count
     return tile, np.arange(len(tile)) + (first - before)[tile]
-
-
-def mixed(tilted: Tilted, level: FloatArray) -> IntArray:
-    """Find the tiles that may meet their own level.
-
-    Parameters
-    ----------
-    tilted : Tilted
-        The tiles.
-    level : (s,), m
-        Plain; one for each.
-
-    Returns
-    -------
-    (p,) int
-        The tiles.
-    """
-    return np.flatnonzero((tilted.low <= level) & (tilted.high > level))
 
 
 def turns(tilted: Tilted, tile: IntArray) -> tuple[FloatArray, FloatArray]:

@@ -6,18 +6,23 @@ from functools import cached_property
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersion_critical import Critical, critical
 from assoc_hull.geometry.immersion_roots import Tilted, tilt
 from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, integrals, subset
 from assoc_hull.geometry.isocurves import Strips
 from assoc_hull.geometry.quadrature import lobatto
 
-__all__ = ["Prepared", "prepare"]
+__all__ = ["LEVEL", "Prepared", "prepare"]
 
-_LEAST_FINE, _FINE = 16, 1  # points of the rule for strips in which something happens
+LEVEL = 1e-9
+"""Of a strip's depth: so much is no slope."""
+
+_MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
 @attrs.frozen(eq=False)
@@ -64,6 +69,14 @@ class Prepared:
         return tilt(self.tiles, np.zeros(1), np.zeros(1))
 
     @cached_property
+    def depth(self) -> FloatArray:
+        """Height of each strip, m, (strips,); 1 where it has none."""
+        low, high = self.upright.low, self.upright.high
+        begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
+        depth = np.maximum.reduceat(high, begin) - np.minimum.reduceat(low, begin)
+        return np.where(depth > 0.0, depth, 1.0)
+
+    @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:
         """Curves at v = 0 and 1 of all strips: which they are, and their tiles."""
         end = np.flatnonzero((self.v == 0.0) | (self.v == 1.0))
@@ -75,13 +88,28 @@ class Prepared:
         return self._ends_critical(self.upright)
 
     def critical(self, tilted: Tilted) -> Critical:
-        """Critical points of the curves at both ends of all strips."""
+        """Critical points of the curves at both ends of all strips, but for level edges."""
         return self.upright_ends if tilted is self.upright else self._ends_critical(tilted)
 
     def _ends_critical(self, inclined: Tilted) -> Critical:
         curve, tiles = self.ends
         found = critical(tiles, tilt(tiles, inclined.trim, inclined.heel))
-        return attrs.evolve(found, curve=curve[found.curve])
+        moves = np.flatnonzero(~self._level(found))
+        return attrs.evolve(found, curve=curve[found.curve]).take(moves)
+
+    def _level(self, found: Critical) -> NDArray[np.bool_]:
+        """Tell which points belong to an edge that is level along the strip, as most keels are.
+
+        Such an edge comes out of the water all at once: nothing comes into the strip with it.
+        """
+        end = self.ends[0][found.curve]
+        strip, fore = self.strip[end], self.v[end] == 1.0
+        least = LEVEL * self.depth[strip]
+        step = np.rint(real(found.height) / least).astype(np.int64)
+        _, which = np.unique(strip + self.strips.count * step, return_inverse=True)
+        both = (np.bincount(which, fore) > 0.0) & (np.bincount(which, ~fore) > 0.0)
+        level: NDArray[np.bool_] = both[which] & (np.abs(real(found.change)) <= least)
+        return level
 
 
 def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Prepared:
@@ -90,7 +118,8 @@ def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Pre
     Parameters
     ----------
     strips : Strips
-        The body.
+        The body. A strip of order n gets Lobatto's rule of n + 1 points, exact to the same
+        degree as Gauss's of n.
     factor : int
         By how much to raise the order along v: two orders tell the error of one.
     plain : Strips or None
@@ -114,7 +143,7 @@ def prepare(strips: Strips, factor: int = 1, plain: Strips | None = None) -> Pre
     nodes = [np.concatenate(parts) for parts in zip(*rules, strict=True)]
     v, weight = nodes if nodes else (np.zeros(0), np.zeros(0))
     tiles = from_curves(strips.curves(strip, v))
-    fine = np.maximum(_LEAST_FINE, _FINE * order)
+    fine = order + _MORE
     whole = _weighted(tiles, weight, heeled=False)
     known = strips if plain is None else plain
     return Prepared(strips, fine, strip, v, weight, tiles, known, whole)

@@ -22,13 +22,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
-from assoc_hull.geometry.tile_sums import differs, mix, real, root
+from assoc_hull.geometry.tile_sums import differs, mix, root
 
 __all__ = [
-    "CHUNK", "HEELED", "PLAIN", "Tiles", "bends", "from_curves", "integrals", "powers", "subset",
-]  # fmt: skip
+    "CHUNK",
+    "HEELED",
+    "PLAIN",
+    "Tiles",
+    "expand",
+    "from_curves",
+    "integrals",
+    "powers",
+    "subset",
+]
 
 CHUNK = 2048
 """Tiles or cuts at a time, so that the work on them stays in the processor's cache."""
@@ -38,7 +47,6 @@ PLAIN, HEELED = 7, 11
 the first four once more, with N_z."""
 
 _POINTS = 6  # exact to degree 11
-_SMOOTH = 0.5  # rad: below this angle two tiles meet without a knuckle
 
 _NODES, _WEIGHTS = gauss(_POINTS)
 _VALUE = _NODES[:, None] ** np.arange(4)
@@ -62,8 +70,8 @@ class Tiles:
         The tile is closed deck.
     lean : (s,) bool
         x or x_v are not the same all along the tile.
-    knuckle : (n,) int
-        Tiles that begin at a knuckle.
+    edge : (k,) int
+        The tile with which the closed deck of each curve begins; -1 where there is none.
     """
 
     coefficients: FloatArray
@@ -71,7 +79,7 @@ class Tiles:
     start: IntArray
     deck: NDArray[np.bool_]
     lean: NDArray[np.bool_]
-    knuckle: IntArray
+    edge: IntArray
 
     @property
     def curves(self) -> int:
@@ -104,12 +112,33 @@ def from_curves(curves: IsoCurves) -> Tiles:
     coefficients = np.stack(rows).reshape(6, 4, -1)
     owner = np.repeat(np.arange(curves.count), np.diff(curves.start))
     lean = np.asarray(differs(coefficients[0::3, 1:]).any(axis=(0, 1)))
-    knuckle = _knuckles(real(coefficients), owner)
-    return Tiles(coefficients, owner, curves.start, curves.deck, lean, knuckle)
+    edge = _edges(curves.deck, owner, curves.count)
+    return Tiles(coefficients, owner, curves.start, curves.deck, lean, edge)
+
+
+def expand(tiles: Tiles, curve: IntArray) -> tuple[IntArray, IntArray]:
+    """List the tiles of some curves, possibly repeatedly.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        The tiles.
+    curve : (n,) int
+        Which curves.
+
+    Returns
+    -------
+    (t,) int, (t,) int
+        The tiles, and to which of the n each belongs.
+    """
+    sizes = tiles.start[curve + 1] - tiles.start[curve]
+    begin = np.cumsum(sizes) - sizes
+    row = np.repeat(np.arange(len(curve)), sizes)
+    return np.arange(len(row)) + (tiles.start[curve] - begin)[row], row
 
 
 def subset(tiles: Tiles, curve: IntArray) -> Tiles:
-    """Take some curves, possibly repeatedly.
+    """Take some curves.
 
     Parameters
     ----------
@@ -123,19 +152,16 @@ def subset(tiles: Tiles, curve: IntArray) -> Tiles:
     Tiles
         Their tiles, in that order.
     """
-    sizes = np.diff(tiles.start)[curve]
-    start = np.concatenate([[0], np.cumsum(sizes)])
-    owner = np.repeat(np.arange(len(curve)), sizes)
-    rows = np.arange(start[-1]) + (tiles.start[curve] - start[:-1])[owner]
-    sharp = np.zeros(len(tiles.curve), bool)
-    sharp[tiles.knuckle] = True
+    rows, owner = expand(tiles, curve)
+    start = np.searchsorted(owner, np.arange(len(curve) + 1))
+    deck = tiles.deck[rows]
     return Tiles(
         np.take(tiles.coefficients, rows, axis=2),
         owner,
         start,
-        tiles.deck[rows],
+        deck,
         tiles.lean[rows],
-        np.flatnonzero(sharp[rows]),
+        _edges(deck, owner, len(curve)),
     )
 
 
@@ -212,43 +238,9 @@ def _values_slopes(point: FloatArray) -> tuple[FloatArray, FloatArray]:
     return both[:, :_POINTS], both[:, _POINTS:]
 
 
-def bends(tiles: Tiles) -> tuple[FloatArray, FloatArray]:
-    """Tell how far each tile but the first is from beginning at a knuckle.
-
-    Parameters
-    ----------
-    tiles : Tiles
-        s tiles.
-
-    Returns
-    -------
-    over, change : (s - 1,)
-        The cosine of the angle to the tile before, less that from which on it is a knuckle,
-        and its change along the strip; at the beginning of a curve they mean nothing.
-    """
-    sides, moving = _directions(tiles.coefficients[:3]), _directions(tiles.coefficients[3:])
-    units, rates = [], []
-    for side, move in zip(sides, moving, strict=True):
-        length = root((side * side).sum(axis=0))
-        length = np.where(real(length) > 0.0, length, 1.0)
-        units.append(side / length)
-        rates.append(move / length)
-    cosine = (units[0] * units[1]).sum(axis=0)
-    change = ((units[1] - cosine * units[0]) * rates[0]).sum(axis=0)
-    change = change + ((units[0] - cosine * units[1]) * rates[1]).sum(axis=0)
-    return cosine - np.cos(_SMOOTH), change
-
-
-def _directions(point: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the directions in which tiles end, and in which the next ones begin, (3, s - 1)."""
-    into = point[:, 1, :-1] + 2.0 * point[:, 2, :-1] + 3.0 * point[:, 3, :-1]
-    return into, point[:, 1, 1:]
-
-
-def _knuckles(coefficients: FloatArray, curve: IntArray) -> IntArray:
-    """Find the tiles that begin at a knuckle: places where the direction jumps."""
-    into, out = _directions(coefficients[:3])
-    along = (into * out).sum(axis=0)
-    lengths = (into * into).sum(axis=0) * (out * out).sum(axis=0)
-    bent = along < np.cos(_SMOOTH) * np.sqrt(lengths)
-    return np.flatnonzero(bent & (curve[1:] == curve[:-1])) + 1
+def _edges(deck: NDArray[np.bool_], curve: IntArray, count: int) -> IntArray:
+    """Find the tiles with which decks begin."""
+    tile = np.flatnonzero(deck[1:] & ~deck[:-1] & (curve[1:] == curve[:-1])) + 1
+    edge = np.full(count, -1)
+    edge[curve[tile]] = tile
+    return edge

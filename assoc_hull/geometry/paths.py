@@ -8,15 +8,16 @@ smooth as the splines are.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.dual import is_plain, real
 from assoc_hull.geometry.segments import power, segment_start
-from assoc_hull.geometry.tile_sums import is_plain, real
 
-__all__ = ["Bit", "PathShapes", "Paths", "bit_lengths", "shapes"]
+__all__ = ["QUICK", "SMALL", "Bit", "PathShapes", "Paths", "bit_lengths", "shapes"]
 
 Bit = tuple[int, float, float]
 """A segment, and the parameters (0 to 1) between which it is walked; backward if they fall."""
@@ -25,6 +26,9 @@ _STEPS = 60
 """Halvings of a bracket at most; Newton's rule needs four or five steps."""
 
 _DONE = 1e-15
+
+QUICK, SMALL = 8, 1e-9
+"""Steps of Newton's rule without a bracket, and the last of them at most."""
 
 
 @attrs.frozen(eq=False)
@@ -87,57 +91,62 @@ class PathShapes:
     begin: FloatArray
     finish: FloatArray
 
+    @cached_property
     def ends(self) -> tuple[FloatArray, FloatArray]:
-        """Give the first and the last place of each path, (p, 3) each, m."""
+        """The first and the last place of each path, (p, 3) each, m."""
         last = self.paths.start[1:] - 1
         return self.cubic[self.paths.start[:-1], 0], self.cubic[last].sum(axis=1)
 
     def at(self, path: IntArray, w: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give places and derivatives by the fraction, (k, 3) each, m."""
-        return self._on(self._bit(path, w, real(self.begin)), w)
+        return self._on(self._bit(path, w, self._begins), w)
 
-    def at_part(
-        self, path: IntArray, part: FloatArray, axis: int = 0
-    ) -> tuple[FloatArray, FloatArray]:
-        """Give the places that lie by given parts of the way along one coordinate.
+    def at_part(self, path: IntArray, part: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the places that lie by given parts of the way along x.
 
         Parameters
         ----------
         path : (k,) int
-            Paths along which the coordinate only grows, or only falls.
+            Paths along which x only grows, or only falls.
         part : (k,)
             From 0 to 1.
-        axis : int
-            The coordinate.
 
         Returns
         -------
         place, slope : (k, 3), m
             The places, and their derivatives by `part`.
         """
-        first, last = (end[:, axis] for end in self.ends())
-        span = np.where(real(last) == real(first), 1.0, last - first)
-        where = self.paths.start[:-1].repeat(np.diff(self.paths.start))
-        owner = np.arange(self.paths.count).repeat(np.diff(self.paths.start))
-        begins = real(self.cubic)[:, 0, axis]
-        bit = self._bit(path, part, (begins - begins[where]) / real(span)[owner])
-        target = first[path] + part * span[path]
-        cubic = self.cubic[bit]
-        u = _solve(cubic[:, :, axis], target)
-        place = ((cubic[:, 3] * u[:, None] + cubic[:, 2]) * u[:, None] + cubic[:, 1]) * u[
-            :, None
-        ] + cubic[:, 0]
-        slope = (3.0 * cubic[:, 3] * u[:, None] + 2.0 * cubic[:, 2]) * u[:, None] + cubic[:, 1]
-        return place, slope * (span[path] / slope[:, axis])[:, None]
+        first, last = (end[path, 0] for end in self.ends)
+        span = last - first
+        cubic = self.cubic[self._bit(path, part, self._reached)]
+        u = _solve(cubic[:, :, 0], first + part * span)[:, None]
+        place = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + cubic[:, 0]
+        slope = (3.0 * cubic[:, 3] * u + 2.0 * cubic[:, 2]) * u + cubic[:, 1]
+        return place, slope * (span / slope[:, 0])[:, None]
 
-    def _bit(self, path: IntArray, w: FloatArray, begins: FloatArray) -> IntArray:
+    @cached_property
+    def _begins(self) -> FloatArray:
+        return self._keys(real(self.begin))
+
+    @cached_property
+    def _reached(self) -> FloatArray:
+        """Say what part of the way along x lies before each bit, as keys."""
+        first, last = (real(end)[self._owner, 0] for end in self.ends)
+        span = np.where(last == first, 1.0, last - first)
+        return self._keys((real(self.cubic)[:, 0, 0] - first) / span)
+
+    @cached_property
+    def _owner(self) -> IntArray:
+        return np.arange(self.paths.count).repeat(np.diff(self.paths.start))
+
+    def _keys(self, begins: FloatArray) -> FloatArray:
+        """Give fractions as keys: those of one path lie between its number and the next."""
+        key: FloatArray = np.asarray(2.0 * self._owner + np.clip(begins, 0.0, 1.0), np.float64)
+        return key
+
+    def _bit(self, path: IntArray, w: FloatArray, key: FloatArray) -> IntArray:
         """Find the bit of each path on which a fraction lies."""
         start = self.paths.start
-        if self.paths.count == len(begins):  # one bit each
-            return path
-        owner = np.arange(self.paths.count).repeat(np.diff(start))
-        # Fractions of one path lie between its number and the next: one search for all.
-        key = 2.0 * owner + np.clip(begins, 0.0, 1.0)
         found = np.searchsorted(key, 2.0 * path + real(w), side="right") - 1
         return np.clip(found, start[path], start[path + 1] - 1)
 
@@ -212,11 +221,33 @@ def _solve(cubic: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def _solve_plain(cubic: FloatArray, target: FloatArray) -> FloatArray:
-    """Find where monotone cubics (k, 4) reach a value: Newton's rule within a bracket."""
+    """Find where monotone cubics (k, 4) reach a value: Newton's rule, else within a bracket."""
     shifted = cubic[:, 0] - target
+    first, second, third = cubic[:, 1], cubic[:, 2], cubic[:, 3]
+    double, triple = 2.0 * second, 3.0 * third
+    slope = first + second + third
+    u = -shifted / np.where(slope == 0.0, 1.0, slope)
+    with np.errstate(all="ignore"):
+        for _ in range(QUICK):
+            step = ((third * u + second) * u + first) * u
+            step += shifted
+            step /= (triple * u + double) * u + first
+            u -= step
+            # The rule squares an error: what is left after such a step is rounding.
+            if np.abs(step).max(initial=0.0) <= SMALL:
+                break
+    good = (u >= -SMALL) & (u <= 1.0 + SMALL) & (np.abs(step) <= SMALL)
+    if not good.all():
+        lost = np.flatnonzero(~good)
+        u[lost] = _bracketed(cubic[lost], shifted[lost])
+    return np.clip(u, 0.0, 1.0)
+
+
+def _bracketed(cubic: FloatArray, shifted: FloatArray) -> FloatArray:
+    """Find the root in [0, 1] of monotone cubics with the given constants, step by safe step."""
     slope = cubic[:, 1] + cubic[:, 2] + cubic[:, 3]
     rising = slope >= 0.0
-    low, high = np.zeros(len(target)), np.ones(len(target))
+    low, high = np.zeros(len(shifted)), np.ones(len(shifted))
     u = np.clip(-shifted / np.where(slope == 0.0, 1.0, slope), 0.0, 1.0)
     for _ in range(_STEPS):
         value = ((cubic[:, 3] * u + cubic[:, 2]) * u + cubic[:, 1]) * u + shifted

@@ -11,20 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.dual import Dual, as_array
+from assoc_hull.geometry.dual import Dual, as_array, is_plain, real
+from assoc_hull.geometry.dual import sum_by as sum_rows_by
 
-__all__ = ["differs", "is_plain", "mix", "nil", "real", "root", "sum_by"]
-
-
-def is_plain(values: object) -> bool:
-    """Tell real numbers from those that carry derivatives along."""
-    return isinstance(values, np.ndarray) and values.dtype == np.float64
-
-
-def real(values: FloatArray) -> FloatArray:
-    """Give the numbers on which decisions are taken, without what derivatives they carry."""
-    part: FloatArray = values.real
-    return part
+__all__ = ["differs", "mix", "nil", "root", "sum_by"]
 
 
 def differs(values: FloatArray) -> NDArray[np.bool_]:
@@ -103,6 +93,7 @@ def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
         dot = values.dot.reshape(values.count * len(values), values.shape[1])
         sums = sum_by(dot, owner, count).reshape(values.count, len(values), count)
         return as_array(Dual(sum_by(values.value, owner, count), sums))
-    if np.iscomplexobj(values):
-        return sum_by(values.real, owner, count) + 1j * sum_by(values.imag, owner, count)
+    if not is_plain(values):
+        summed: FloatArray = sum_rows_by(values.T, owner, count).T
+        return summed
     return np.stack([np.bincount(owner, row, count) for row in values])

@@ -1,8 +1,9 @@
 """Tables of hydrostatics as CSV and XLSX, with the head that says what they hold good for.
 
 Above stands the head, a line each, behind ``#`` in a CSV; then a row of names, a row of units,
-and a row per floating position: draughts, the values, and ``error_`` columns where it was
-estimated how far they may be off. Names and units are those of the record.
+and a row per floating position: draughts, the values, the least freeboard, what appendages add,
+and ``error_`` columns where it was estimated how far values may be off. Names and units are those
+of the record.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import attrs
+import numpy as np
 
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
 from assoc_hull.analysis.record_fields import FIELDS
@@ -115,11 +117,13 @@ def _head(table: HydrostaticTable) -> Iterator[tuple[str, str]]:
 
 
 def _columns(table: HydrostaticTable) -> Iterator[_Column]:
-    """Give draughts, values, what each appendage adds, and errors."""
+    """Give draughts, values, freeboard, what each appendage adds, and errors."""
     for name, values in table.draughts.items():
         yield _Column(name, _UNITS.get(name, "m"), 4, values)
     for name, values in table.columns.items():
         yield _Column(name, FIELDS[name].unit, FIELDS[name].digits, values)
+    free = np.array([each.least for each in table.freeboards])
+    yield _Column("freeboard", "m", 4, free)
     for share in table.shares:
         name = share.appendage.name
         yield _Column(f"volume of {name}", "m3", 3, share.volume)

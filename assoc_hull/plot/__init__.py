@@ -4,15 +4,20 @@ from assoc_hull.plot.comb_plan import combs_plan
 from assoc_hull.plot.combs import curvature_combs
 from assoc_hull.plot.compare import before_after, snapshot
 from assoc_hull.plot.deviations import adoption_deviations
+from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.lines_plan import lines_plan
 from assoc_hull.plot.neighbourhood import neighbourhood
+from assoc_hull.plot.section_areas import bonjean_curves, sectional_area_curve
 
 __all__ = [
     "adoption_deviations",
     "before_after",
+    "bonjean_curves",
     "combs_plan",
     "curvature_combs",
+    "hydrostatic_curves",
     "lines_plan",
     "neighbourhood",
+    "sectional_area_curve",
     "snapshot",
 ]

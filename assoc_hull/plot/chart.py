@@ -145,7 +145,7 @@ def levels(chart: Chart, scale: Scale, title: str, draught: float | None = None)
         y = float(scale.at(draught))
         chart.level(y, WATER, "design draught")
         place = (chart.right + 1.0 * factor, y)
-        words = f"T {draught:g}"
+        words = f"T {draught:.4g}"
         sheet.take(sheet.text(place, words, size=0.9, across="left", name="label/design"))
 
 
@@ -174,6 +174,9 @@ def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
         return np.column_stack([x, y])
     step = np.diff(x)
     middle = (rise[:-1] * step[1:] + rise[1:] * step[:-1]) / (step[1:] + step[:-1])
+    least = np.minimum(np.abs(rise[:-1]), np.abs(rise[1:]))
+    most = np.where(rise[:-1] * rise[1:] > 0.0, 3.0, 1.0) * least  # else it swings out
+    middle = np.clip(middle, -most, most)
     slope = np.concatenate([[2 * rise[0] - middle[0]], middle, [2 * rise[-1] - middle[-1]]])
     level = np.abs(np.diff(y)) <= 1e-6 * np.abs(y).max(initial=0.0)
     slope[:-1][level] = slope[1:][level] = 0.0

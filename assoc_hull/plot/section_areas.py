@@ -168,7 +168,7 @@ def _shown(stations: StationAreas) -> StationAreas:
 
 def _area_unit(stations: StationAreas, chart: Chart, length: float) -> float:
     """Give how many metres of the length a square metre is drawn as: a round length on paper."""
-    step = 1.6 * length / max(len(stations.x) - 1, 1)
+    step = 2.2 * length / max(len(stations.x) - 1, 1)
     most = max(float(stations.area.max()), 1e-9)
     per_mm = scale_to(0.0, most / (step * chart.wide / length), 0.0, 1.0, 1).step
     return length / chart.wide / per_mm

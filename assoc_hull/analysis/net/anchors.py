@@ -10,17 +10,22 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net, Part
 from assoc_hull.analysis.net.loops import Frame
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.evaluation import derivative, evaluate
 
 __all__ = ["Anchor", "Spans", "anchors", "spans"]
 
 _PLACES = ("boundary", "waterlines", "buttocks", "diagonals", "frames")
-"""Where two lines cross one another between sections, the family that stands first is taken."""
+"""Where two lines cross one another between sections, the family that stands first is taken.
+
+Borders of flats come last: a waterline that leaves the flat between two sections says more of
+the hull there than the border, along which nothing bends.
+"""
 
 _APART = 1e-5
 """Anchors lie so far apart on both rails, in lengths of the rail."""
 
-_SAMPLES = np.linspace(0.0, 1.0, 9)
+_SAMPLES = np.linspace(1e-6, 1.0 - 1e-6, 9)  # a knuckle at the end belongs to what follows
 _STEADY = 0.02
 """Along an anchor x grows everywhere by this part of its mean growth at least."""
 
@@ -43,8 +48,8 @@ class Anchor:
         Where it lies on the rails.
     low, high : float
         How far up the rails that is, from 0 to 1.
-    corner : bool
-        The hull has a knuckle along it.
+    course : (n, 3) or None, m
+        Places along it, from aft forward; None for a side of the strip.
     """
 
     parts: tuple[Part, ...]
@@ -52,7 +57,7 @@ class Anchor:
     fore: Spot
     low: float
     high: float
-    corner: bool = False
+    course: FloatArray | None = attrs.field(default=None, eq=False)
 
 
 @attrs.frozen
@@ -68,11 +73,14 @@ class Spans:
         Along the stretch x only grows, or only falls.
     of : dict of (int, int) to tuple of int
         Which spans run between two curves.
+    course : (n, k, 3), m
+        Places along each stretch.
     """
 
     span: tuple[tuple[Part, Spot, Spot, int], ...]
     steady: tuple[bool, ...]
     of: dict[tuple[int, int], tuple[int, ...]]
+    course: FloatArray
 
 
 def spans(net: Net) -> Spans:
@@ -86,7 +94,7 @@ def spans(net: Net) -> Spans:
                 marks.setdefault(both[own], []).append((place[own], both[other], place[other]))
     for curve in sorted(marks):
         order = sorted(marks[curve])
-        rank = _PLACES.index(net.family[curve])
+        rank = len(_PLACES) if net.flat[curve] else _PLACES.index(net.family[curve])
         for (t0, c0, s0), (t1, c1, s1) in itertools.pairwise(order):
             if t1 > t0:
                 found.append(((curve, t0, t1), (c0, s0), (c1, s1), rank))
@@ -94,21 +102,32 @@ def spans(net: Net) -> Spans:
     for i, (_, (c0, _s0), (c1, _s1), _) in enumerate(found):
         key = (min(c0, c1), max(c0, c1))
         of[key] = (*of.get(key, ()), i)
-    return Spans(tuple(found), steady(net, [each[0] for each in found]), of)
+    parts = [each[0] for each in found]
+    return Spans(tuple(found), steady(net, parts), of, _courses(net, parts))
 
 
 def steady(net: Net, parts: Sequence[Part]) -> tuple[bool, ...]:
     """Tell along which parts of curves x only grows, or only falls, and nowhere hardly at all."""
-    curve = np.array([part[0] for part in parts], np.int64)
-    begin, finish = (np.array([part[i] for part in parts], np.float64)[:, None] for i in (1, 2))
-    t = begin + (finish - begin) * _SAMPLES
-    every = curve.repeat(len(_SAMPLES))
-    slope = derivative(net.batch, every, t.ravel())[:, 0].reshape(t.shape)
+    curve, t = _sampled(parts)
+    slope = derivative(net.batch, curve.repeat(t.shape[1]), t.ravel())[:, 0].reshape(t.shape)
     ends = evaluate(net.batch, np.tile(curve, 2), np.concatenate([t[:, 0], t[:, -1]]))[:, 0]
-    mean = (ends[len(curve) :] - ends[: len(curve)])[:, None] / (finish - begin)
+    mean = (ends[len(curve) :] - ends[: len(curve)])[:, None] / (t[:, -1:] - t[:, :1])
     return tuple(
         ((slope * np.sign(mean) > _STEADY * np.abs(mean)) & (mean != 0.0)).all(axis=1).tolist()
     )
+
+
+def _courses(net: Net, parts: Sequence[Part]) -> FloatArray:
+    """Give places along parts of curves, (n, k, 3), m."""
+    curve, t = _sampled(parts)
+    found: FloatArray = evaluate(net.batch, curve.repeat(t.shape[1]), t.ravel())
+    return found.reshape(*t.shape, 3)
+
+
+def _sampled(parts: Sequence[Part]) -> tuple[IntArray, FloatArray]:
+    """Give the curves of parts, (n,), and parameters along them, (n, k), m."""
+    begin, finish = (np.array([part[i] for part in parts], np.float64)[:, None] for i in (1, 2))
+    return np.array([part[0] for part in parts], np.int64), begin + (finish - begin) * _SAMPLES
 
 
 def anchors(frame: Frame, every: Spans) -> tuple[Frame, list[Anchor]]:
@@ -149,12 +168,16 @@ def _found(frame: Frame, every: Spans) -> list[tuple[int, Anchor]]:
         if every.steady[i] or not frame.plane
     ):
         part, begin, finish, rank = every.span[i]
-        for one, other, way in ((begin, finish, part), (finish, begin, _turned(part))):
+        course = every.course[i]
+        for one, other, way, run in (
+            (begin, finish, part, course),
+            (finish, begin, _turned(part), course[::-1]),
+        ):
             low, high = aft.spot(one), fore.spot(other)
             if low is not None and high is not None:
                 at = aft.height(low), fore.height(high)
                 at = (at[1] if aft.is_point else at[0], at[0] if fore.is_point else at[1])
-                found.append((rank, Anchor((way,), low, high, *at)))
+                found.append((rank, Anchor((way,), low, high, *at, run)))
                 break
     return found
 
@@ -201,7 +224,28 @@ def _fits(below: Anchor, above: Anchor) -> bool:
     low, high = above.low - below.low, above.high - below.high
     corner = (below.low == below.high == 0.0) or (above.low == above.high == 1.0)
     least, most = min(low, high), max(low, high)
-    return most > _APART and (least > _APART or (corner and least >= -_APART))
+    apart = most > _APART and (least > _APART or (corner and least >= -_APART))
+    return apart and not _cross(below, above)
+
+
+def _cross(below: Anchor, above: Anchor) -> bool:
+    """Tell whether two anchors change places on their way: there the surface would fold.
+
+    Looked at is at which side one lies of the other, at three places between the rails.
+    """
+    if below.course is None or above.course is None:
+        return False
+    one, other = _midway(below.course), _midway(above.course)
+    out = above.course[[0, -1]] - below.course[[0, -1]]
+    return bool(((other - one) @ out.sum(axis=0) <= 0.0).any())
+
+
+def _midway(course: FloatArray) -> FloatArray:
+    """Give the places at 1/4, 1/2 and 3/4 of the length between the rails, (3, 3), m."""
+    x = course[:, 0]
+    ahead = course if x[-1] >= x[0] else course[::-1]
+    at = x[0] + (x[-1] - x[0]) * np.array([0.25, 0.5, 0.75])
+    return np.stack([np.interp(at, ahead[:, 0], ahead[:, i]) for i in range(3)], axis=1)
 
 
 def _turned(part: Part) -> Part:

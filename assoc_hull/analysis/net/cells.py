@@ -9,7 +9,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.anchors import Spot, anchors, spans, steady
+from assoc_hull.analysis.net.anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.sections import CENTRE
@@ -22,7 +22,7 @@ from assoc_hull.geometry.tile_sums import nil
 
 __all__ = ["Layout", "blends", "lay_out"]
 
-_ORDER, _END_ORDER = 3, 6
+_ORDER, _END_ORDER = 4, 6
 """Gauss points along a strip between sections, and along one at an end of the ship, where
 lines are steeper."""
 
@@ -53,6 +53,8 @@ class Layout:
         The paths of each cell along its rails, with v = 0 and 1.
     cell : (t,) int
         The cell of each tile.
+    flat, knuckle : (a,) bool
+        Anchors that are borders of flats, and knuckles.
     """
 
     cells: Cells
@@ -62,9 +64,11 @@ class Layout:
     cell_start: IntArray
     rails: IntArray
     cell: IntArray
+    flat: NDArray[np.bool_]
+    knuckle: NDArray[np.bool_]
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.edge, self.cell_start, self.rails, self.cell)
+        freeze(self.edge, self.cell_start, self.rails, self.cell, self.flat, self.knuckle)
 
     def deck_edge(self, net: Net) -> FloatArray:
         """Give places along the deck edge, (k, 3), m; the top of the hull if it has none."""
@@ -91,6 +95,8 @@ class _Draft:
     anchor_start: list[int] = attrs.field(factory=lambda: [0])
     anchor: list[int] = attrs.field(factory=list)
     blend: list[FloatArray] = attrs.field(factory=list)
+    flat: list[bool] = attrs.field(factory=list)
+    knuckle: list[bool] = attrs.field(factory=list)
     cell: list[tuple[int, int, int]] = attrs.field(factory=list)
     cell_start: list[int] = attrs.field(factory=lambda: [0])
 
@@ -120,7 +126,12 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         found[i], run = anchors(given, every)
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
-        first, blend = blends(np.array([0.5 * (each.low + each.high) for each in run]))
+        flat = [_side(net, each, net.flat) for each in run]
+        knuckle = [_side(net, each, net.knuckle) for each in run]
+        draft.flat += flat
+        draft.knuckle += knuckle
+        height = np.array([0.5 * (each.low + each.high) for each in run])
+        first, blend = blends(height, flat, knuckle)
         for j, (below, above) in enumerate(itertools.pairwise(run)):
             aft = draft.add(_between(found[i].aft, below.aft, above.aft))
             fore = draft.add(_between(found[i].fore, below.fore, above.fore))
@@ -133,7 +144,8 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
     cells, cell = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
     rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
     start = np.array(draft.cell_start, np.int64)
-    return Layout(cells, tuple(found), tuple(lost), edge, start, rails, cell)
+    sides = np.array(draft.flat, np.bool_), np.array(draft.knuckle, np.bool_)
+    return Layout(cells, tuple(found), tuple(lost), edge, start, rails, cell, *sides)
 
 
 def _top(frame: Frame) -> list[Part]:
@@ -143,16 +155,28 @@ def _top(frame: Frame) -> list[Part]:
     return [(rail[-1][0], rail[-1][2], rail[-1][2]) for rail in (frame.aft, frame.fore)]
 
 
-def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
+def _side(net: Net, anchor: Anchor, which: NDArray[np.bool_]) -> bool:
+    """Tell whether an anchor runs along curves of a kind."""
+    return any(which[part[0]] for part in anchor.parts)
+
+
+def blends(
+    height: FloatArray,
+    flat: Sequence[bool] | NDArray[np.bool_] = (),
+    knuckle: Sequence[bool] | NDArray[np.bool_] = (),
+) -> tuple[IntArray, FloatArray]:
     """Give how the cells of a strip carry on between the anchors, as cubics.
 
     Each cubic has the values of the two anchors at its ends, and there the slopes of the
-    parabolas through three neighbouring anchors.
+    parabolas through three neighbouring anchors. At the border of a flat, to which the hull is
+    tangent, the slope is nil; at a knuckle each side has its own, that of the straight line.
 
     Parameters
     ----------
     height : (a,)
         Where the anchors lie, ascending, a >= 2.
+    flat, knuckle : sequence of bool
+        Which anchors are borders of flats, and knuckles; none if not given.
 
     Returns
     -------
@@ -162,8 +186,8 @@ def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
         By which weights: ``sum_j cubic[:, i, j] value[first + j]`` is the coefficient of f^i.
     """
     count = len(height)
-    width = np.diff(height)
     slope = _slopes(height)
+    slope[np.flatnonzero(flat)] = 0.0
     first = np.clip(np.arange(count - 1) - 1, 0, max(count - 4, 0))
     column = first[:, None] + np.arange(4)
     inside = column < count
@@ -171,8 +195,13 @@ def blends(height: FloatArray) -> tuple[IntArray, FloatArray]:
     cell = np.arange(count - 1)
     one = np.eye(count)
     below, above = (one[(cell + k)[:, None], column] * inside for k in (0, 1))
-    leave, arrive = (slope[(cell + k)[:, None], column] * width[:, None] * inside for k in (0, 1))
+    width = np.diff(height)[:, None]
+    leave, arrive = (slope[(cell + k)[:, None], column] * width * inside for k in (0, 1))
     step = above - below
+    sharp = np.zeros(count, np.bool_)
+    sharp[np.flatnonzero(knuckle)] = True
+    leave = np.where(sharp[:-1, None], step, leave)
+    arrive = np.where(sharp[1:, None], step, arrive)
     cubic = [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step]
     return first, np.stack(cubic, axis=1)
 
@@ -218,6 +247,9 @@ def _cells(
             first, aft, fore = draft.cell[j]
             tiles += [(first, *tile) for tile in _tiles(walked, aft, fore)]
             cell += [j] * (len(tiles) - len(cell))
+        if deck[i]:
+            tiles.append((*tiles[-1][:3], -2, -1))
+            cell.append(cell[-1])
         tile_start.append(len(tiles))
     table = np.array(tiles, np.int64).reshape(-1, 5)
     anchor_start = np.array(draft.anchor_start, np.int64)
@@ -239,7 +271,7 @@ def _cells(
         column[3],
         column[4],
         plane,
-        deck,
+        column[3] == -2,
         np.where(plane, _ORDER, _END_ORDER).astype(np.int64),
     )
     return cells, np.array(cell, np.int64)

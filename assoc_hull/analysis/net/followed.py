@@ -16,9 +16,10 @@ from assoc_hull.analysis.net.cells import Layout, blends
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.coons import Cells
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.paths import Paths, bit_lengths
 from assoc_hull.geometry.segments import power, segment_curve, segment_start
-from assoc_hull.geometry.tile_sums import nil, real
+from assoc_hull.geometry.tile_sums import nil
 
 __all__ = ["followed"]
 
@@ -46,10 +47,13 @@ def followed(layout: Layout, net: Net, batch: SplineBatch, points: FloatArray) -
     paths = _moved(layout.cells.paths, net, batch, points)
     length = np.add.reduceat(bit_lengths(paths, batch), paths.start[:-1])
     blend = []
+    anchor = itertools.pairwise(layout.cells.anchor_start.tolist())
     for begin, end in itertools.pairwise(layout.cell_start.tolist()):
+        own = slice(*next(anchor))
         aft, fore = (_heights(length[layout.rails[begin:end, i]]) for i in (0, 1))
         either = [each for each in (aft, fore) if each is not None]
-        blend.append(blends(0.5 * (either[0] + either[-1]))[1])
+        height = 0.5 * (either[0] + either[-1])
+        blend.append(blends(height, layout.flat[own], layout.knuckle[own])[1])
     return attrs.evolve(layout.cells, paths=paths, blend=np.concatenate(blend)[layout.cell])
 
 
@@ -81,7 +85,9 @@ def _crossings(net: Net, segment: IntArray, u: FloatArray) -> IntArray:
     first = segment_start(net.batch)[segment]
     t = net.batch.knot[first] + u * (net.batch.knot[first + 1] - net.batch.knot[first])
     own = segment_curve(net.batch)[segment]
-    curve, place, row = net.meets.T.ravel(), net.place.T.ravel(), np.tile(net.row, 2)
+    known = ~net.watched  # a watched crossing lies on one of the two only
+    curve, place = net.meets[known].T.ravel(), net.place[known].T.ravel()
+    row = np.tile(net.row[known], 2)
     order = np.lexsort((place, curve))
     curve, place, row = curve[order], place[order], row[order]
     begin, end = np.searchsorted(curve, own), np.searchsorted(curve, own, "right")

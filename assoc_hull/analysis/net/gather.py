@@ -40,16 +40,18 @@ class Net:
         The families of their lines.
     end : (m,) bool
         Boundary curves at which the hull ends.
-    border : (m,) bool
-        Other boundary curves: borders of flats, knuckles.
+    flat, knuckle : (m,) bool
+        Borders of flats, to which the hull is tangent; and knuckles.
     x : (m,), m
         Where a curve that lies in a plane across the ship stands; nan for the others.
     centre : (m,) bool
         The line lies in the centre plane.
     meets : (k, 2) int
-        The two curves of each crossing that defines one of them at least.
+        The two curves of each crossing.
     place : (k, 2), m
         Where on each of the two it lies.
+    watched : (k,) bool
+        It defines neither: the curves may pass one another, along a flat by much.
     row : (k,) int
         The point that it is.
     """
@@ -59,16 +61,18 @@ class Net:
     name: tuple[str, ...]
     family: tuple[str, ...]
     end: NDArray[np.bool_]
-    border: NDArray[np.bool_]
+    flat: NDArray[np.bool_]
+    knuckle: NDArray[np.bool_]
     x: FloatArray
     centre: NDArray[np.bool_]
     meets: IntArray
     place: FloatArray
+    watched: NDArray[np.bool_]
     row: IntArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.curve, self.end, self.border, self.x, self.centre, self.meets, self.place)
-        freeze(self.row)
+        freeze(self.curve, self.end, self.flat, self.knuckle, self.x, self.centre)
+        freeze(self.meets, self.place, self.watched, self.row)
 
     @cached_property
     def knots(self) -> tuple[list[float], ...]:
@@ -82,7 +86,7 @@ class Net:
 
 
 def gather(state: HullState) -> Net:
-    """Take all live curves and the crossings that define them from the tables.
+    """Take all live curves and their crossings from the tables.
 
     Parameters
     ----------
@@ -107,11 +111,13 @@ def gather(state: HullState) -> Net:
         tuple(str(table.name.data[line]) for line in lines.tolist()),
         family,
         end,
-        (boundary >= 0) & ~end,
+        boundary == BoundaryKind.FLAT,
+        boundary == BoundaryKind.KNUCKLE,
         np.where(across, offset * normal[:, 0], np.nan),
         flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
         meets,
         place,
+        state.rows.role.data[row] == Role.WATCHED,
         row,
     )
 
@@ -119,7 +125,10 @@ def gather(state: HullState) -> Net:
 def _crossings(
     state: HullState, curves: IntArray, batch: SplineBatch
 ) -> tuple[IntArray, IntArray, FloatArray]:
-    """Give the defining crossings, which two curves of the net cross there, and where on them."""
+    """Give all crossings, which two curves of the net cross there, and where on them.
+
+    Watched crossings count: a surface within their gap is as good as the net itself.
+    """
     number = np.full(state.curves.count + 1, -1, np.int64)
     number[curves] = np.arange(len(curves))
     table = state.rows
@@ -129,7 +138,7 @@ def _crossings(
     side = np.concatenate([state.curves.side.data[curve] for curve in curves.tolist()])
     place[row, side] = batch.knot
     rows = state.live("rows")
-    rows = rows[(table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] != Role.WATCHED)]
+    rows = rows[table.sort.data[rows] == Sort.CROSSING]
     both = number[table.curve.data[rows]]
     place = place[rows]
     good = (both >= 0).all(axis=1) & np.isfinite(place).all(axis=1)

@@ -8,10 +8,12 @@ import numpy as np
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.dual import real
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.segments import power
 
-__all__ = ["CENTRE", "Sections", "flat_ends", "sections_of"]
+__all__ = ["CENTRE", "Sections", "flat_ends_below", "sections_of"]
 
 CENTRE = 1e-4
 """A curve that ends so near to the centre plane (m) ends on it."""
@@ -60,10 +62,13 @@ def sections_of(net: Net, closed: bool) -> Sections:
     return Sections(_curves(net, chosen, closed), chosen, station, x, names)
 
 
-def flat_ends(net: Net, closed: bool) -> IsoCurves | None:
-    """Take the transom and other ends in planes across the ship; None if there are none."""
+def flat_ends_below(net: Net, closed: bool, planes: Planes) -> FloatArray:
+    """Give the area of transom and other ends in planes across the ship, (d,), m2."""
     chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
-    return _curves(net, chosen, closed) if len(chosen) else None
+    if not len(chosen):
+        return np.zeros(len(planes.height))
+    area: FloatArray = sections_below(_curves(net, chosen, closed), planes).sum(axis=1)
+    return area
 
 
 def _curves(net: Net, chosen: IntArray, closed: bool) -> IsoCurves:

@@ -20,17 +20,17 @@ __all__ = ["every_other_line", "every_other_section", "thinned"]
 
 
 def every_other_section(net: Net, first: int) -> NDArray[np.bool_]:
-    """Choose every other section, (m,), from the second or the third on (`first` 0 or 1).
+    """Choose every other section, (m,), from the second or the first on (`first` 0 or 1).
 
-    The outermost stay, and those that stand beside one of another number of pieces: there
-    something begins or ends.
+    Those that stand beside one of another number of pieces stay: there something begins or ends.
+    The outermost are left out too when it is their turn, or how much lies between the ends of
+    the ship and the next section would not show.
     """
     section = np.isfinite(net.x) & ~net.end
     place, number, pieces = np.unique(net.x[section], return_inverse=True, return_counts=True)
     alike = np.ones(len(place), bool)
     alike[1:] &= pieces[1:] == pieces[:-1]
     alike[:-1] &= pieces[1:] == pieces[:-1]
-    alike[[0, -1]] = False
     alike[(np.arange(len(place)) + first) % 2 == 0] = False
     chosen = np.zeros(net.batch.count, bool)
     chosen[np.flatnonzero(section)] = alike[number]
@@ -42,18 +42,32 @@ def every_other_line(net: Net) -> NDArray[np.bool_]:
     chosen = np.zeros(net.batch.count, bool)
     for family in ("waterlines", "buttocks", "diagonals"):
         own = [i for i, each in enumerate(net.family) if each == family]
-        names = sorted({net.name[i] for i in own}, key=lambda name: _middle(net, own, name))
+        names = sorted({net.name[i] for i in own}, key=lambda name: _height(net, own, name))
         for i in own:
             chosen[i] = names.index(net.name[i]) % 2 == 0
     return chosen
 
 
-def _middle(net: Net, own: list[int], name: str) -> tuple[float, str]:
-    """Give how far up and out a line runs, to bring lines of a family into order."""
-    rows = np.concatenate(
-        [np.arange(net.batch.start[i], net.batch.start[i + 1]) for i in own if net.name[i] == name]
-    )
-    return float(net.batch.xyz[rows, 2].mean() - net.batch.xyz[rows, 1].mean()), name
+def _height(net: Net, own: list[int], name: str) -> tuple[float, str]:
+    """Give how far up or in a line runs, to bring lines of a family into order.
+
+    Diagonals go by how far up the sections they lie on the average: heights and breadths of
+    two that are neighbours may turn round from bottom to side.
+    """
+    mine = np.array([i for i in own if net.name[i] == name])
+    family = net.family[mine[0]]
+    rows = np.concatenate([np.arange(net.batch.start[i], net.batch.start[i + 1]) for i in mine])
+    if family == "waterlines":
+        return float(net.batch.xyz[rows, 2].mean()), name
+    if family == "buttocks":
+        return -float(net.batch.xyz[rows, 1].mean()), name
+    part = [
+        net.place[k, 1 - side] / net.length(int(net.meets[k, 1 - side]))
+        for side in (0, 1)
+        for k in np.flatnonzero(np.isin(net.meets[:, side], mine)).tolist()
+        if np.isfinite(net.x[net.meets[k, 1 - side]])
+    ]
+    return float(np.mean(part)) if part else np.inf, name
 
 
 def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
@@ -87,11 +101,13 @@ def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
         name=tuple(net.name[i] for i in stay.tolist()),
         family=tuple(net.family[i] for i in stay.tolist()),
         end=net.end[stay],
-        border=net.border[stay],
+        flat=net.flat[stay],
+        knuckle=net.knuckle[stay],
         x=net.x[stay],
         centre=net.centre[stay],
         meets=meets,
         place=place,
+        watched=net.watched[good],
         row=net.row[good],
     )
 

@@ -84,7 +84,9 @@ def test_a_doubtful_hull_is_refused_or_reported(hull: ah.Hull, body: list[Box]) 
     [
         ({"draught": 5.0, "draughts": (5.0, 5.0)}, "both given"),
         ({"draughts": (5.0,)}, "T_A, T_F"),
-        ({"draught": math.nan}, "draught is nan"),
+        ({"draught": math.nan}, "draught of nan m is no finite number.*from 0 to 8 m"),
+        ({"draughts": (5.0, math.inf)}, "draught of inf m is no finite number.*from 0 to 8 m"),
+        ({"draught": "deep"}, "draught is 'deep'"),
         ({"draught": 8.5}, "from 0 to 8 m"),
         ({"heel_deg": math.nan}, "heel_deg is nan"),
         ({"heel_deg": 91.0}, "heel of 91 deg"),
@@ -115,8 +117,10 @@ def test_weights_find_their_draughts(hull: ah.Hull) -> None:
     record = ah.hydrostatics(hull, draughts=(found.draught_aft, found.draught_fore))
     assert record.displacement == pytest.approx(5125.0, rel=1e-12)
     assert found.trim_by_stern < 0.0
-    with pytest.raises(ah.BadInputError, match="weight is nan"):
+    with pytest.raises(ah.OutOfRangeError, match=r"weight of nan t is none.*from 0 to 8200 t"):
         ah.immersion(hull, math.nan)
+    with pytest.raises(ah.BadInputError, match="weight is 'heavy'"):
+        ah.immersion(hull, "heavy")  # type: ignore[arg-type]
     with pytest.raises(ah.OutOfRangeError, match="from 0 to 8200 t"):
         ah.immersion(hull, 9000.0)
 
@@ -130,3 +134,21 @@ def test_freeboard_and_deck_edge_of_a_hull(hull: ah.Hull) -> None:
     assert deck_edge_angle(hull, place) == pytest.approx(math.degrees(math.atan(0.4)))
     with pytest.raises(ah.OutOfRangeError):
         freeboard(hull, FloatingPosition(9.0, 9.0))
+
+
+@pytest.mark.usefixtures("body")
+@pytest.mark.parametrize(
+    ("draughts", "words"),
+    [
+        ([4.0, math.nan], "draught of nan m .*from 0 to 8 m"),
+        ([4.0, 9.0], "draught of 9 m .*from 0 to 8 m"),
+        ([5.0, 4.0], "4 stands after 5"),
+        ([], "draughts is empty"),
+    ],
+)
+def test_odd_draughts_of_a_table_are_refused(
+    hull: ah.Hull, draughts: list[float], words: str
+) -> None:
+    """With the range, where it is one of numbers."""
+    with pytest.raises(ah.AssocHullError, match=words):
+        ah.hydrostatic_table(hull, draughts)

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.cli import main
 from tests.floating_bodies import Box
@@ -108,7 +109,7 @@ def test_a_table_is_written(hull: Path, facts: Json, tmp_path: Path) -> None:
     [
         (["--draught", "9"], ["draught of 9 m", "from 0 to 8 m"]),
         (["--draught", "-1"], ["draught of -1 m", "below the keel", "from 0 to 8 m"]),
-        (["--draught", "nan"], ["nan", "finite"]),
+        (["--draught", "nan"], ["draught of nan m", "from 0 to 8 m"]),
         (["--heel", "95"], ["heel of 95 deg"]),
         (["--table", "4:2:1"], ["does not rise"]),
         (["--table", "4:8"], ["FROM:TO:STEP"]),
@@ -117,7 +118,7 @@ def test_a_table_is_written(hull: Path, facts: Json, tmp_path: Path) -> None:
         (["--trims", "1"], ["--trims", "--table"]),
         (["--lcg", "1"], ["--lcg", "--weight"]),
         (["--weight", "1e6"], ["weight of 1000000 t", "more than the hull carries"]),
-        (["--weight", "nan"], ["nan", "finite"]),
+        (["--weight", "nan"], ["weight of nan t is none", "from 0 to 8200 t"]),
         (["--rho", "0"], ["rho is 0.0"]),
         (["--appendage", "fin,1,2"], ["NAME,VOLUME,X,Y,Z,AREA"]),
         (["--appendage", "fin,nan,0,0,0,0"], ["volume is nan"]),
@@ -135,3 +136,44 @@ def test_what_cannot_be_is_refused_in_one_line(
     text = capsys.readouterr().err
     assert text.count("\n") == 1
     assert [each for each in words if each not in text] == []
+
+
+class TestOnTheNet:
+    """The same command on what the hull itself displaces."""
+
+    @pytest.fixture(autouse=True)
+    def closed_form(self) -> None:
+        """Nothing stands in for the hull here."""
+
+    def test_json_and_python_say_the_same(self, hull: Path, facts: Json) -> None:
+        """Every value and error, at trim and heel."""
+        found = facts("hydrostatics", hull, "--draughts", 5.5, 6.5, "--heel", 4, "--kg", 3)
+        record = ah.hydrostatics(ah.open(hull), draughts=(5.5, 6.5), heel_deg=4.0, kg=3.0)
+        for name in FIELDS:
+            value = getattr(record, name)
+            expected = value if value is None else pytest.approx(value, rel=1e-9, abs=1e-9)
+            assert found["rows"][0][name] == expected, name
+        assert found["rows"][0]["error"]["volume"] == pytest.approx(
+            record.error["volume"], rel=1e-6
+        )
+
+    def test_the_volume_of_the_wigley_hull_is_within_its_error(
+        self, hull: Path, facts: Json
+    ) -> None:
+        """V = 4/9 L B T; the error is told, and is no more than needed."""
+        (row,) = facts("hydrostatics", hull)["rows"]
+        off = abs(row["volume"] - 4 / 9 * 6250)
+        assert off <= row["error"]["volume"] <= 20.0 * off
+
+    def test_files_and_pictures_are_written(self, hull: Path, facts: Json, tmp_path: Path) -> None:
+        """Of a table and of one position, all three pictures."""
+        pytest.importorskip("matplotlib")
+        table, curves = tmp_path / "t.csv", tmp_path / "c.svg"
+        found = facts("hydrostatics", hull, "--table", "3:6:1", "--no-estimate", "-o", table,
+                      "--plot", curves)  # fmt: skip
+        assert found["saved"] == [str(table), str(curves)]
+        for name in ("areas", "bonjean"):
+            out = tmp_path / f"{name}.png"
+            facts("hydrostatics", hull, "--no-estimate", "--plot", out, "--plot-of", name)
+            assert out.stat().st_size > 5000
+        assert curves.stat().st_size > 5000

@@ -293,3 +293,52 @@ def test_the_breadth_between_curves_is_found(points: int, tolerance: float) -> N
     found = immersed(prepare(form), planes([4.0, 7.0]))
     dense = immersed(prepare(ship(rocker=0.0, rake=0.0, points=100)), planes([4.0, 7.0]))
     assert np.abs(found.y_most - dense.y_most).max() <= tolerance * 8.0
+
+
+def test_a_level_keel_brings_no_share_of_another_rule() -> None:
+    """Just above a keel that is level along the strips V grows by the area, to rounding."""
+    form = FormStrips(
+        breadth=16.0 * Polynomial([0.5, 1.0]) * Polynomial([1.0, -1.0]),
+        keel=Polynomial([0.0]),
+        height=Polynomial([10.0, 1.0, 2.0]),
+        rake=Polynomial([0.0]),
+        points=3,
+    )
+    body, heights, step = prepare(form), np.linspace(0.02, 0.6, 30), 1e-5
+    at, above, below = (immersed(body, planes(heights + each)) for each in (0.0, step, -step))
+    slope = (above.volume - below.volume) / (2.0 * step)
+    # Half breadths go like the root of the height here: so much is the difference's own error.
+    own = 0.1 * (step / heights) ** 2
+    assert (np.abs(slope - at.area) <= (1e-8 + own) * at.area).all()
+
+
+def test_waterplanes_under_heel_end_where_the_section_touches_the_plane() -> None:
+    """A rising keel, heeled: both ends of the waterplane, from many more strips."""
+    coarse, fine = (
+        FormStrips(
+            breadth=16.0 * Polynomial([0.5, 1.0]) * Polynomial([1.0, -1.0]),
+            keel=Polynomial([6.0, -24.0, 24.0]),
+            height=Polynomial([10.0, 1.0, 2.0]),
+            rake=Polynomial([0.0]),
+            strips=strips,
+        )
+        for strips in (10, 33)
+    )
+    found, known = (immersed(prepare(form), planes([3.0], 0.01, 0.3)) for form in (coarse, fine))
+    for name in ("x_least", "x_most"):
+        assert abs(getattr(found, name)[0] - getattr(known, name)[0]) <= 1e-8
+
+
+def test_an_edge_that_is_level_but_for_rounding_is_no_event() -> None:
+    """A deck at 12 m but for the last bits of a sum: V does not notice on which side it lies."""
+    form = FormStrips(
+        breadth=16.0 * Polynomial([0.5, 1.0]) * Polynomial([1.0, -1.0]),
+        keel=Polynomial([0.1, -1.7, 2.3]),
+        height=Polynomial([12.0 - 0.1, 1.7, -2.3]),
+        rake=Polynomial([0.0]),
+        strips=3,
+        points=2,
+    )
+    deck = 12.0 * (1.0 + np.array([-1e-14, 0.0, 1e-14]))
+    volume = immersed(prepare(form), planes(deck)).volume
+    assert np.ptp(volume) <= 1e-11 * volume[1]

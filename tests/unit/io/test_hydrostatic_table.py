@@ -42,6 +42,8 @@ def check(names: list[str], units: list[str], rows: list[list[float]], table: Hy
     assert found["draught_aft"].tolist() == [5.0, 7.0, 6.0]
     assert found["draught_fore_extreme"].tolist() == [5.02, 5.02, 6.02]
     assert found["heel_deg"].tolist() == [0.0, 0.0, 8.0]
+    free = [each.least for each in table.freeboards]
+    assert_allclose(found["freeboard"], free, rtol=accuracy)
     assert found["volume of fin, port"].tolist() == [30.0] * 3
 
 

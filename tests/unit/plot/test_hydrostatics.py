@@ -13,12 +13,14 @@ from assoc_hull.analysis.compute import table_of
 from assoc_hull.analysis.floating import FloatingPosition
 from assoc_hull.analysis.floating_body import StationAreas
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
+from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.hull import Hull
 from assoc_hull.plot.chart import scale_to, smooth
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
+from assoc_hull.plot.hydrostatics import PICTURES, plot_hydrostatics
 from assoc_hull.plot.paper import PAPERS
 from assoc_hull.plot.section_areas import bonjean_curves, sectional_area_curve
 from tests.floating_bodies import Wigley, head
@@ -95,7 +97,7 @@ def test_bonjean_curves_start_at_their_stations(
     assert_allclose(np.array(reach) / reach[10], found.area[-1] / found.area[-1, 10], atol=1e-9)
 
 
-@pytest.mark.parametrize("paper", ["A3", "A1"])
+@pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
 def test_words_are_apart_and_within_the_frame(
     table: HydrostaticTable, wigley: Hull, paper: str, boxes_of: Boxes
 ) -> None:
@@ -147,3 +149,18 @@ def test_a_scale_holds_its_values_between_round_marks(low: float, high: float) -
     words = [scale.word(value) for value in scale.marks.tolist()]
     assert len(set(words)) == len(words) >= 3
     assert_allclose([float(word) for word in words], scale.marks, atol=1e-9 * scale.step)
+
+
+@pytest.mark.parametrize("picture", PICTURES)
+def test_pictures_of_a_carrier_have_their_words_apart(
+    bulk_carrier: Hull, picture: str, boxes_of: Boxes
+) -> None:
+    """41 stations, close together at the ends; overhang and bulb beyond the perpendiculars."""
+    table = hydrostatic_table(bulk_carrier, [6.0, 12.0, 18.0], [1.0], estimate=False)
+    found = list(boxes_of(plot_hydrostatics(bulk_carrier, table, picture)).values())
+    boxes = np.array(found)
+    for i, box in enumerate(boxes):
+        apart = (boxes[:, :2] >= box[2:] - 1e-6).any(axis=1)
+        apart |= (boxes[:, 2:] <= box[:2] + 1e-6).any(axis=1)
+        assert np.flatnonzero(~apart).tolist() == [i]
+    assert (boxes > 8.0).all()

@@ -1,0 +1,47 @@
+"""The Wigley hull of the benchmark as a net, ready to be lofted and measured again and again."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import attrs
+
+from assoc_hull.analysis.net.cells import lay_out
+from assoc_hull.analysis.net.gather import gather
+from assoc_hull.geometry.coons import Cells, CoonsStrips
+from assoc_hull.geometry.curves import CurveData
+from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.geometry.spline import loft
+from assoc_hull.model.recipe import curve_data
+from tests.nets import wigley_net
+
+__all__ = ["NetToMeasure", "net"]
+
+STATIONS, WATERLINES = 23, 13
+"""As few lines as make the volume right to 2e-6."""
+
+
+@attrs.frozen(eq=False)
+class NetToMeasure:
+    """The points of a net, and how its surface is put together."""
+
+    points: CurveData
+    cells: Cells
+
+    def fitted(self) -> Prepared:
+        """Loft the lines, lay the surface through them, integrate its tiles."""
+        return prepare(CoonsStrips.on(self.cells, loft(self.points)))
+
+    def measure(self, planes: Planes) -> Immersed:
+        """Do all that an edit of the hull makes necessary."""
+        return immersed(self.fitted(), planes)
+
+
+@cache
+def net() -> NetToMeasure:
+    """Give the net; lines have the directions of the formula at their ends."""
+    state = wigley_net(STATIONS, WATERLINES)
+    lines = gather(state)
+    layout = lay_out(lines, state.particulars.length, closed=False)
+    return NetToMeasure(curve_data(state, lines.curve), layout.cells)

@@ -1,0 +1,267 @@
+"""What hydrostatics refuses, by name: doubtful hulls and positions; true shapes it does not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.flotation import flotation
+from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.io.digitised import read_lines
+from assoc_hull.io.mesh import slice_mesh
+from assoc_hull.io.slice_net import net_from_slices
+from assoc_hull.model.family import BoundaryKind
+from assoc_hull.model.source import LineSource
+from assoc_hull.model.state import Association, Particulars
+from tests.cases.test_chine_hull import chine_hull, scattered
+
+WIGLEY = 100.0, 10.0, 6.25
+TOP = 9.375
+Spoil = Callable[[FloatArray], FloatArray]
+
+
+def level(height: float) -> Planes:
+    """A plane at even keel."""
+    return Planes(np.array([height]), np.zeros(1), np.zeros(1))
+
+
+def points_at(x: FloatArray, z: FloatArray) -> FloatArray:
+    """Points of the Wigley hull."""
+    return np.column_stack([x, half_breadth(x, z, *WIGLEY), z])
+
+
+def spoilt_wigley(spoil: Spoil | None) -> ah.Hull:
+    """The Wigley hull whose ST 7 was drawn wrongly."""
+    x, z = np.linspace(0.0, 100.0, 21), np.append(np.linspace(0.0, 6.25, 11), TOP)
+    corners = np.array([[0, 0, TOP], [0, 0, 0], [100, 0, 0], [100, 0, TOP]], np.float64)
+    knuckle = int(PointKind.KNUCKLE)
+    lines = [
+        LineSource.make(
+            "boundary", "profile", corners, plane=((0, 1, 0), 0.0), boundary=BoundaryKind.END,
+            kind=[0, knuckle, knuckle, 0],
+        ),
+        LineSource.make(
+            "boundary", "deck edge", points_at(x, np.full(21, TOP)), plane=((0, 0, 1), TOP),
+            boundary=BoundaryKind.END,
+        ),
+    ]  # fmt: skip
+    for i in range(1, 20):
+        drawn = points_at(np.full(12, x[i]), z)
+        if i == 7 and spoil is not None:
+            drawn = spoil(drawn)
+        lines.append(LineSource.make("sections", f"ST {i}", drawn))
+    lines += [
+        LineSource.make("waterlines", f"WL {height:g}", points_at(x, np.full(21, height)))
+        for height in z[1:-1].tolist()
+    ]
+    links = [Association("boundary", "sections"), Association("boundary", "waterlines")]
+    links.append(Association("sections", "waterlines"))
+    ship = Particulars("Wigley", *WIGLEY[:2], TOP, WIGLEY[2], "closed")
+    return ah.Hull.from_lines(lines, particulars=ship, associations=links)
+
+
+def kinked(drawn: FloatArray) -> FloatArray:
+    """One point far inside."""
+    return drawn - np.outer(np.arange(12) == 5, [0.0, 1.2, 0.0])
+
+
+def opened(drawn: FloatArray) -> FloatArray:
+    """The lower end off the centre plane."""
+    return drawn + np.outer(np.arange(12) == 0, [0.0, 0.6, 0.0])
+
+
+def looped(drawn: FloatArray) -> FloatArray:
+    """Two points that were taken too far out, the first too high."""
+    extra = drawn[6] + np.array([[0.0, 0.9, 0.3], [0.0, 0.9, -0.6]])
+    return np.concatenate([drawn[:7], extra, drawn[7:]])
+
+
+def swapped(drawn: FloatArray) -> FloatArray:
+    """Two points in the wrong order."""
+    return drawn[[0, 1, 2, 3, 4, 6, 5, 7, 8, 9, 10, 11]]
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (kinked, r"ST 7 has a kink of \d+ deg at y 2\.\d+ m, z 2\.500 m"),
+        (opened, r"ST 7 is open: it ends 0\.600 m off the centre plane, at z 0\.000 m"),
+        (looped, r"ST 7 crosses itself at y \d\.\d+ m, z \d\.\d+ m"),
+        (swapped, r"ST 7 (crosses itself|has a kink of \d+ deg) at y"),
+    ],
+    ids=lambda given: getattr(given, "__name__", ""),
+)
+def test_a_section_drawn_wrongly_is_refused_by_name(spoil: Spoil, words: str) -> None:
+    """What, where and how much; with `on_error="report"` the numbers come with notes."""
+    hull = spoilt_wigley(spoil)
+    with pytest.raises(ah.BadInputError, match=words + r".*on_error='report'"):
+        ah.hydrostatics(hull, draught=5.5)
+    with pytest.raises(ah.BadInputError, match=words):
+        ah.hydrostatics(hull, draught=5.5, estimate=False)
+    table = ah.hydrostatic_table(hull, [4.0, 5.5], on_error="report")
+    assert "ST 7" in table.notes[0]
+    sound = ah.hydrostatics(spoilt_wigley(None), draught=5.5)
+    assert table[1].volume == pytest.approx(sound.volume, rel=0.02)
+
+
+def chine_net() -> ah.Hull:
+    """A hull with a chine, digitised with noise."""
+    stations = [6.0, 12.0, 18.0, 24.0, 30.0, 36.0, 42.0, 48.0]
+    slices = slice_mesh(
+        chine_hull(), stations=stations, waterlines=[1.3, 2.0, 2.8, 4.0, 5.0], buttocks=[1.5, 3.0]
+    )
+    return ah.Hull(net_from_slices(read_lines(scattered(slices, 3)))[0])
+
+
+@pytest.fixture(scope="module")
+def ships(
+    series60_60: ah.Hull, series60_70: ah.Hull, bulk_carrier: ah.Hull
+) -> dict[str, tuple[ah.Hull, float]]:
+    """Sound hulls that ship with the package, or are made of a formula; and draughts."""
+    return {
+        "wigley": (ah.examples.wigley(), 6.25),
+        "series 60 .60": (series60_60, series60_60.particulars.draught),
+        "series 60 .70": (series60_70, series60_70.particulars.draught),
+        "bulk carrier": (bulk_carrier, bulk_carrier.particulars.draught),
+        "chine": (chine_net(), 3.0),
+    }
+
+
+SHIPS = ["wigley", "series 60 .60", "series 60 .70", "bulk carrier", "chine"]
+
+
+@pytest.mark.parametrize("name", SHIPS)
+@pytest.mark.parametrize("part", [0.4, 1.0])
+def test_true_shapes_raise_no_doubt(
+    ships: dict[str, tuple[ah.Hull, float]], name: str, part: float
+) -> None:
+    """Bulb, bossing, chine and noise of digitised lines are no defects."""
+    hull, draught = ships[name]
+    body = flotation(hull.state)
+    assert body.layout.lost == ()
+    heeled = Planes(np.array([part * draught]), np.array([0.005]), np.array([0.1]))
+    assert body.doubts(level(part * draught)) == ()
+    assert body.doubts(heeled) == ()
+
+
+def test_published_ships_raise_no_doubt(dtc: ah.Hull, data_folder: Path) -> None:
+    """The bulb of the container ship, and a yacht from a table of offsets."""
+    yacht = ah.read(data_folder / "sysser1" / "sysser01_offsets.csv")
+    for hull, draughts in ((dtc, (6.0, 14.5)), (yacht, (0.4, 0.794))):
+        body = flotation(hull.state)
+        assert body.layout.lost == ()
+        for draught in draughts:
+            assert body.doubts(level(draught)) == ()
+
+
+@pytest.mark.parametrize("name", SHIPS)
+def test_two_routes_agree_within_what_is_stated(
+    ships: dict[str, tuple[ah.Hull, float]], name: str
+) -> None:
+    """Sections along the ship, and waterplanes upward; the values in brackets are stated."""
+    hull, draught = ships[name]
+    agree(hull, draught, name)
+
+
+def test_two_routes_agree_on_the_container_ship(dtc: ah.Hull) -> None:
+    """As on all examples."""
+    agree(dtc, 14.5, "DTC")
+
+
+def agree(hull: ah.Hull, draught: float, name: str) -> None:
+    """Compare two routes to volume and centre, at even keel and inclined."""
+    body, ship = flotation(hull.state), hull.particulars
+    for trim, heel in ((0.0, 0.0), (0.002 * ship.length, 5.0)):
+        draughts = draught + 0.5 * trim, draught - 0.5 * trim
+        found = ah.hydrostatics(hull, draughts=draughts, heel_deg=heel)
+        tilt = np.array([-trim / ship.length]), np.array([np.tan(np.radians(heel))])
+        other = body.by_waterplanes(Planes(np.array([draughts[0]]), *tilt))
+        volume = float(other.volume[0])
+        away = {
+            "volume": volume - found.volume,
+            "lcb": float(other.moment_x[0]) / volume - found.lcb,
+            "kb": float(other.moment_z[0]) / volume - found.kb,
+        }
+        words = [f"{key} {off:+.1e} ({found.error[key]:.1e})" for key, off in away.items()]
+        print(f"\n{name}, heel {heel:g} deg: V {found.volume:.3f} m3,", ", ".join(words))
+        assert abs(away["volume"]) <= 2e-4 * volume
+        for key, off in away.items():
+            stated = found.error[key]
+            assert stated is not None
+            assert abs(off) <= stated + 1e-12 * abs(getattr(found, key)), key
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"draught": 0.0}, r"mean draught of 0 m lies below the keel.*from 0 to 9\.375 m"),
+        ({"draught": -2.0}, r"-2 m lies below the keel.*from 0 to 9\.375 m"),
+        ({"draught": 9.5}, r"9\.5 m lies above the deck.*from 0 to 9\.375 m"),
+        ({"draughts": (-9.0, -1.0)}, r"-5 m lies below the keel.*T_A -9 m, T_F -1 m.*from -?\d"),
+        ({"draughts": (12.0, 30.0)}, r"21 m lies above the deck.*from .* to 18\.375 m"),
+        ({"draught": 30.0, "heel_deg": 30.0}, r"30 m lies above the deck.*heel 30 deg"),
+        ({"draught": math.nan}, r"draught of nan m is no finite number.*from 0 to 9\.375 m"),
+        ({"draughts": (5.0, math.nan)}, r"draught of nan m is no .*from 0 to 9\.375 m"),
+        ({"draught": 5.0, "heel_deg": math.nan}, "heel_deg is nan"),
+        ({"draught": 5.0, "heel_deg": 90.0}, r"heel of 90 deg.*from -89\.9 to 89\.9"),
+        ({"draught": 5.0, "rho": math.nan}, "rho is nan"),
+        ({"draught": "deep"}, "draught is 'deep'"),
+    ],
+    ids=str,
+)
+def test_a_position_that_cannot_be_is_refused_with_the_range(
+    given: dict[str, Any], words: str
+) -> None:
+    """The error names the value, and what can be."""
+    with pytest.raises(ah.AssocHullError, match=words):
+        ah.hydrostatics(ah.examples.wigley(), **given)
+
+
+@pytest.mark.parametrize(
+    ("draughts", "trims", "words"),
+    [
+        ([3.0, 5.0, 4.0], [0.0], "draughts does not rise: 4 stands after 5"),
+        ([3.0, 3.0], [0.0], "draughts does not rise: 3 stands after 3"),
+        ([3.0, math.nan], [0.0], r"draught of nan m is no finite number.*from 0 to 9\.375 m"),
+        ([], [0.0], "draughts is empty"),
+        ([3.0], [0.5, 0.0], "trims does not rise: 0 stands after 0.5"),
+        ([3.0, 9.5], [0.0], r"9\.5 m lies above the deck.*to 9\.375"),
+    ],
+)
+def test_a_table_that_cannot_be_is_refused_by_name(
+    draughts: list[float], trims: list[float], words: str
+) -> None:
+    """Unsorted and doubled draughts, nan, none, and one that is out of range."""
+    with pytest.raises(ah.AssocHullError, match=words):
+        ah.hydrostatic_table(ah.examples.wigley(), draughts, trims)
+
+
+def test_a_hull_with_one_section_is_refused() -> None:
+    """The error says how many there are, and how many there must be."""
+    hull = ah.examples.wigley()
+    with hull.edit("one left") as edit:
+        for name in list(hull.groups["sections"].lines)[1:]:
+            edit.remove_line(hull.groups["sections"].lines[name])
+    with pytest.raises(ah.BadInputError, match=r"1 section.*two sections or more"):
+        ah.hydrostatics(hull, draught=5.0)
+
+
+def test_an_open_deck_may_not_go_under() -> None:
+    """At the draught at which the edge is reached, or heeled; closed, the same ship floats."""
+    hull = ah.examples.wigley()
+    ship = attrs.evolve(hull.particulars, deck="open")
+    opened_ = spoilt_wigley(None)
+    assert opened_.particulars.deck == "closed"
+    hull.state.settings.particulars.data[0] = ship
+    with pytest.raises(ah.OutOfRangeError, match=r"drowns the open deck.*heel 60 deg"):
+        ah.hydrostatics(hull, draught=6.0, heel_deg=60.0)
+    assert ah.hydrostatics(opened_, draught=6.0, heel_deg=60.0).volume > 0.0

@@ -1,0 +1,121 @@
+"""Strips, rails and anchors found in the nets of real hulls, and nets with fewer lines."""
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.net.cells import lay_out
+from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.analysis.net.loops import Frame
+from assoc_hull.analysis.net.slabs import planes
+from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
+from assoc_hull.examples.wigley import wigley
+from assoc_hull.geometry.immersed import Planes
+from tests.nets import ellipsoid_net
+
+
+def _rail(net: Net, frame: Frame, which: str) -> list[str]:
+    names = [net.name[part[0]] for part in getattr(frame, which)]
+    return list(dict.fromkeys(names))
+
+
+def _volume(hull: ah.Hull, draught: float) -> float:
+    below = flotation(hull.state).measure(Planes(np.array([draught]), np.zeros(1), np.zeros(1)))
+    return float(below.volume[0])
+
+
+def test_a_wigley_hull_has_a_strip_between_all_neighbours() -> None:
+    """Stem and stern post are rails, keel and deck edge the sides."""
+    net = gather(wigley())
+    layout = lay_out(net, 100.0, closed=True)
+    assert layout.lost == ()
+    assert len(layout.frames) == 20
+    assert layout.cells.plane.all()
+    assert layout.edge.all()
+    first, last = layout.frames[0], layout.frames[-1]
+    assert _rail(net, first, "aft") == ["profile"] == _rail(net, last, "fore")
+    for frame in layout.frames:
+        assert _rail(net, frame, "keel") == ["profile"]
+        assert _rail(net, frame, "deck") == ["deck edge"]
+
+
+def test_every_anchor_of_a_wigley_hull_is_found() -> None:
+    """Ten waterlines, keel and deck edge in each of 20 strips."""
+    layout = lay_out(gather(wigley()), 100.0, closed=True)
+    assert np.diff(layout.cells.anchor_start).tolist() == [12] * 20
+    assert (layout.cells.anchor >= 0).all()
+
+
+def test_the_carrier_comes_apart_at_bulb_and_bossing(bulk_carrier: ah.Hull) -> None:
+    """Rails there are made of the pieces and the profile between them; flat ends are rails."""
+    net = gather(bulk_carrier.state)
+    layout = lay_out(net, 300.0, closed=True)
+    assert layout.lost == ()
+    rails = [(_rail(net, f, "aft"), _rail(net, f, "fore")) for f in layout.frames]
+    assert (["ST 19.8"], ["ST 20.04", "profile"]) in rails
+    assert (["ST 0.5", "profile"], ["ST 0.62"]) in rails
+    assert (["transom"], ["ST -0.25"]) in rails
+    assert (["bossing end"], ["ST 0.45"]) in rails
+    assert (["ST 20.3"], ["profile"]) in rails
+    assert sum(aft == ["ST 20.175"] for aft, _ in rails) == 2
+
+
+def test_lines_that_run_to_a_point_make_a_rail_of_it() -> None:
+    """The tip of the ellipsoid; all diagonals arrive there."""
+    layout = lay_out(gather(ellipsoid_net(11, 6)), 100.0, closed=False)
+    _curve, begin, finish = layout.frames[0].aft[0]
+    assert begin == finish
+    assert len(layout.frames[0].aft) == 1
+    assert np.diff(layout.cells.anchor_start).tolist() == [11] * 10
+
+
+def test_a_thinned_net_lacks_every_other_section() -> None:
+    """What is left out differs between the two choices, the outermost included; lines follow."""
+    state = wigley()
+    net = gather(state)
+    even, odd = (every_other_section(net, first) for first in (0, 1))
+    assert not (even & odd).any()
+    assert int((even | odd).sum()) == 19
+    fewer = thinned(state, net, even)
+    assert len(planes(fewer)) == 19 - int(even.sum())
+    level = fewer.name.index("WL 2.5")
+    size = np.diff(fewer.batch.start)[level]
+    assert size == np.diff(net.batch.start)[net.name.index("WL 2.5")] - int(even.sum())
+    assert lay_out(fewer, 100.0, closed=True).lost == ()
+
+
+def test_places_on_a_thinned_net_are_on_both_lines() -> None:
+    """Crossings carried over to the coarser splines meet to within what the splines differ by."""
+    from assoc_hull.geometry.evaluation import evaluate
+
+    state = wigley()
+    net = gather(state)
+    fewer = thinned(state, net, every_other_line(net))
+    one, other = (evaluate(fewer.batch, fewer.meets[:, i], fewer.place[:, i]) for i in (0, 1))
+    assert np.abs(one - other).max() < 2e-3
+
+
+def test_the_surface_is_kept_until_a_line_changes() -> None:
+    """The same object is given again; an edit makes a new one, undo brings the volume back."""
+    hull = ah.examples.wigley()
+    first, before = flotation(hull.state), _volume(hull, 6.25)
+    assert flotation(hull.state) is first
+    with hull.edit("drag") as edit:
+        point = hull.points["WL 2.5 x ST 7"]
+        edit.move(point, y=point.y + 0.05)
+    after = _volume(hull, 6.25)
+    assert flotation(hull.state) is not first
+    assert after > before + 0.05
+    hull.undo()
+    assert _volume(hull, 6.25) == before
+
+
+def test_two_sections_at_least() -> None:
+    """One section bounds nothing."""
+    hull = ah.examples.wigley()
+    with hull.edit("one left") as edit:
+        for name in list(hull.groups["sections"].lines)[1:]:
+            edit.remove_line(hull.groups["sections"].lines[name])
+    with pytest.raises(ah.BadInputError, match=r"1 section"):
+        flotation(hull.state)
