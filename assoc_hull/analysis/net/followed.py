@@ -21,7 +21,7 @@ from assoc_hull.geometry.paths import Paths, bit_lengths
 from assoc_hull.geometry.segments import locate, power, segment_curve, segment_start
 from assoc_hull.geometry.tile_sums import nil
 
-__all__ = ["followed"]
+__all__ = ["followed", "on_cubics"]
 
 _INSIDE = 1e-12
 """An end of a bit that is not so near to a knot, in parts of the segment, lies inside."""
@@ -117,7 +117,7 @@ def _targets(
     other = net.meets[crossing, 1 - side]
     segment, u = locate(net.batch, other, net.place[crossing, 1 - side])
     watched = net.watched[crossing]
-    beside = _at(power(batch)[segment], u)[0]
+    beside = on_cubics(power(batch)[segment], u)[0]
     target = np.where(watched[:, None], beside, points[net.row[crossing]])
     return target, np.where(watched[:, None], net.normal[other], np.nan)
 
@@ -128,14 +128,14 @@ def _nearest(cubic: FloatArray, point: FloatArray, normal: FloatArray, u: FloatA
     Where there is no normal: where they come nearest to the points.
     """
     for _ in range(_STEPS):
-        place, slope = _at(cubic, u)
+        place, slope = on_cubics(cubic, u)
         across = np.where(np.isnan(normal), slope, normal)
         u = u + ((point - place) * across).sum(axis=1) / (slope * across).sum(axis=1)
     return u
 
 
-def _at(cubic: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give places and slopes of cubics (k, 4, 3) at one u each, (k, 3)."""
+def on_cubics(cubic: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give places and slopes of cubics (k, 4, 3) at one u each, (k, 3); in any arithmetic."""
     w = u[:, None]
     place = ((cubic[:, 3] * w + cubic[:, 2]) * w + cubic[:, 1]) * w + cubic[:, 0]
     return place, (3.0 * cubic[:, 3] * w + 2.0 * cubic[:, 2]) * w + cubic[:, 1]

@@ -267,7 +267,7 @@ def test_the_volume_changes_by_what_the_surface_sweeps(name: str, hulls: dict[st
 
 
 def test_they_are_those_of_a_whole_edit() -> None:
-    """The points that an edit moves, as it moves them: also those it cuts or computes anew."""
+    """The points that an edit moves, as it moves them; or one point, and the others follow."""
     hull, point, step = examples.series60(cb=0.60), "WL 0.75 x ST 2", 2e-5
     floats, terms = at(hull, "inclined")
     rows, place = hull.state.rows, hull.points[point].y
@@ -280,12 +280,14 @@ def test_they_are_those_of_a_whole_edit() -> None:
         places.append(rows.xyz.data[: rows.count].copy())
         hull.undo()
     moved = Deformation("edit", lambda _: (places[0] - places[1]) / (2.0 * step), unit="m")
-    found = hydrostatic_derivatives(hull, [moved], **terms)  # type: ignore[arg-type]
+    wrt = [moved, PointMove(point, follow=True)]
+    found = hydrostatic_derivatives(hull, wrt, **terms)  # type: ignore[arg-type]
     assert (places[0] != places[1]).any(axis=1).sum() > 100
     differences = {
         name: float((values[0][name] - values[1][name])[0]) / (2.0 * step) for name in FIELDS
     }
-    agree(hull, found, 0, moved, differences, 1e-6)
+    for k, parameter in enumerate(wrt):
+        agree(hull, found, k, parameter, differences, 1e-6)
 
 
 def test_a_plane_through_knots_has_derivatives(hulls: dict[str, Hull]) -> None:
