@@ -113,6 +113,16 @@ def test_the_surface_is_kept_until_a_line_changes() -> None:
     assert _volume(hull, 6.25) == before
 
 
+def test_a_line_that_is_renamed_goes_by_its_new_name() -> None:
+    """What is kept of a hull does not hold the names of before."""
+    hull = ah.examples.wigley()
+    assert "ST 1" in flotation(hull.state).sections.names
+    with hull.edit("rename") as edit:
+        edit.rename(hull.groups["sections"].lines["ST 1"], "frame 48")
+    assert "frame 48" in flotation(hull.state).sections.names
+    assert "ST 1" not in flotation(hull.state).sections.names
+
+
 @pytest.mark.parametrize("count", [2, 3])
 def test_a_few_sections_have_numbers_and_errors(count: int) -> None:
     """A box of two or three sections has an error, though half of them bound nothing."""
