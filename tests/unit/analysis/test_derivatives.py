@@ -169,7 +169,8 @@ def test_they_are_those_of_central_differences(
     floats, _ = at(hull, where)
     found = derivatives(hull, wrt, where)
     for k in {"wigley": range(len(wrt)), "carrier": (3, 4, 8)}.get(name, (0, 3, 5, 6)):
-        step = {"heel": 3e-3, "stretch": 1e-5}.get(wrt[k].title, 5e-5 * hull.particulars.draught)
+        # Short enough that the waterline passes no knot of a curve on the way.
+        step = {"heel": 2e-4, "stretch": 1e-5}.get(wrt[k].title, 2e-5 * hull.particulars.draught)
         agree(hull, found, k, wrt[k], floats.central(wrt[k], step), 1e-7)
 
 
