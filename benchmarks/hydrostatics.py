@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.analysis.mesh_flotation import mesh_flotation
+from assoc_hull.geometry.backend import backend, set_backend
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersion import immersed
 from benchmarks.clock import Figure
@@ -67,11 +68,17 @@ def mesh_route(n: int, position: Position) -> Job:
 
 
 def figures(quick: bool = False) -> list[Figure]:
-    """Measure."""
+    """Measure; our lofting is compiled if the extra `fast` is installed."""
     found: list[Figure] = []
-    for position in (EVEN, INCLINED):
-        found += _one_position(position, quick)
-    return found + _batch(quick)
+    before = backend()
+    set_backend("numba" if importlib.util.find_spec("numba") else "numpy")
+    found.append(Figure("compiled by numba", float(backend() == "numba"), ""))
+    try:
+        for position in (EVEN, INCLINED):
+            found += _one_position(position, quick)
+        return found + _batch(quick)
+    finally:
+        set_backend(before)
 
 
 def fastest(jobs: Mapping[str, Job], rounds: Mapping[str, int]) -> dict[str, float]:
