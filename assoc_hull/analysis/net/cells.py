@@ -140,7 +140,7 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         draft.anchor_start.append(len(draft.anchor))
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
-    edge = np.array([_is_edge(net, frame) for frame in found], np.bool_)
+    edge = np.array([_is_edge(net, frame, found) for frame in found], np.bool_)
     cells, cell = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
     rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
     start = np.array(draft.cell_start, np.int64)
@@ -303,10 +303,24 @@ def _bit_at(walked: PathShapes, path: int, w: float) -> int:
     return first + int(np.searchsorted(walked.begin[first:last], w, side="right")) - 1
 
 
-def _is_edge(net: Net, frame: Frame) -> bool:
-    """Tell whether the upper side of a strip is a deck edge, not the centre plane."""
+def _is_edge(net: Net, frame: Frame, every: Sequence[Frame]) -> bool:
+    """Tell whether the upper side of a strip is a deck edge, not the centre plane.
+
+    Where no side is drawn only the uppermost strip of a slab has one: below it lie a bulb or a
+    bossing that nothing closes.
+    """
     if frame.deck:
         return not all(net.centre[part[0]] for part in frame.deck)
-    parts = _top(frame)
-    place = evaluate(net.batch, np.array([p[0] for p in parts]), np.array([p[2] for p in parts]))
-    return bool(np.abs(place[:, 1]).max() > CENTRE)
+    place = _tops(net, frame)
+    if float(np.abs(place[:, 1]).max()) <= CENTRE:
+        return False
+    others = [_tops(net, each) for each in every if each.slab == frame.slab]
+    return float(place[:, 2].max()) >= max(float(each[:, 2].max()) for each in others)
+
+
+def _tops(net: Net, frame: Frame) -> FloatArray:
+    """Give the upper ends of the rails of a strip, (2, 3), m."""
+    parts = [rail[-1] for rail in (frame.aft, frame.fore)]
+    curve = np.array([part[0] for part in parts])
+    found: FloatArray = evaluate(net.batch, curve, np.array([part[2] for part in parts]))
+    return found

@@ -12,6 +12,7 @@ from assoc_hull.analysis.net.slabs import planes
 from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
 from assoc_hull.examples.wigley import wigley
 from assoc_hull.geometry.curves import PointKind
+from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.model.source import LineSource
 from tests.nets import ellipsoid_net
@@ -89,8 +90,6 @@ def test_a_thinned_net_lacks_every_other_section() -> None:
 
 def test_places_on_a_thinned_net_are_on_both_lines() -> None:
     """Crossings carried over to the coarser splines meet to within what the splines differ by."""
-    from assoc_hull.geometry.evaluation import evaluate
-
     state = wigley()
     net = gather(state)
     fewer = thinned(state, net, every_other_line(net))
@@ -148,3 +147,41 @@ def test_two_sections_at_least() -> None:
             edit.remove_line(hull.groups["sections"].lines[name])
     with pytest.raises(ah.BadInputError, match=r"1 section"):
         flotation(hull.state)
+
+
+def test_ends_of_a_hull_without_deck_edge_are_not_lost() -> None:
+    """Stem and stern are joined to the tops of the last sections: the volume stays."""
+    hull = ah.examples.wigley()
+    whole = _volume(hull, 6.25)
+    with hull.edit("no deck edge") as edit:
+        edit.remove_line(hull.groups["boundary"].lines["deck edge"])
+    layout = flotation(hull.state).layout
+    assert layout.lost == ()
+    assert len(layout.frames) == 20
+    assert _volume(hull, 6.25) == pytest.approx(whole, rel=1e-4)
+
+
+def test_only_the_uppermost_strip_has_a_deck_edge(bulk_carrier: ah.Hull) -> None:
+    """Also where no deck edge is drawn: bulb and bossing end on the centre plane, below others."""
+    with bulk_carrier.edit("no deck edge") as edit:
+        edit.remove_line(bulk_carrier.groups["boundary"].lines["deck edge"])
+    try:
+        found = flotation(bulk_carrier.state)
+        assert found.limits.deck[:, 2].min() > 26.9
+        top: dict[int, float] = {}
+        heights = [_height(found.net, frame) for frame in found.layout.frames]
+        for frame, height in zip(found.layout.frames, heights, strict=True):
+            top[frame.slab] = max(top.get(frame.slab, 0.0), height)
+        for frame, height, edge in zip(
+            found.layout.frames, heights, found.layout.edge.tolist(), strict=True
+        ):
+            assert edge == (height == top[frame.slab]), frame
+    finally:
+        bulk_carrier.undo()
+
+
+def _height(net: Net, frame: Frame) -> float:
+    """Give the height of the upper ends of the rails, m."""
+    ends = [rail[-1] for rail in (frame.aft, frame.fore)]
+    place = evaluate(net.batch, np.array([e[0] for e in ends]), np.array([e[2] for e in ends]))
+    return float(place[:, 2].max())
