@@ -27,14 +27,11 @@ from assoc_hull.analysis.measured_hull import HasState, header_of
 from assoc_hull.analysis.parameters import Parameter, Position, Shape
 from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.varied import Varied
+from assoc_hull.analysis.varied import varied_by
 from assoc_hull.arguments import all_of, choice
-from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.dual import Dual, as_array, real
 from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.loft_tangents import loft_tangents
-from assoc_hull.model.recipe import curve_data
 
 __all__ = ["Derivatives", "hydrostatic_derivatives"]
 
@@ -168,7 +165,7 @@ def _differentiated(
         _put(found, [k for k, _ in some], values_at(body, tilted, header))
     for i in range(0, len(shapes), _AT_ONCE):
         few = shapes[i : i + _AT_ONCE]
-        varied = _varied(body, [each for _, each in few])
+        varied = varied_by(body, [each for _, each in few])
         _put(found, [k for k, _ in few], values_at(varied, plane, header))
     return found
 
@@ -189,32 +186,3 @@ def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
         as_array(Dual(plain.tan_trim, (fore - aft) / length)),
         as_array(Dual(plain.tan_heel, turn)),
     )
-
-
-def _varied(body: Flotation, some: Sequence[Shape]) -> Varied:
-    """Loft the lines anew, with tangents."""
-    data = curve_data(body.state, body.net.curve)
-    if not np.array_equal(data.xyz, body.net.batch.xyz):
-        raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
-    curves = body.state.curves
-    row = np.concatenate([curves.rows.data[each] for each in body.net.curve.tolist()])
-    xyz, direction, end_vector = (
-        np.zeros((len(some), *each.shape)) for each in (data.xyz, data.direction, data.end_vector)
-    )
-    place = body.state.rows.xyz.data[: body.state.rows.count]
-    moves = np.zeros((len(some), *place.shape))
-    for k, each in enumerate(some):
-        moves[k], gradient = each.moves(body.state)
-        xyz[k] = moves[k, row]
-        if gradient is not None:
-            direction[k], end_vector[k] = _turned(data, gradient[row])
-    batch = loft_tangents(data, xyz, direction, end_vector).batch()
-    return Varied(body, batch, as_array(Dual(place, moves)))
-
-
-def _turned(data: CurveData, gradient: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give how given directions turn: by the gradient at their points, (n, 3, 3)."""
-    ends = gradient[np.stack([data.start[:-1], data.start[1:] - 1], axis=1)]
-    turned = np.einsum("meij,mej->mei", ends, data.end_vector)
-    tangent = (data.end_kind == EndKind.TANGENT)[..., None]
-    return np.einsum("nij,nj->ni", gradient, data.direction), np.where(tangent, turned, 0.0)

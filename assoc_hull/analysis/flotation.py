@@ -148,13 +148,15 @@ class Flotation:
     def by_waterplanes(self, planes: Planes) -> Immersed:
         """Give volume and moments by the vertical route; the last answer is kept."""
         key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
-        if key not in self._route:
+        found = self._route.get(key)
+        if found is None:
             known = self.measure(planes)
+            places = self.net.batch.xyz
+            found = by_waterplanes(self.prepared, planes, known, places, self._corners)
+            # Another thread may do the same: what is returned is not read back from the store.
             self._route.clear()
-            self._route[key] = by_waterplanes(
-                self.prepared, planes, known, self.net.batch.xyz, self._corners
-            )
-        return self._route[key]
+            self._route[key] = found
+        return found
 
 
 _KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()
@@ -206,7 +208,7 @@ def flotation(state: HullState) -> Flotation:
 
 
 def _stamp(state: HullState) -> Hashable:
-    """Give the splines themselves, and how often what else the surface depends on was written."""
+    """Give splines and names themselves, and how often what else the surface depends on changed."""
     made = [state.spline(curve) for curve in state.live("curves").tolist()]
     return (
         Objects([*made, state.particulars]),
@@ -214,4 +216,5 @@ def _stamp(state: HullState) -> Hashable:
         state.rows.alive.writes,
         state.lines.boundary.writes,
         state.lines.offset.writes,
+        tuple(state.lines.name.data),
     )

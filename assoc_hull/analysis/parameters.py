@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.arguments import checked, choice, numbers, text
+from assoc_hull.arguments import checked, choice, flag, numbers, text
 from assoc_hull.errors import BadInputError, FreedomError, PointRoleError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.plane import AXES
@@ -99,6 +99,11 @@ HEEL = Position("heel", (0.0, 0.0, 1.0), "deg")
 class Shape(Parameter):
     """A parameter of the shape: points move, given directions may turn."""
 
+    @property
+    def follows(self) -> bool:
+        """Points that are computed from curves follow."""
+        return False
+
     @abstractmethod
     def moves(self, state: HullState) -> tuple[FloatArray, FloatArray | None]:
         """Give how all points move, (n, 3) by row, m per unit, and how directions turn.
@@ -112,8 +117,7 @@ class PointMove(Shape):
     """One defining point that moves in the planes of its lines; m.
 
     All other defining points stay, and so do given directions; the curves through the point
-    are lofted anew. Points that other curves would compute from these do not follow: this is
-    the partial derivative from which those of whole edits are put together.
+    are lofted anew. Points that are computed from these curves stay, too, unless they `follow`.
 
     Attributes
     ----------
@@ -122,10 +126,18 @@ class PointMove(Shape):
     axis : "x", "y", "z" or None
         The coordinate that grows by 1 per unit, one of those in which the point is free; None
         where it is free in one only. In an oblique plane another coordinate goes along.
+    follow : bool
+        Points that are computed from curves follow, as they do in an edit.
     """
 
     address: str = attrs.field(validator=checked(text, _WHERE))
     axis: str | None = None
+    follow: bool = attrs.field(default=False, validator=checked(flag, _WHERE))
+
+    @property
+    def follows(self) -> bool:
+        """Points that are computed from curves follow."""
+        return self.follow
 
     @property
     def title(self) -> str:
@@ -140,7 +152,7 @@ class PointMove(Shape):
         UnknownNameError, BadInputError
             No point has this address, or the axis is missing.
         PointRoleError
-            The point defines no curve.
+            The point defines no curve, or is computed itself and is to be followed.
         FreedomError
             It is not free along the axis.
         """
@@ -149,6 +161,10 @@ class PointMove(Shape):
             raise BadInputError(f"{self.address!r} names no point", _WHERE, "ask hull.points")
         if not (state.rows.reader.data[row] >= 0).any():
             raise PointRoleError(self.address, "watched", None, "move one that defines a curve")
+        driver = int(state.rows.driver.data[row])
+        if self.follow and driver >= 0:
+            title = str(state.lines.name.data[state.line_of(driver)])
+            raise PointRoleError(self.address, "driven", title, "move a point of its driver")
         found = np.zeros((state.rows.count, 3))
         found[row] = _along(state, row, self._axis(state, row))
         return found, None

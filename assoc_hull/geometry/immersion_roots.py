@@ -21,9 +21,9 @@ from assoc_hull.geometry.roots import bracketed_roots
 
 __all__ = ["Cuts", "Tilted", "brackets", "candidates", "cuts", "tilt", "turns"]
 
-_LEAST = 1e-30
-"""Added to a cut with derivatives: a part of a tile from 0 to 0 has an area that grows with the
-cut, but as the square root of a square, which at nil has no derivative."""
+_LEAST = 1e-8
+"""Cuts with derivatives are kept so far from the beginning of a tile: the area of the part up to
+them is the root of a square, which at nil has no derivative, though the area has one."""
 
 
 @attrs.frozen(eq=False)
@@ -286,4 +286,4 @@ def _polished(tilted: Tilted, tile: IntArray, level: FloatArray, u: FloatArray) 
     # What is left of the residual is rounding: only its derivative is wanted.
     steep = np.abs(real(slope)) > 0.0
     change = (above - real(above)) / np.where(steep, slope, 1.0)
-    return u - np.where(steep, change, 0.0) + _LEAST
+    return np.where(u < _LEAST, _LEAST, u) - np.where(steep, change, 0.0)

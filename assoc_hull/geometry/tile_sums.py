@@ -32,11 +32,15 @@ def nil(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
     return np.zeros(shape, np.result_type(*like))
 
 
+_NONE = 1e-22
+"""A square of less is rounding about nil, from which a root would take any direction."""
+
+
 def root(values: FloatArray) -> FloatArray:
     """Give square roots; where there is nothing to take one of, nil and no derivative."""
     if is_plain(values):
         return np.sqrt(values)
-    some = real(values) > 0.0
+    some = real(values) > _NONE
     return np.where(some, np.sqrt(np.where(some, values, 1.0)), 0.0)
 
 

@@ -18,13 +18,16 @@ from assoc_hull.geometry.coons import Cells
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.paths import Paths, bit_lengths
-from assoc_hull.geometry.segments import power, segment_curve, segment_start
+from assoc_hull.geometry.segments import locate, power, segment_curve, segment_start
 from assoc_hull.geometry.tile_sums import nil
 
-__all__ = ["followed"]
+__all__ = ["followed", "on_cubics"]
 
 _INSIDE = 1e-12
 """An end of a bit that is not so near to a knot, in parts of the segment, lies inside."""
+
+_SAME = 1e-7
+"""A crossing is at a place if it is so near, m along the curve."""
 
 _STEPS = 3
 """Towards the point on a curve that is nearest: points hardly leave their curves."""
@@ -68,28 +71,28 @@ def _moved(paths: Paths, net: Net, batch: SplineBatch, points: FloatArray) -> Pa
     bits = len(paths.segment)
     end = np.concatenate([paths.low, paths.high])
     inside = np.flatnonzero((end > _INSIDE) & (end < 1.0 - _INSIDE))
+    segment = paths.segment[inside % bits]
+    crossing, side = _crossings(net, segment, end[inside])
+    # Where no crossing is known the place stays.
+    inside, segment, side = (each[crossing >= 0] for each in (inside, segment, side))
+    crossing = crossing[crossing >= 0]
     if not len(inside):
         return paths
-    segment = paths.segment[inside % bits]
-    row = _crossings(net, segment, end[inside])
-    u = _nearest(power(batch)[segment], points[row], end[inside])
-    # Where no crossing is known the place stays.
-    u = np.where(row >= 0, u, end[inside])
+    target, normal = _targets(net, batch, points, crossing, side)
+    u = _nearest(power(batch)[segment], target, normal, end[inside])
     moved = nil((2 * bits,), u) + end
     moved[inside] = u
     return attrs.evolve(paths, low=moved[:bits], high=moved[bits:])
 
 
-def _crossings(net: Net, segment: IntArray, u: FloatArray) -> IntArray:
-    """Give the rows of the crossings at places of segments, (k,); -1 where there is none."""
+def _crossings(net: Net, segment: IntArray, u: FloatArray) -> tuple[IntArray, IntArray]:
+    """Give the crossings at places of segments, and on which side; -1 where there is none."""
     first = segment_start(net.batch)[segment]
     t = net.batch.knot[first] + u * (net.batch.knot[first + 1] - net.batch.knot[first])
     own = segment_curve(net.batch)[segment]
-    known = ~net.watched  # a watched crossing lies on one of the two only
-    curve, place = net.meets[known].T.ravel(), net.place[known].T.ravel()
-    row = np.tile(net.row[known], 2)
+    curve, place = net.meets.T.ravel(), net.place.T.ravel()
     order = np.lexsort((place, curve))
-    curve, place, row = curve[order], place[order], row[order]
+    curve, place = curve[order], place[order]
     begin, end = np.searchsorted(curve, own), np.searchsorted(curve, own, "right")
     # Places of one curve lie between its number and the next: one search for all.
     scale = 1.0 + max(place.max(initial=0.0), t.max(initial=0.0))
@@ -98,19 +101,41 @@ def _crossings(net: Net, segment: IntArray, u: FloatArray) -> IntArray:
     for at in (near - 1, near):
         good = (at >= begin) & (at < end)
         good[good] &= np.abs(place[at[good]] - t[good]) <= _SAME
-        found[good] = row[at[good]]
-    return found
+        found[good] = order[at[good]]
+    count = len(net.meets)
+    return np.where(found < 0, -1, found % max(count, 1)), found // max(count, 1)
 
 
-_SAME = 1e-7
-"""A crossing is at a place if it is so near, m along the curve."""
+def _targets(
+    net: Net, batch: SplineBatch, points: FloatArray, crossing: IntArray, side: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give what places of crossings keep to: points, and normals of planes through them.
+
+    A defining crossing is a point of both lines. A watched one lies on each line in the plane
+    of the other; there the normal is given, which is nan for the others.
+    """
+    other = net.meets[crossing, 1 - side]
+    segment, u = locate(net.batch, other, net.place[crossing, 1 - side])
+    watched = net.watched[crossing]
+    beside = on_cubics(power(batch)[segment], u)[0]
+    target = np.where(watched[:, None], beside, points[net.row[crossing]])
+    return target, np.where(watched[:, None], net.normal[other], np.nan)
 
 
-def _nearest(cubic: FloatArray, point: FloatArray, u: FloatArray) -> FloatArray:
-    """Give where cubics (k, 4, 3) come nearest to points (k, 3), from places nearby."""
+def _nearest(cubic: FloatArray, point: FloatArray, normal: FloatArray, u: FloatArray) -> FloatArray:
+    """Give where cubics (k, 4, 3) meet planes through points (k, 3), from places nearby.
+
+    Where there is no normal: where they come nearest to the points.
+    """
     for _ in range(_STEPS):
-        w = u[:, None]
-        place = ((cubic[:, 3] * w + cubic[:, 2]) * w + cubic[:, 1]) * w + cubic[:, 0]
-        slope = (3.0 * cubic[:, 3] * w + 2.0 * cubic[:, 2]) * w + cubic[:, 1]
-        u = u + ((point - place) * slope).sum(axis=1) / (slope * slope).sum(axis=1)
+        place, slope = on_cubics(cubic, u)
+        across = np.where(np.isnan(normal), slope, normal)
+        u = u + ((point - place) * across).sum(axis=1) / (slope * across).sum(axis=1)
     return u
+
+
+def on_cubics(cubic: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give places and slopes of cubics (k, 4, 3) at one u each, (k, 3); in any arithmetic."""
+    w = u[:, None]
+    place = ((cubic[:, 3] * w + cubic[:, 2]) * w + cubic[:, 1]) * w + cubic[:, 0]
+    return place, (3.0 * cubic[:, 3] * w + 2.0 * cubic[:, 2]) * w + cubic[:, 1]

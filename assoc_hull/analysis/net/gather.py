@@ -46,6 +46,8 @@ class Net:
         Where a curve that lies in a plane across the ship stands; nan for the others.
     centre : (m,) bool
         The line lies in the centre plane.
+    normal : (m, 3)
+        Of the plane of the line; nan where it lies in none.
     meets : (k, 2) int
         The two curves of each crossing.
     place : (k, 2), m
@@ -65,6 +67,7 @@ class Net:
     knuckle: NDArray[np.bool_]
     x: FloatArray
     centre: NDArray[np.bool_]
+    normal: FloatArray
     meets: IntArray
     place: FloatArray
     watched: NDArray[np.bool_]
@@ -72,6 +75,7 @@ class Net:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.curve, self.end, self.flat, self.knuckle, self.x, self.centre)
+        freeze(self.normal)
         freeze(self.meets, self.place, self.watched, self.row)
 
     @cached_property
@@ -115,6 +119,7 @@ def gather(state: HullState) -> Net:
         boundary == BoundaryKind.KNUCKLE,
         np.where(across, offset * normal[:, 0], np.nan),
         flat & (np.abs(normal[:, 1]) == 1.0) & (offset == 0.0),
+        np.where(flat[:, None], normal, np.nan),
         meets,
         place,
         state.rows.role.data[row] == Role.WATCHED,

@@ -105,6 +105,7 @@ def thinned(state: HullState, net: Net, without: NDArray[np.bool_]) -> Net:
         knuckle=net.knuckle[stay],
         x=net.x[stay],
         centre=net.centre[stay],
+        normal=net.normal[stay],
         meets=meets,
         place=place,
         watched=net.watched[good],

@@ -169,8 +169,7 @@ def test_they_are_those_of_central_differences(
     floats, _ = at(hull, where)
     found = derivatives(hull, wrt, where)
     for k in {"wigley": range(len(wrt)), "carrier": (3, 4, 8)}.get(name, (0, 3, 5, 6)):
-        # Short enough that the waterline passes no knot of a curve on the way.
-        step = {"heel": 2e-4, "stretch": 1e-5}.get(wrt[k].title, 2e-5 * hull.particulars.draught)
+        step = {"heel": 3e-4, "stretch": 3e-6}.get(wrt[k].title, 1e-5 * hull.particulars.draught)
         agree(hull, found, k, wrt[k], floats.central(wrt[k], step), 1e-7)
 
 
@@ -268,8 +267,8 @@ def test_the_volume_changes_by_what_the_surface_sweeps(name: str, hulls: dict[st
 
 
 def test_they_are_those_of_a_whole_edit() -> None:
-    """The points that an edit moves, as it moves them: also those it cuts or computes anew."""
-    hull, point, step = examples.series60(cb=0.60), "WL 0.75 x ST 2", 1e-4
+    """The points that an edit moves, as it moves them; or one point, and the others follow."""
+    hull, point, step = examples.series60(cb=0.60), "WL 0.75 x ST 2", 2e-5
     floats, terms = at(hull, "inclined")
     rows, place = hull.state.rows, hull.points[point].y
     values, places = [], []
@@ -281,12 +280,23 @@ def test_they_are_those_of_a_whole_edit() -> None:
         places.append(rows.xyz.data[: rows.count].copy())
         hull.undo()
     moved = Deformation("edit", lambda _: (places[0] - places[1]) / (2.0 * step), unit="m")
-    found = hydrostatic_derivatives(hull, [moved], **terms)  # type: ignore[arg-type]
+    wrt = [moved, PointMove(point, follow=True)]
+    found = hydrostatic_derivatives(hull, wrt, **terms)  # type: ignore[arg-type]
     assert (places[0] != places[1]).any(axis=1).sum() > 100
     differences = {
         name: float((values[0][name] - values[1][name])[0]) / (2.0 * step) for name in FIELDS
     }
-    agree(hull, found, 0, moved, differences, 1e-6)
+    for k, parameter in enumerate(wrt):
+        agree(hull, found, k, parameter, differences, 1e-6)
+
+
+def test_a_plane_through_knots_has_derivatives(hulls: dict[str, Hull]) -> None:
+    """On a waterline all cuts are ends of tiles; there the wetted surface grows as elsewhere."""
+    rates = [
+        hydrostatic_derivatives(hulls["wigley"], [DRAUGHT], draught=draught).of("wetted_surface")[0]
+        for draught in (5.0 - 1e-4, 5.0, 5.0 + 1e-4)
+    ]
+    assert_allclose(rates[1], 0.5 * (rates[0] + rates[2]), rtol=1e-5)
 
 
 def test_a_parameter_alone_is_as_among_others(hulls: dict[str, Hull]) -> None:
