@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
+from assoc_hull.analysis.net.parallel import parallel_slabs
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.geometry.coons import Cells
@@ -121,9 +122,12 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
     x = planes(net)
     found, lost = frames(net, arcs(net, x), len(x), length)
     every = spans(net)
+    parallel = parallel_slabs(net, x)
     draft = _Draft(net)
     for i, given in enumerate(found):
         found[i], run = anchors(given, every)
+        if given.plane and given.slab in parallel:
+            run = [attrs.evolve(each, parts=()) for each in (run[0], run[-1])]
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
         flat = [_side(net, each, net.flat) for each in run]

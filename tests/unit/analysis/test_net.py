@@ -5,11 +5,14 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.net.anchors import anchors, spans
 from assoc_hull.analysis.net.cells import lay_out
 from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.loops import Frame
-from assoc_hull.analysis.net.slabs import planes
+from assoc_hull.analysis.net.loops import Frame, frames
+from assoc_hull.analysis.net.parallel import parallel_slabs
+from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
+from assoc_hull.examples.series60 import series60_adopted
 from assoc_hull.examples.wigley import wigley
 from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.evaluation import evaluate
@@ -185,3 +188,37 @@ def _height(net: Net, frame: Frame) -> float:
     ends = [rail[-1] for rail in (frame.aft, frame.fore)]
     place = evaluate(net.batch, np.array([e[0] for e in ends]), np.array([e[2] for e in ends]))
     return float(place[:, 2].max())
+
+
+def test_between_equal_largest_sections_a_hull_with_flats_runs_straight(
+    series60_70: ah.Hull, series60_60: ah.Hull
+) -> None:
+    """The parallel body of CB .70 is that from ST 10 to ST 12; CB .60 has none, nor has Wigley."""
+    net = gather(series60_70.state)
+    x = planes(net)
+    slabs = sorted(parallel_slabs(net, x))
+    stations = np.round(20.0 * x / series60_70.particulars.length, 9).tolist()
+    assert [(stations[i - 1], stations[i]) for i in slabs] == [(10.0, 11.0), (11.0, 12.0)]
+    layout = lay_out(net, series60_70.particulars.length, closed=True)
+    for i, frame in enumerate(layout.frames):
+        begin, end = layout.cells.anchor_start[i : i + 2]
+        straight = (layout.cells.anchor[begin:end] == -1).all()
+        assert straight == (frame.slab in slabs)
+    for state in (series60_60.state, wigley(stations=22)):
+        net = gather(state)
+        assert parallel_slabs(net, planes(net)) == frozenset()
+
+
+def test_a_border_that_dips_below_a_waterline_between_sections_holds_no_surface() -> None:
+    """Two lines that change places would fold it: the waterline stays, the border goes."""
+    state = series60_adopted(0.70)[0]
+    net = gather(state)
+    every = spans(net)
+    found, _ = frames(net, arcs(net, planes(net)), len(planes(net)), 121.92)
+    [frame] = [each for each in found if each.slab == 14]
+    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    assert "WL 0.25" in held
+    assert "flat of side" not in held
+    [frame] = [each for each in found if each.slab == 12]
+    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    assert {"WL 0.25", "flat of side"} <= held
