@@ -38,6 +38,7 @@ __all__ = [
     "pair",
     "place",
     "places",
+    "plain",
     "positive",
     "shown",
     "shown_name",
@@ -345,3 +346,22 @@ def checked(check: Callable[[object, str, str], object], where: str) -> Callable
         check(value, field.name, where)
 
     return validator
+
+
+def plain(value: float) -> float:
+    """Give a number that comes as text, or as a numpy scalar, as a float; all else as it is.
+
+    A converter of attrs fields, whose check comes after: what `number` takes is kept as one.
+
+    Examples
+    --------
+    >>> from assoc_hull.arguments import plain
+    >>> plain("3.5")
+    3.5
+    """
+    if isinstance(value, bool | np.bool_) or np.ndim(value):
+        return value
+    try:
+        return float(value)
+    except _FAILS:
+        return value

@@ -65,10 +65,10 @@ def immersion(
     load = Load(
         # What is no finite number is refused with the range, which needs the hull.
         _tons(weight),
-        rho,
-        shell_factor,
+        header.rho,
+        header.shell_factor,
         None if lcg is None else number(lcg, "lcg", _WHERE),
-        kg,
+        header.kg,
         number(trim_by_stern, "trim_by_stern", _WHERE),
         FloatingPosition(0.0, 0.0, heel_deg).heel_deg,
         header.appendages,

@@ -41,8 +41,14 @@ __all__ = ["Coarse", "Spread", "by_waterplanes", "spread_of"]
 _PART = 0.5
 """Of the difference to the net with half the lines this is stated."""
 
-_LEVELS = 48
-"""Waterplanes of the vertical route."""
+_LEVELS, _LEAST = 48, 12
+"""Waterplanes of the vertical route, and those of a stretch between two corners at least."""
+
+_STRETCHES = 7
+"""Between so many corners at most the vertical route is parted."""
+
+_NEAR = 1e-3
+"""Corners whose heights differ by less, in parts of the whole, are one."""
 
 
 @attrs.frozen(eq=False)
@@ -158,7 +164,11 @@ def spread_of(state: HullState, net: Net, strips: CoonsStrips, closed: bool) -> 
 
 
 def by_waterplanes(
-    prepared: Prepared, planes: Planes, known: Immersed, places: FloatArray
+    prepared: Prepared,
+    planes: Planes,
+    known: Immersed,
+    places: FloatArray,
+    corners: FloatArray,
 ) -> Immersed:
     """Integrate waterplanes from the lowest place up: volume and moments by another route.
 
@@ -172,26 +182,29 @@ def by_waterplanes(
         What is below them; all but volume and moments is taken from it.
     places : (n, 3), m
         Among which the lowest is.
+    corners : (c, 3), m
+        At the heights of which the area of the waterplane may bend: each stretch between them
+        has a rule of its own.
 
     Returns
     -------
     Immersed
         With volume and moments as integrals of the area of the waterplane and its moments.
     """
-    lowest = _lowest(places, planes)
-    node, weight = gauss(_LEVELS)
-    # sin^2 makes half-integer powers of the height over a round bottom smooth.
-    part = np.sin(0.5 * np.pi * node) ** 2
-    slope = 0.5 * np.pi * np.sin(np.pi * node) * weight
-    reach = planes.height - lowest
-    height = lowest[:, None] + reach[:, None] * part
-    trim, heel = (np.repeat(each, _LEVELS) for each in (planes.tan_trim, planes.tan_heel))
-    cut = immersed(prepared, Planes(height.ravel(), trim, heel))
-    z = cut.area * height.ravel() + trim * cut.area_x - heel * cut.area_y
-    rule = reach[:, None] * slope
+    lowest = _heights(places, planes).min(axis=1)
+    stretches = [
+        _stretches(float(low), float(high), row)
+        for low, high, row in zip(lowest, planes.height, _heights(corners, planes), strict=True)
+    ]
+    rules = [_rule(edge) for edge in stretches]
+    height, weight = (np.concatenate(parts) for parts in zip(*rules, strict=True))
+    owner = np.repeat(np.arange(len(rules)), [len(rule[0]) for rule in rules])
+    trim, heel = planes.tan_trim[owner], planes.tan_heel[owner]
+    cut = immersed(prepared, Planes(height, trim, heel))
+    z = cut.area * height + trim * cut.area_x - heel * cut.area_y
 
     def sum_up(values: FloatArray) -> FloatArray:
-        total: FloatArray = (values.reshape(rule.shape) * rule).sum(axis=1)
+        total: FloatArray = np.bincount(owner, values * weight, len(rules)).astype(np.float64)
         return total
 
     return attrs.evolve(
@@ -203,12 +216,34 @@ def by_waterplanes(
     )
 
 
-def _lowest(places: FloatArray, planes: Planes) -> FloatArray:
-    """Give the least height at x = y = 0 of a plane that touches the hull, (d,), m."""
+def _heights(places: FloatArray, planes: Planes) -> FloatArray:
+    """Give the heights at x = y = 0 of planes through places of both sides, (d, 2 n), m."""
     x, y, z = places.T
-    heel = np.abs(planes.tan_heel)[:, None] * np.abs(y)
-    found: FloatArray = (z - planes.tan_trim[:, None] * x - heel).min(axis=1)
-    return np.minimum(found, planes.height)
+    level = z - planes.tan_trim[:, None] * x
+    heel = planes.tan_heel[:, None] * y
+    return np.concatenate([level - heel, level + heel], axis=1)
+
+
+def _stretches(low: float, high: float, corners: FloatArray) -> FloatArray:
+    """Give the heights between which a rule is laid, (s + 1,): no more than are worth it."""
+    reach = max(high - low, 0.0)
+    inner = np.sort(corners[(corners > low + _NEAR * reach) & (corners < high - _NEAR * reach)])
+    inner = inner[np.diff(inner, prepend=-np.inf) > _NEAR * reach]
+    if len(inner) >= _STRETCHES:
+        inner = inner[np.linspace(0, len(inner) - 1, _STRETCHES - 1).round().astype(np.int64)]
+    return np.concatenate([[low], inner, [low + reach]])
+
+
+def _rule(edge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give heights and weights between edges.
+
+    sin^2 makes half-integer powers of the height, over a round bottom, smooth.
+    """
+    node, weight = gauss(max(_LEVELS // (len(edge) - 1), _LEAST))
+    part = np.sin(0.5 * np.pi * node) ** 2
+    slope = 0.5 * np.pi * np.sin(np.pi * node) * weight
+    step = np.diff(edge)[:, None]
+    return (edge[:-1, None] + step * part).ravel(), (step * slope).ravel()
 
 
 def _less(one: Immersed, other: Immersed) -> Immersed:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import checked, number, numbers
+from assoc_hull.arguments import checked, number, numbers, plain
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -46,9 +46,9 @@ class FloatingPosition:
     1.0
     """
 
-    draught_aft: float = attrs.field(validator=checked(number, _WHERE))
-    draught_fore: float = attrs.field(validator=checked(number, _WHERE))
-    heel_deg: float = attrs.field(default=0.0, validator=_heel)
+    draught_aft: float = attrs.field(converter=plain, validator=checked(number, _WHERE))
+    draught_fore: float = attrs.field(converter=plain, validator=checked(number, _WHERE))
+    heel_deg: float = attrs.field(default=0.0, converter=plain, validator=_heel)
 
     @property
     def draught_mean(self) -> float:

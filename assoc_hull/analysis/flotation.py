@@ -23,7 +23,7 @@ from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.coons import CoonsStrips
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, PointKind
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_sections import sections_below
@@ -127,17 +127,36 @@ class Flotation:
         return tuple(found)
 
     @cached_property
+    def _corners(self) -> FloatArray:
+        """Ends and knuckles of the curves at which the hull ends, and where flats are broadest.
+
+        As a waterplane passes one of these its area bends; (c, 3), m.
+        """
+        batch, own = self.net.batch, np.repeat(self.net.end, np.diff(self.net.batch.start))
+        corner = self.kinds == PointKind.KNUCKLE
+        corner[batch.start[:-1]] = corner[batch.start[1:] - 1] = True
+        parts = [batch.xyz[corner & own]]
+        for curve in np.flatnonzero(self.net.flat).tolist():
+            border = batch.xyz[batch.start[curve] : batch.start[curve + 1]]
+            parts.append(border[[border[:, 1].argmax()]])
+        return np.concatenate(parts)
+
+    @cached_property
     def _doubtful_lines(self) -> list[str]:
         return doubtful_lines(self.net, self.layout, self.sections, self.kinds)
 
     def by_waterplanes(self, planes: Planes) -> Immersed:
         """Give volume and moments by the vertical route; the last answer is kept."""
         key = b"".join(np.ascontiguousarray(each).tobytes() for each in attrs.astuple(planes))
-        if key not in self._route:
+        found = self._route.get(key)
+        if found is None:
             known = self.measure(planes)
+            places = self.net.batch.xyz
+            found = by_waterplanes(self.prepared, planes, known, places, self._corners)
+            # Another thread may do the same: what is returned is not read back from the store.
             self._route.clear()
-            self._route[key] = by_waterplanes(self.prepared, planes, known, self.net.batch.xyz)
-        return self._route[key]
+            self._route[key] = found
+        return found
 
 
 _KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()
@@ -189,7 +208,7 @@ def flotation(state: HullState) -> Flotation:
 
 
 def _stamp(state: HullState) -> Hashable:
-    """Give the splines themselves, and how often what else the surface depends on was written."""
+    """Give splines and names themselves, and how often what else the surface depends on changed."""
     made = [state.spline(curve) for curve in state.live("curves").tolist()]
     return (
         Objects([*made, state.particulars]),
@@ -197,4 +216,5 @@ def _stamp(state: HullState) -> Hashable:
         state.rows.alive.writes,
         state.lines.boundary.writes,
         state.lines.offset.writes,
+        tuple(state.lines.name.data),
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import attrs
 
 from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.arguments import all_of, checked, flag, not_negative, number, positive
+from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive
 
 __all__ = ["FRESH", "SALT", "HydrostaticHeader"]
 
@@ -56,10 +56,13 @@ class HydrostaticHeader:
     length: float
     breadth: float
     draught: float
-    rho: float = attrs.field(validator=checked(positive, _WHERE))
-    shell_factor: float = attrs.field(validator=checked(positive, _WHERE))
-    kg: float | None = attrs.field(validator=attrs.validators.optional(checked(number, _WHERE)))
-    keel_thickness: float = attrs.field(validator=checked(not_negative, _WHERE))
+    rho: float = attrs.field(converter=plain, validator=checked(positive, _WHERE))
+    shell_factor: float = attrs.field(converter=plain, validator=checked(positive, _WHERE))
+    kg: float | None = attrs.field(
+        converter=attrs.converters.optional(plain),
+        validator=attrs.validators.optional(checked(number, _WHERE)),
+    )
+    keel_thickness: float = attrs.field(converter=plain, validator=checked(not_negative, _WHERE))
     transom: bool = attrs.field(validator=checked(flag, _WHERE))
     deck: str
     appendages: tuple[Appendage, ...] = attrs.field(converter=_appendages)

@@ -116,6 +116,8 @@ def _deck(table: HydrostaticTable, angle: float | None) -> Iterator[str]:
     yield f"freeboard {least:.4f} m, least at ({x:.3f}, {y:.3f}, {z:.3f}) m"
     if angle is None:
         yield "the deck edge stays dry to 89 degrees of heel"
+    elif math.isnan(angle):
+        yield "at these draughts the ship does not float upright: no angle of the deck edge"
     else:
         yield f"the deck edge goes under at {angle:.2f} degrees of heel, at this displacement"
 

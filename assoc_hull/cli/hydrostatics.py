@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.hull import Hull
 from assoc_hull.sources import open as open_hull
 
@@ -111,20 +111,29 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def _hydrostatics(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.equilibrium import deck_edge_angle
     from assoc_hull.cli.hydrostatic_words import document, table_words
 
     _check_targets(arguments)
     hull = open_hull(arguments.hull)
     with progress("integrating"):
         table = _table(hull, arguments)
-        angle = None
-        if len(table) == 1:
-            angle = deck_edge_angle(hull, table.positions[0], table.header.appendages)
+        angle = _deck_edge(hull, table)
     saved = _saved(hull, table, arguments)
     words = "\n".join([table_words(table, angle), *(f"written: {each}" for each in saved)])
     emit(arguments, document(table, angle) | {"saved": saved}, words)
     return 0
+
+
+def _deck_edge(hull: Hull, table: HydrostaticTable) -> float | None:
+    """Give the heel at which the deck edge goes under; nan where she does not float upright."""
+    from assoc_hull.analysis.equilibrium import deck_edge_angle
+
+    if len(table) != 1:
+        return None
+    try:
+        return deck_edge_angle(hull, table.positions[0], table.header.appendages)
+    except OutOfRangeError:
+        return math.nan
 
 
 def _check_targets(arguments: argparse.Namespace) -> None:

@@ -92,6 +92,7 @@ def xlsx_bytes(table: HydrostaticTable) -> bytes:
     sheet.title = "hydrostatics"
     for title, words in _head(table):
         sheet.append([f"# {title}", words])
+        sheet.cell(sheet.max_row, 2).data_type = "s"  # a name that begins with = is no formula
     columns = list(_columns(table))
     top = sheet.max_row + 1
     sheet.append([each.name for each in columns])

@@ -265,7 +265,7 @@ def _cells(
         anchor,
         np.array(tile_start, np.int64),
         column[0],
-        np.array(draft.blend)[cell],
+        np.array(draft.blend, np.float64).reshape(-1, 4, 4)[cell],
         column[1],
         column[2],
         column[3],

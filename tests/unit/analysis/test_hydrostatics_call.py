@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import attrs
+import numpy as np
 import pytest
 
 import assoc_hull as ah
@@ -108,6 +109,18 @@ def test_an_odd_option_is_refused_by_name(
     """Never guessed."""
     with pytest.raises(ah.AssocHullError, match=words):
         ah.hydrostatics(hull, **options)
+
+
+@pytest.mark.usefixtures("body")
+def test_numbers_that_come_as_text_count_as_numbers(hull: ah.Hull) -> None:
+    """Wherever a number is taken, text that is one is taken alike; what is kept is the number."""
+    given: dict[str, Any] = {"rho": "1.0", "shell_factor": "1.01", "kg": "4", "heel_deg": "0"}
+    meant: dict[str, Any] = {"rho": 1.0, "shell_factor": 1.01, "kg": 4.0, "heel_deg": 0.0}
+    one, other = (ah.hydrostatics(hull, draught=5.0, **each) for each in (given, meant))
+    assert (one.displacement, one.gmt) == (other.displacement, other.gmt)
+    del given["heel_deg"], meant["heel_deg"]
+    assert ah.immersion(hull, 5125.0, **given) == ah.immersion(hull, 5125.0, **meant)
+    assert type(FloatingPosition("6", np.float64(5.0)).draught_aft) is float  # type: ignore[arg-type]
 
 
 @pytest.mark.usefixtures("body")

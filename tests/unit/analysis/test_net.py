@@ -11,7 +11,9 @@ from assoc_hull.analysis.net.loops import Frame
 from assoc_hull.analysis.net.slabs import planes
 from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
 from assoc_hull.examples.wigley import wigley
+from assoc_hull.geometry.curves import PointKind
 from assoc_hull.geometry.immersed import Planes
+from assoc_hull.model.source import LineSource
 from tests.nets import ellipsoid_net
 
 
@@ -109,6 +111,33 @@ def test_the_surface_is_kept_until_a_line_changes() -> None:
     assert after > before + 0.05
     hull.undo()
     assert _volume(hull, 6.25) == before
+
+
+def test_a_line_that_is_renamed_goes_by_its_new_name() -> None:
+    """What is kept of a hull does not hold the names of before."""
+    hull = ah.examples.wigley()
+    assert "ST 1" in flotation(hull.state).sections.names
+    with hull.edit("rename") as edit:
+        edit.rename(hull.groups["sections"].lines["ST 1"], "frame 48")
+    assert "frame 48" in flotation(hull.state).sections.names
+    assert "ST 1" not in flotation(hull.state).sections.names
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_a_few_sections_have_numbers_and_errors(count: int) -> None:
+    """A box of two or three sections has an error, though half of them bound nothing."""
+    corners = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 12.0]])
+    lines = [
+        LineSource.make(
+            "sections", f"ST {x:g}", np.column_stack([np.full(3, x), corners]),
+            kind=[0, PointKind.KNUCKLE, 0],
+        )
+        for x in np.linspace(0.0, 100.0, count).tolist()
+    ]  # fmt: skip
+    ship = ah.Particulars("box", 100.0, 20.0, 12.0, 6.0)
+    found = ah.hydrostatics(ah.Hull.from_lines(lines, particulars=ship, associations=[]))
+    assert found.volume == pytest.approx(12000.0, rel=1e-12)
+    assert (found.error["volume"] or 0.0) > 0.0
 
 
 def test_two_sections_at_least() -> None:

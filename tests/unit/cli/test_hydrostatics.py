@@ -56,6 +56,15 @@ def test_a_weight_finds_its_draught(hull: Path, facts: Json) -> None:
     assert found["rows"][0]["trim_by_stern"] == pytest.approx(0.6, rel=1e-3)
 
 
+def test_a_ship_that_floats_only_heeled_has_numbers_without_an_angle(
+    hull: Path, facts: Json
+) -> None:
+    """The draught of the centre line lies below the keel: upright she would not float there."""
+    found = facts("hydrostatics", hull, "--draught", -1, "--heel", 40)
+    assert found["rows"][0]["draught_mean"] == -1.0
+    assert found["deck_edge_angle"] is None
+
+
 def test_draughts_to_the_underside_of_keel(hull: Path, facts: Json) -> None:
     """Are longer than the moulded ones by the keel's thickness."""
     found = facts("hydrostatics", hull, "--draught", 5.02, "--keel-thickness", 0.02,

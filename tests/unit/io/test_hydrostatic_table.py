@@ -90,3 +90,15 @@ def test_another_ending_is_refused(table: HydrostaticTable, tmp_path: Path) -> N
     with pytest.raises(BadInputError, match=r"\.csv or \.xlsx"):
         write_hydrostatic_table(table, tmp_path / "t.txt")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_that_looks_like_a_formula_stays_text() -> None:
+    """What a spreadsheet would take for a formula stands in the head as it was given."""
+    openpyxl = pytest.importorskip("openpyxl")
+    named = Appendage("=1+1", 30.0, (20.0, 0.0, -1.0), 50.0)
+    header = head(100.0, 20.0, 6.0, appendages=(named,), ship="=A1")
+    book = xlsx_bytes(table_of(Box(off=1e-6), [FloatingPosition(5.0, 5.0)], header))
+    sheet = openpyxl.load_workbook(io.BytesIO(book)).active
+    cells = [cell for row in sheet.iter_rows(max_col=2) for cell in row]
+    assert all(cell.data_type != "f" for cell in cells)
+    assert "=A1" in [cell.value for cell in cells]
