@@ -359,9 +359,9 @@ def plain(value: float) -> float:
     >>> plain("3.5")
     3.5
     """
-    if isinstance(value, bool | np.bool_) or np.ndim(value):
+    if isinstance(value, bool | np.bool_):
         return value
     try:
-        return float(value)
+        return value if np.ndim(value) else float(value)
     except _FAILS:
         return value

@@ -23,7 +23,7 @@ from assoc_hull.analysis.floating import planes_of
 from assoc_hull.analysis.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.hydrostatics import DraughtTo, OnError, position_of, trusted_table
-from assoc_hull.analysis.measured_hull import HasState, header_of
+from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
 from assoc_hull.analysis.parameters import Parameter, Position, Shape
 from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.analysis.record_fields import FIELDS
@@ -138,7 +138,7 @@ def hydrostatic_derivatives(
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "transom": transom,
         "appendages": appendages, "keel_thickness": keel_thickness,
     }  # fmt: skip
-    body = flotation(hull.state)
+    body = flotation(state_of(hull))
     header = header_of(hull, body, terms)
     position = position_of(header, draught, draughts, heel_deg, draught_to)
     parameters = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]

@@ -86,7 +86,7 @@ class HydrostaticTable:
     def __getitem__(self, place: int | tuple[int, int]) -> Hydrostatics:
         if isinstance(place, tuple):
             place = int(np.arange(len(self)).reshape(self.shape)[place])
-        return record(self.columns, self.errors, range(len(self))[place])
+        return record(self.columns, self.errors, range(len(self))[place], self.notes)
 
     def __iter__(self) -> Iterator[Hydrostatics]:
         return (self[i] for i in range(len(self)))

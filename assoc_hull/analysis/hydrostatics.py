@@ -68,7 +68,7 @@ def hydrostatics(
         Count the immersed transom, and other flat ends, as wetted surface.
     on_error : "refuse" or "report"
         What to do if the integrals are doubtful: a section that is open or crosses itself, two
-        routes that disagree.
+        routes that disagree. What is reported stands in the `notes` of the record.
     appendages : iterable of Appendage
         That are added to the moulded hull.
     keel_thickness : float, m

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -65,6 +65,9 @@ class Hydrostatics:
         In plan, about the centroid.
     error : mapping of str to float or None
         How far each value may be off, by its name; None where that is not known, or not asked.
+    notes : tuple of str
+        What makes the numbers doubtful, where that is to be reported; of all positions of the
+        table that a record is taken from.
     """
 
     volume: float
@@ -110,12 +113,14 @@ class Hydrostatics:
     i_l_proj: float
     i_lt_proj: float
     error: Mapping[str, float | None] = attrs.field(converter=_frozen)
+    notes: tuple[str, ...] = ()
 
 
 def record(
     columns: Mapping[str, NDArray[np.float64]],
     errors: Mapping[str, NDArray[np.float64]],
     i: int,
+    notes: Sequence[str] = (),
 ) -> Hydrostatics:
     """Give the record of one position.
 
@@ -125,6 +130,8 @@ def record(
         All values, and how far they may be off; nan where there is none.
     i : int
         The position.
+    notes : sequence of str
+        For the record.
 
     Examples
     --------
@@ -139,7 +146,7 @@ def record(
     for name in _MAY_LACK:
         values[name] = _number(values[name])
     error = {name: _number(float(errors[name][i])) if name in errors else None for name in FIELDS}
-    return Hydrostatics(**values, error=error)
+    return Hydrostatics(**values, error=error, notes=tuple(notes))
 
 
 def _number(value: float) -> float | None:

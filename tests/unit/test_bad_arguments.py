@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.analysis.parameters import DRAUGHT
 from assoc_hull.edit.session import Edit
 from assoc_hull.sources import Examples
 
@@ -141,6 +142,9 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
         ah.Tolerances,
         {field.name: field.default for field in attrs.fields(ah.Tolerances)},
     ),
+    "Appendage": (
+        ah.Appendage, {"name": "a", "volume": 1.0, "centroid": PLACE, "area": 1.0},
+    ),
     "LineSource.make": (
         ah.LineSource.make,
         {
@@ -149,6 +153,30 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "ends": None, "placed": False, "tolerance": 0.005,
         },
     ),
+}  # fmt: skip
+
+TERMS: Given = {
+    "heel_deg": 0.0,
+    "rho": 1.0,
+    "shell_factor": 1.0,
+    "kg": None,
+    "appendages": (),
+}
+OPTIONS: Given = {
+    **TERMS,
+    "transom": False,
+    "on_error": "refuse",
+    "keel_thickness": 0.0,
+    "draught_to": "moulded",
+}
+ONE: Given = {"draught": None, "draughts": None}
+FLOATING: dict[str, Given] = {
+    "hydrostatics": {**ONE, **OPTIONS, "estimate": False},
+    "hydrostatic_table": {
+        "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
+    },
+    "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
+    "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
 }  # fmt: skip
 
 
@@ -249,6 +277,32 @@ def test_what_is_made_is_made_of_good_values(method: str, given: Given) -> None:
     call(function, given)
 
 
+@pytest.mark.parametrize(("method", "given"), cases(FLOATING))
+def test_a_hull_is_floated_by_good_values(hull: ah.Hull, method: str, given: Given) -> None:
+    """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
+    call(lambda: getattr(ah, method)(hull, **given), {})
+    assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize("method", FLOATING)
+def test_what_is_floated_is_a_hull(hull: ah.Hull, method: str) -> None:
+    """Anything else is of the wrong type: its tables, and the class, too."""
+    function = getattr(ah, method)
+    assert not call(lambda: function(hull, **FLOATING[method]), {})
+    for value in (*BAD.values(), hull.state, ah.Hull):
+        with pytest.raises(TypeError, match=r"the hull is a \w+, .*give a Hull") as caught:
+            function(value, **FLOATING[method])
+        assert isinstance(caught.value, ah.BadInputError)
+
+
+@pytest.mark.parametrize("method", FLOATING)
+def test_every_argument_of_hydrostatics_is_tried(method: str) -> None:
+    """As those of the methods."""
+    known = set(inspect.signature(getattr(ah, method)).parameters) - {"hull"}
+    assert known == set(FLOATING[method])
+
+
 @pytest.mark.parametrize("name", ["groups", "lines", "points", "crossings"])
 @pytest.mark.parametrize("value", BAD.values(), ids=BAD)
 def test_a_mapping_knows_no_such_name(hull: ah.Hull, name: str, value: Any) -> None:
@@ -290,6 +344,7 @@ def test_every_public_name_is_tried() -> None:
         if callable(getattr(ah, name))
         and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
     }
-    assert public == tried - {"wigley", "series60"} | handles  # the carrier takes nothing
+    tried = tried - {"wigley", "series60"} | set(FLOATING)  # the carrier takes nothing
+    assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     assert made == {"wigley", "series60", "bulk_carrier_207k"}

@@ -75,8 +75,13 @@ def test_a_doubtful_hull_is_refused_or_reported(hull: ah.Hull, body: list[Box]) 
     body[0] = attrs.evolve(body[0], trouble=TROUBLE)
     with pytest.raises(ah.BadInputError, match=r"ST 7 is open .* \(and 1 more\).*report"):
         ah.hydrostatics(hull)
-    assert ah.hydrostatics(hull, on_error="report").volume == pytest.approx(6250.0)
-    assert ah.hydrostatic_table(hull, [5.0], on_error="report").notes == TROUBLE
+    found = ah.hydrostatics(hull, on_error="report")
+    assert found.volume == pytest.approx(6250.0)
+    assert found.notes == TROUBLE
+    table = ah.hydrostatic_table(hull, [5.0], on_error="report")
+    assert table.notes == table[0].notes == TROUBLE
+    body[0] = attrs.evolve(body[0], trouble=())
+    assert ah.hydrostatics(hull, on_error="report").notes == ()
 
 
 @pytest.mark.usefixtures("body")

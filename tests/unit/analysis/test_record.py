@@ -36,7 +36,7 @@ def box(aft: float, fore: float, heel: float = 0.0, **given: object) -> Hydrosta
 
 def test_the_record_has_the_agreed_names_in_their_order() -> None:
     """Names of the fields are those of the JSON document, and each is described."""
-    assert [each.name for each in attrs.fields(Hydrostatics)] == [*SPEC_NAMES, "error"]
+    assert [each.name for each in attrs.fields(Hydrostatics)] == [*SPEC_NAMES, "error", "notes"]
     assert list(FIELDS) == SPEC_NAMES
     assert all(each.symbol and each.unit and each.title and each.formula
                for each in FIELDS.values())  # fmt: skip

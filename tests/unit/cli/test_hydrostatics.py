@@ -26,7 +26,7 @@ def test_one_position_is_told_with_the_names_of_the_record(hull: Path, facts: Js
     """The design draught if none is given; head, freeboard and deck edge besides."""
     found = facts("hydrostatics", hull, "--kg", 3)
     (row,) = found["rows"]
-    assert list(row) == [*FIELDS, "error"]
+    assert list(row) == [*FIELDS, "error", "notes"]
     assert row["volume"] == pytest.approx(6250.0, rel=1e-12)
     assert row["gmt"] == pytest.approx(row["kmt"] - 3.0)
     assert found["header"]["rho"] == 1.025
@@ -98,6 +98,19 @@ def test_words_name_value_unit_and_meaning(hull: Path, capsys: pytest.CaptureFix
     lines = capsys.readouterr().out.splitlines()
     assert sum(line.startswith("volume ") for line in lines) == 2
     assert max(map(len, lines)) <= 160
+
+
+def test_doubts_are_told_where_they_are_to_be_reported(
+    hull: Path, facts: Json, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In words and in the document, which has them of the table and of each record."""
+    body = Box(breadth=10.0, depth=8.0, trouble=("ST 7 is open",))
+    double = SimpleNamespace(flotation=lambda state: body)
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
+    found = facts("hydrostatics", hull, "--on-error", "report")
+    assert found["notes"] == found["rows"][0]["notes"] == ["ST 7 is open"]
+    assert main(["hydrostatics", str(hull), "--on-error", "report"]) == 0
+    assert "note: ST 7 is open" in capsys.readouterr().out
 
 
 def test_a_table_is_written(hull: Path, facts: Json, tmp_path: Path) -> None:
