@@ -74,7 +74,7 @@ class HydrostaticHeader:
     @property
     def water(self) -> str:
         """The water in words."""
-        return f"{_WATERS.get(self.rho, 'water')}, {self.rho:.4g} t/m3"
+        return f"{_WATERS.get(self.rho, 'water')}, {self.rho:.6g} t/m3"
 
     @property
     def datum(self) -> str:

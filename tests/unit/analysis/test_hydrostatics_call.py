@@ -52,6 +52,7 @@ def test_a_table_heads_its_numbers(hull: ah.Hull) -> None:
     head = table.header
     assert (head.ship, head.fingerprint, head.date) == ("Wigley", hull.fingerprint, None)
     assert head.water == "fresh water, 1 t/m3"
+    assert attrs.evolve(head, rho=1.0252).water == "water, 1.0252 t/m3"
     assert head.appendages == (fin,)
     assert table.shape == (3, 2)
     assert table[1, 0].trim_by_stern == pytest.approx(-1.0)
