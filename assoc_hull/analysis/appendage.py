@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.arguments import checked, not_negative, number, place, text
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Immersed, Planes
 
-__all__ = ["Appendage", "with_appendages"]
+__all__ = ["Appendage", "require_volume", "with_appendages"]
 
 _WHERE = "in an appendage"
 
@@ -85,3 +87,34 @@ def with_appendages(
             shell=immersed.shell + np.where(wet, each.area, 0.0),
         )
     return immersed
+
+
+def require_volume(
+    volume: FloatArray, appendages: Sequence[Appendage], planes: Planes, where: str
+) -> None:
+    """Refuse appendages that take away all of the hull.
+
+    Parameters
+    ----------
+    volume : (d,), m3
+        Of hull and appendages, below each plane.
+    appendages : sequence of Appendage
+        They.
+    planes : Planes
+        The planes.
+    where : str
+        For the error.
+
+    Raises
+    ------
+    BadInputError
+        Nothing is left below a plane.
+    """
+    if not appendages or (volume > 0.0).all():
+        return
+    k = int(np.argmin(volume))
+    added = sum(each.volume * float(each.immersed(planes)[k]) for each in appendages)
+    bare = float(volume[k]) - added
+    what = f"appendages of {added:g} m3 leave nothing of the {bare:g} m3 of the bare hull"
+    at = f"below z {float(planes.height[k]):g} m at AP"
+    raise BadInputError(what, f"{where}, {at}", "give volumes that are a part of the hull's")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.analysis.algebra import Setting, Values, propagate, values_of
-from assoc_hull.analysis.appendage import Appendage, with_appendages
+from assoc_hull.analysis.appendage import Appendage, require_volume, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, require_afloat
 from assoc_hull.analysis.floating_body import FloatingBody, Measurable, StationAreas
 from assoc_hull.analysis.freeboard import freeboard
@@ -50,10 +50,13 @@ def table_of(
     ------
     OutOfRangeError
         A position in which the hull does not float, with the range.
+    BadInputError
+        Appendages that leave nothing of its volume.
     """
     planes = require_afloat(positions, body.limits, header.length)
     setting, layout = _terms(header)
     stations, sums = _measured(body, planes, header)
+    require_volume(sums.volume, header.appendages, planes, "in hydrostatics")
     errors: dict[str, FloatArray] = {}
     if estimate:
         changes = [change_of(each, stations, layout) for each in body.changes(planes)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from assoc_hull.analysis.appendage import Appendage
@@ -13,7 +14,8 @@ from assoc_hull.analysis.hydrostatic_header import SALT
 from assoc_hull.analysis.loading import Load
 from assoc_hull.analysis.loading import immersion as float_at
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.arguments import number
+from assoc_hull.arguments import number, plain, shown
+from assoc_hull.errors import BadInputError
 
 __all__ = ["deck_edge_angle", "freeboard", "immersion"]
 
@@ -43,9 +45,16 @@ def immersion(
     lcg, kg : float or None, m
         Centre of gravity from AP and above base; without `lcg` the trim is as given.
     trim_by_stern, heel_deg : m, degrees
-        Of the ship.
+        Of the ship; with `lcg` the trim is found, and none may be given.
     rho, shell_factor, appendages
         As for `hydrostatics`.
+
+    Raises
+    ------
+    OutOfRangeError
+        A weight that the hull does not carry, with the range.
+    BadInputError
+        A number that cannot be used; trim and `lcg` both; no trim at which the hull would float.
 
     Examples
     --------
@@ -62,6 +71,10 @@ def immersion(
         "appendages": appendages,
     }
     header = header_of(hull, body, terms)
+    trim = number(trim_by_stern, "trim_by_stern", _WHERE)
+    if lcg is not None and trim != 0.0:
+        what = f"lcg and a trim_by_stern of {trim:g} m are both given"
+        raise BadInputError(what, _WHERE, "give one of them: with lcg the trim is found")
     load = Load(
         # What is no finite number is refused with the range, which needs the hull.
         _tons(weight),
@@ -69,7 +82,7 @@ def immersion(
         header.shell_factor,
         None if lcg is None else number(lcg, "lcg", _WHERE),
         header.kg,
-        number(trim_by_stern, "trim_by_stern", _WHERE),
+        trim,
         FloatingPosition(0.0, 0.0, heel_deg).heel_deg,
         header.appendages,
     )
@@ -77,8 +90,13 @@ def immersion(
 
 
 def _tons(weight: object) -> float:
-    """Take a weight; any float will do here."""
-    return weight if isinstance(weight, float) else number(weight, "weight", _WHERE)
+    """Take a weight; any number will do here."""
+    found: object = plain(weight)  # type: ignore[arg-type]
+    if isinstance(found, int) and not isinstance(found, bool):
+        return math.inf if found > 0 else -math.inf  # beyond what a float can be
+    if not isinstance(found, float):
+        raise BadInputError(f"weight is {shown(weight)}", _WHERE, "give a number, t")
+    return found
 
 
 def freeboard(hull: HasState, position: FloatingPosition) -> Freeboard:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import attrs
 
 from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive
+from assoc_hull.arguments import all_of, checked, flag, not_negative, number, plain, positive, text
 
 __all__ = ["FRESH", "SALT", "HydrostaticHeader"]
 
@@ -67,12 +67,14 @@ class HydrostaticHeader:
     deck: str
     appendages: tuple[Appendage, ...] = attrs.field(converter=_appendages)
     fingerprint: str
-    date: str | None = None
+    date: str | None = attrs.field(
+        default=None, validator=attrs.validators.optional(checked(text, _WHERE))
+    )
 
     @property
     def water(self) -> str:
         """The water in words."""
-        return f"{_WATERS.get(self.rho, 'water')}, {self.rho:.4g} t/m3"
+        return f"{_WATERS.get(self.rho, 'water')}, {self.rho:.6g} t/m3"
 
     @property
     def datum(self) -> str:

@@ -77,7 +77,8 @@ def hydrostatics(
         Whether draughts are given to the base line, or to the underside of keel; the record is
         always of moulded ones.
     estimate : bool
-        Estimate how far each value may be off.
+        Estimate how far each value may be off by the integration of these lines. Without, numbers
+        are not compared with those of other routes either: only the lines can make it doubtful.
 
     Returns
     -------

@@ -17,7 +17,7 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage, with_appendages
+from assoc_hull.analysis.appendage import Appendage, require_volume, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.errors import BadInputError, OutOfRangeError
@@ -179,7 +179,9 @@ def _require_in_range(sought: _Sought, slope: float, low: float, high: float) ->
     if not low < high:
         what = f"no draught keeps the deck dry at heel {load.heel_deg:g} deg"
         raise BadInputError(what, _WHERE, "give less trim or heel, or close the deck")
-    largest = sought.measure(sought.plane(high, slope))
+    deepest = sought.plane(high, slope)
+    largest = sought.measure(deepest)
+    require_volume(largest.volume, load.appendages, deepest, _WHERE)
     most = float(largest.volume[0]) * load.rho * load.shell_factor
     if not 0.0 < load.weight <= most:
         why = "is more than the hull carries" if load.weight > most else "is none"

@@ -98,7 +98,9 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
         help="what to do where the integrals are doubtful",
     )  # fmt: skip
     parser.add_argument(
-        "--no-estimate", action="store_true", help="do not estimate how far values may be off"
+        "--no-estimate",
+        action="store_true",
+        help="neither estimate how far values may be off, nor compare numbers by other routes",
     )
     parser.add_argument("-o", "--out", type=Path, metavar="FILE", help="a .csv or .xlsx file")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="a .pdf, .svg or .png file")

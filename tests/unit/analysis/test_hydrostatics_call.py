@@ -52,6 +52,7 @@ def test_a_table_heads_its_numbers(hull: ah.Hull) -> None:
     head = table.header
     assert (head.ship, head.fingerprint, head.date) == ("Wigley", hull.fingerprint, None)
     assert head.water == "fresh water, 1 t/m3"
+    assert attrs.evolve(head, rho=1.0252).water == "water, 1.0252 t/m3"
     assert head.appendages == (fin,)
     assert table.shape == (3, 2)
     assert table[1, 0].trim_by_stern == pytest.approx(-1.0)
@@ -139,8 +140,39 @@ def test_weights_find_their_draughts(hull: ah.Hull) -> None:
         ah.immersion(hull, math.nan)
     with pytest.raises(ah.BadInputError, match="weight is 'heavy'"):
         ah.immersion(hull, "heavy")  # type: ignore[arg-type]
-    with pytest.raises(ah.OutOfRangeError, match="from 0 to 8200 t"):
-        ah.immersion(hull, 9000.0)
+    for weight in (9000.0, 2_000_000, 10**400):
+        with pytest.raises(ah.OutOfRangeError, match=r"more than .* from 0 to 8200 t"):
+            ah.immersion(hull, weight)
+    assert ah.immersion(hull, 5125) == ah.immersion(hull, 5125.0)
+
+
+@pytest.mark.usefixtures("body")
+def test_a_trim_is_given_or_found(hull: ah.Hull) -> None:
+    """With LCG it is found, and one that is given besides is not passed over."""
+    with pytest.raises(ah.BadInputError, match="trim_by_stern of 1 m are both given"):
+        ah.immersion(hull, 5125.0, lcg=50.0, trim_by_stern=1)
+
+
+@pytest.mark.usefixtures("body")
+def test_appendages_leave_something_of_the_hull(hull: ah.Hull) -> None:
+    """Recesses as large as the hull, or larger, are refused with both volumes."""
+    for size in (-5000.0, -7000.0):
+        hole = ah.Appendage("hole", size, (50.0, 0.0, 1.0))
+        words = f"appendages of {size:g} m3 leave nothing of the 5000 m3"
+        with pytest.raises(ah.BadInputError, match=words):
+            ah.hydrostatics(hull, draught=5.0, appendages=[hole])
+    assert ah.hydrostatics(hull, draught=0.5, appendages=[hole]).volume == pytest.approx(500.0)
+    hole = attrs.evolve(hole, volume=-9000.0)
+    with pytest.raises(ah.BadInputError, match="-9000 m3 leave nothing of the 8000 m3"):
+        ah.immersion(hull, 500.0, appendages=[hole])
+
+
+@pytest.mark.usefixtures("body")
+@pytest.mark.parametrize("date", [5, "", "a\nb"])
+def test_a_date_is_text_in_one_line(hull: ah.Hull, date: Any) -> None:
+    """It is refused at the call, not where the table is written."""
+    with pytest.raises(ah.BadInputError, match="date is"):
+        ah.hydrostatic_table(hull, [5.0], date=date)
 
 
 @pytest.mark.usefixtures("body")
