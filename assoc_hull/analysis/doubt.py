@@ -36,7 +36,7 @@ _TURN, _BACK = np.radians(60.0), np.radians(15.0)
 _HAIRPIN = np.radians(150.0)
 """A smooth section that turns by more at a point runs back on itself."""
 
-_EXPECTED = 0.03
+_EXPECTED = 0.1
 """Areas of sections differ from what the others expect by less than this, of the largest."""
 
 _AGREED = 1e-3

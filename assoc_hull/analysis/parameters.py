@@ -127,7 +127,8 @@ class PointMove(Shape):
         The coordinate that grows by 1 per unit, one of those in which the point is free; None
         where it is free in one only. In an oblique plane another coordinate goes along.
     follow : bool
-        Points that are computed from curves follow, as they do in an edit.
+        Points that are computed from curves follow, as they do in an edit; adopted points, which
+        an edit carries along, do not.
     """
 
     address: str = attrs.field(validator=checked(text, _WHERE))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
+from assoc_hull.analysis.net.parallel import parallel_slabs
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.geometry.coons import Cells
@@ -121,9 +122,12 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
     x = planes(net)
     found, lost = frames(net, arcs(net, x), len(x), length)
     every = spans(net)
+    parallel = parallel_slabs(net, x)
     draft = _Draft(net)
     for i, given in enumerate(found):
         found[i], run = anchors(given, every)
+        if given.plane and given.slab in parallel:
+            run = [attrs.evolve(each, parts=()) for each in (run[0], run[-1])]
         for anchor in run:
             draft.anchor.append(draft.add(anchor.parts) if anchor.parts else -1)
         flat = [_side(net, each, net.flat) for each in run]
@@ -140,7 +144,7 @@ def lay_out(net: Net, length: float, closed: bool) -> Layout:
         draft.anchor_start.append(len(draft.anchor))
         draft.cell_start.append(len(draft.cell))
     paths = Paths.of(draft.paths)
-    edge = np.array([_is_edge(net, frame) for frame in found], np.bool_)
+    edge = np.array([_is_edge(net, frame, found) for frame in found], np.bool_)
     cells, cell = _cells(net, draft, found, shapes(paths, net.batch), edge & closed)
     rails = np.array([each[1:] for each in draft.cell], np.int64).reshape(-1, 2)
     start = np.array(draft.cell_start, np.int64)
@@ -303,10 +307,24 @@ def _bit_at(walked: PathShapes, path: int, w: float) -> int:
     return first + int(np.searchsorted(walked.begin[first:last], w, side="right")) - 1
 
 
-def _is_edge(net: Net, frame: Frame) -> bool:
-    """Tell whether the upper side of a strip is a deck edge, not the centre plane."""
+def _is_edge(net: Net, frame: Frame, every: Sequence[Frame]) -> bool:
+    """Tell whether the upper side of a strip is a deck edge, not the centre plane.
+
+    Where no side is drawn only the uppermost strip of a slab has one: below it lie a bulb or a
+    bossing that nothing closes.
+    """
     if frame.deck:
         return not all(net.centre[part[0]] for part in frame.deck)
-    parts = _top(frame)
-    place = evaluate(net.batch, np.array([p[0] for p in parts]), np.array([p[2] for p in parts]))
-    return bool(np.abs(place[:, 1]).max() > CENTRE)
+    place = _tops(net, frame)
+    if float(np.abs(place[:, 1]).max()) <= CENTRE:
+        return False
+    others = [_tops(net, each) for each in every if each.slab == frame.slab]
+    return float(place[:, 2].max()) >= max(float(each[:, 2].max()) for each in others)
+
+
+def _tops(net: Net, frame: Frame) -> FloatArray:
+    """Give the upper ends of the rails of a strip, (2, 3), m."""
+    parts = [rail[-1] for rail in (frame.aft, frame.fore)]
+    curve = np.array([part[0] for part in parts])
+    found: FloatArray = evaluate(net.batch, curve, np.array([part[2] for part in parts]))
+    return found

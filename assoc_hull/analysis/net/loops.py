@@ -172,6 +172,7 @@ def _closes(net: Net, curve: int) -> bool:
 
 def _pruned(edges: list[_Edge]) -> list[_Edge]:
     """Leave out boundary curves that end nowhere, and join loose ends of sections straight."""
+    edges = edges + _capping(edges, _degrees(edges))
     while True:
         degree = _degrees(edges)
         kept = [
@@ -182,6 +183,29 @@ def _pruned(edges: list[_Edge]) -> list[_Edge]:
         if len(kept) == len(edges):
             return edges + _closing(edges, degree)
         edges = kept
+
+
+def _capping(edges: Sequence[_Edge], degree: dict[int, int]) -> list[_Edge]:
+    """Join a stem or stern that no deck edge reaches to the last section's upper end, straight.
+
+    Else what lies beyond the last section would be lost where no deck edge is drawn.
+    """
+    if {edge.kind for edge in edges} >= {"A", "F"}:
+        return []
+    tops = [_upper(edge) for edge in edges if _is_section(edge)]
+    stems = [_upper(edge) for edge in edges if edge.kind == "E" and edge.closing]
+    loose = [[each for each in ends if degree[each[0]] == 1] for ends in (tops, stems)]
+    if not loose[0] or not loose[1]:
+        return []
+    (top, place), (stem, there) = (max(ends, key=lambda each: float(each[1][2])) for ends in loose)
+    return [_Edge((-1, 0.0, 0.0), "E", top, stem, False, place, there)]
+
+
+def _upper(edge: _Edge) -> tuple[int, FloatArray]:
+    """Give the upper end of an edge."""
+    if edge.last[2] >= edge.first[2]:
+        return edge.finish, edge.last
+    return edge.begin, edge.first
 
 
 def _is_section(edge: _Edge) -> bool:

@@ -29,6 +29,7 @@ from assoc_hull.errors import (
     AssocHullError,
     BadInputError,
     FreedomError,
+    PointRoleError,
     UnknownNameError,
     WrongTypeError,
 )
@@ -372,6 +373,17 @@ def test_what_cannot_be_used_is_refused(
     """With an error that says what to give."""
     with pytest.raises(error):
         hydrostatic_derivatives(hulls["wigley"], wrt)
+
+
+def test_a_computed_point_moves_alone_or_not_at_all(hulls: dict[str, Hull]) -> None:
+    """Partial derivatives are by any defining point; an edit moves its driver."""
+    hull = hulls["series 60, 0.60"]
+    points = hull.points.items()
+    driven = next(name for name, each in points if each.driver is not None and len(each.free) == 1)
+    found = hydrostatic_derivatives(hull, [PointMove(driven)])
+    assert np.isfinite(found.of("volume")).all()
+    with pytest.raises(PointRoleError, match="driven"):
+        hydrostatic_derivatives(hull, [PointMove(driven, follow=True)])
 
 
 def test_bad_parameters_cannot_be_made() -> None:

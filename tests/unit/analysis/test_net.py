@@ -5,13 +5,17 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.net.anchors import anchors, spans
 from assoc_hull.analysis.net.cells import lay_out
 from assoc_hull.analysis.net.gather import Net, gather
-from assoc_hull.analysis.net.loops import Frame
-from assoc_hull.analysis.net.slabs import planes
+from assoc_hull.analysis.net.loops import Frame, frames
+from assoc_hull.analysis.net.parallel import parallel_slabs
+from assoc_hull.analysis.net.slabs import arcs, planes
 from assoc_hull.analysis.net.thin import every_other_line, every_other_section, thinned
+from assoc_hull.examples.series60 import series60_adopted
 from assoc_hull.examples.wigley import wigley
 from assoc_hull.geometry.curves import PointKind
+from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.model.source import LineSource
 from tests.nets import ellipsoid_net
@@ -89,8 +93,6 @@ def test_a_thinned_net_lacks_every_other_section() -> None:
 
 def test_places_on_a_thinned_net_are_on_both_lines() -> None:
     """Crossings carried over to the coarser splines meet to within what the splines differ by."""
-    from assoc_hull.geometry.evaluation import evaluate
-
     state = wigley()
     net = gather(state)
     fewer = thinned(state, net, every_other_line(net))
@@ -148,3 +150,75 @@ def test_two_sections_at_least() -> None:
             edit.remove_line(hull.groups["sections"].lines[name])
     with pytest.raises(ah.BadInputError, match=r"1 section"):
         flotation(hull.state)
+
+
+def test_ends_of_a_hull_without_deck_edge_are_not_lost() -> None:
+    """Stem and stern are joined to the tops of the last sections: the volume stays."""
+    hull = ah.examples.wigley()
+    whole = _volume(hull, 6.25)
+    with hull.edit("no deck edge") as edit:
+        edit.remove_line(hull.groups["boundary"].lines["deck edge"])
+    layout = flotation(hull.state).layout
+    assert layout.lost == ()
+    assert len(layout.frames) == 20
+    assert _volume(hull, 6.25) == pytest.approx(whole, rel=1e-4)
+
+
+def test_only_the_uppermost_strip_has_a_deck_edge(bulk_carrier: ah.Hull) -> None:
+    """Also where no deck edge is drawn: bulb and bossing end on the centre plane, below others."""
+    with bulk_carrier.edit("no deck edge") as edit:
+        edit.remove_line(bulk_carrier.groups["boundary"].lines["deck edge"])
+    try:
+        found = flotation(bulk_carrier.state)
+        assert found.limits.deck[:, 2].min() > 26.9
+        top: dict[int, float] = {}
+        heights = [_height(found.net, frame) for frame in found.layout.frames]
+        for frame, height in zip(found.layout.frames, heights, strict=True):
+            top[frame.slab] = max(top.get(frame.slab, 0.0), height)
+        for frame, height, edge in zip(
+            found.layout.frames, heights, found.layout.edge.tolist(), strict=True
+        ):
+            assert edge == (height == top[frame.slab]), frame
+    finally:
+        bulk_carrier.undo()
+
+
+def _height(net: Net, frame: Frame) -> float:
+    """Give the height of the upper ends of the rails, m."""
+    ends = [rail[-1] for rail in (frame.aft, frame.fore)]
+    place = evaluate(net.batch, np.array([e[0] for e in ends]), np.array([e[2] for e in ends]))
+    return float(place[:, 2].max())
+
+
+def test_between_equal_largest_sections_a_hull_with_flats_runs_straight(
+    series60_70: ah.Hull, series60_60: ah.Hull
+) -> None:
+    """The parallel body of CB .70 is that from ST 10 to ST 12; CB .60 has none, nor has Wigley."""
+    net = gather(series60_70.state)
+    x = planes(net)
+    slabs = sorted(parallel_slabs(net, x))
+    stations = np.round(20.0 * x / series60_70.particulars.length, 9).tolist()
+    assert [(stations[i - 1], stations[i]) for i in slabs] == [(10.0, 11.0), (11.0, 12.0)]
+    layout = lay_out(net, series60_70.particulars.length, closed=True)
+    for i, frame in enumerate(layout.frames):
+        begin, end = layout.cells.anchor_start[i : i + 2]
+        straight = (layout.cells.anchor[begin:end] == -1).all()
+        assert straight == (frame.slab in slabs)
+    for state in (series60_60.state, wigley(stations=22)):
+        net = gather(state)
+        assert parallel_slabs(net, planes(net)) == frozenset()
+
+
+def test_a_border_that_dips_below_a_waterline_between_sections_holds_no_surface() -> None:
+    """Two lines that change places would fold it: the waterline stays, the border goes."""
+    state = series60_adopted(0.70)[0]
+    net = gather(state)
+    every = spans(net)
+    found, _ = frames(net, arcs(net, planes(net)), len(planes(net)), 121.92)
+    [frame] = [each for each in found if each.slab == 14]
+    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    assert "WL 0.25" in held
+    assert "flat of side" not in held
+    [frame] = [each for each in found if each.slab == 12]
+    held = {net.name[part[0]] for anchor in anchors(frame, every)[1] for part in anchor.parts}
+    assert {"WL 0.25", "flat of side"} <= held
