@@ -40,6 +40,9 @@ MESH = 41
 """Rows of panels of our own mesh route: the volume is off by no more than that."""
 
 DRAUGHTS = 200
+TABLE_NET = (21, 11)
+"""Stations and waterlines of the hull of which many draughts are asked: those of the example."""
+
 PEERS = {"trimesh": trimesh_job, "capytaine": capytaine_job}
 NEEDED = {"trimesh": ("trimesh", "shapely", "mapbox_earcut"), "capytaine": ("capytaine",)}
 GOALS = {"trimesh": 8, "capytaine": 500}
@@ -56,7 +59,7 @@ def ours(position: Position) -> Job:
 
 def ours_at_heights(position: Position) -> Callable[[FloatArray], Any]:
     """Give our side for many heights of the plane in one call, and so for one."""
-    body = net().fitted()
+    body = net(*TABLE_NET).fitted()
     return lambda heights: immersed(body, position.planes(heights))
 
 
