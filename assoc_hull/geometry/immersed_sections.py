@@ -5,14 +5,17 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersion_half import curve_by_curve
-from assoc_hull.geometry.immersion_tiles import Tiles, from_curves
+from assoc_hull.geometry.immersion_tiles import Tiles, from_curves, subset
 from assoc_hull.geometry.isocurves import IsoCurves
 
 __all__ = ["sections_below"]
+
+_MOST = 20_000
+"""So many tiles are looked at together, which bounds the memory."""
 
 
 def sections_below(curves: IsoCurves, planes: Planes) -> FloatArray:
@@ -46,16 +49,32 @@ def sections_below(curves: IsoCurves, planes: Planes) -> FloatArray:
     forward = np.zeros_like(curves.across)
     forward[:, 0, 0] = 1.0
     tiles = from_curves(attrs.evolve(curves, across=forward))
-    found = np.stack([_one(tiles, planes, row) for row in range(len(planes.height))])
+    runs = _runs(planes, max(1, _MOST // max(len(tiles.curve), 1)))
+    found = np.concatenate([_several(tiles, planes, rows) for rows in runs])
     freeze(found)
     return found
 
 
-def _one(tiles: Tiles, planes: Planes, row: int) -> FloatArray:
-    """Take each curve as a strip of its own: its volume per metre is the area."""
-    level = np.repeat(planes.height[row : row + 1], tiles.curves)
-    trim, heel = planes.tan_trim[row : row + 1], planes.tan_heel[row : row + 1]
-    port = curve_by_curve(tiles, level, trim, heel)[0]
+def _runs(planes: Planes, most: int) -> list[IntArray]:
+    """Part planes into runs of one inclination, of `most` at the utmost."""
+    count = len(planes.height)
+    inclined = planes.tan_trim, planes.tan_heel
+    if not all(map(is_plain, inclined)):
+        # The derivatives that inclinations carry along may be different ones.
+        return [np.array([row]) for row in range(count)]
+    new = np.zeros(count, np.bool_)
+    new[1:] = (np.diff(inclined[0]) != 0.0) | (np.diff(inclined[1]) != 0.0)
+    parts = np.split(np.arange(count), np.flatnonzero(new))
+    return [part[i : i + most] for part in parts for i in range(0, len(part), most)]
+
+
+def _several(tiles: Tiles, planes: Planes, rows: IntArray) -> FloatArray:
+    """Take each curve as a strip of its own: its volume per metre is the area; (r, k)."""
+    count = tiles.curves
+    many = tiles if len(rows) == 1 else subset(tiles, np.tile(np.arange(count), len(rows)))
+    level = np.repeat(planes.height[rows], count)
+    trim, heel = planes.tan_trim[rows[:1]], planes.tan_heel[rows[:1]]
+    port = curve_by_curve(many, level, trim, heel)[0]
     upright = is_plain(heel) and heel[0] == 0.0
-    area: FloatArray = port + (port if upright else curve_by_curve(tiles, level, trim, -heel)[0])
-    return area
+    area: FloatArray = port + (port if upright else curve_by_curve(many, level, trim, -heel)[0])
+    return area.reshape(len(rows), count)
