@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.estimate import Coarse
+from assoc_hull.analysis.net.between import areas_between
 from assoc_hull.analysis.net.cells import Layout
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.analysis.net.sections import Sections
@@ -199,9 +200,11 @@ def _unexpected(sections: Sections, coarse: Sequence[Coarse], planes: Planes) ->
         x = stands(each.net)
         for i, place in enumerate(sections.x.tolist()):
             if np.abs(x - place).min() > 1e-6:
-                area = _expected(each, x, place, planes)
-                if area is None:
+                at, strips = np.array([place]), each.prepared.strips
+                found = areas_between(each.layout, strips, x, at, planes)
+                if found is None:
                     continue
+                area = found[:, 0]
                 off = np.abs(area - own[:, i]) / most
                 if (off > _EXPECTED).any():
                     k = int(off.argmax())
@@ -209,20 +212,6 @@ def _unexpected(sections: Sections, coarse: Sequence[Coarse], planes: Planes) ->
                         f"{sections.names[i]} has {own[k, i]:.2f} m2 where its neighbours "
                         f"make one expect {area[k]:.2f} m2"
                     )
-
-
-def _expected(coarse: Coarse, x: FloatArray, place: float, planes: Planes) -> FloatArray | None:
-    """Give the area of a section that was left out, (d,), m2; None near the ends."""
-    slab = int(np.searchsorted(x, place))
-    strip = np.array([i for i, f in enumerate(coarse.layout.frames) if f.slab == slab])
-    if not len(strip) or slab == 0 or slab == len(x):
-        return None
-    if not coarse.layout.cells.plane[strip].all():
-        return None
-    v = (place - x[slab - 1]) / (x[slab] - x[slab - 1])
-    curves = coarse.prepared.strips.curves(strip, np.full(len(strip), v))
-    found: FloatArray = sections_below(curves, planes).sum(axis=1)
-    return found
 
 
 def _routes(sections: FloatArray, waterplanes: FloatArray) -> Iterator[str]:

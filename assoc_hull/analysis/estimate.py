@@ -33,7 +33,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.immersion import Prepared, immersed, prepare
-from assoc_hull.geometry.quadrature import gauss
+from assoc_hull.geometry.quadrature import bunched
 from assoc_hull.model.state import HullState
 
 __all__ = ["Coarse", "Spread", "by_waterplanes", "spread_of"]
@@ -235,15 +235,10 @@ def _stretches(low: float, high: float, corners: FloatArray) -> FloatArray:
 
 
 def _rule(edge: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give heights and weights between edges.
-
-    sin^2 makes half-integer powers of the height, over a round bottom, smooth.
-    """
-    node, weight = gauss(max(_LEVELS // (len(edge) - 1), _LEAST))
-    part = np.sin(0.5 * np.pi * node) ** 2
-    slope = 0.5 * np.pi * np.sin(np.pi * node) * weight
+    """Give heights and weights between edges, for half-integer powers over a round bottom."""
+    part, weight = bunched(max(_LEVELS // (len(edge) - 1), _LEAST))
     step = np.diff(edge)[:, None]
-    return (edge[:-1, None] + step * part).ravel(), (step * slope).ravel()
+    return (edge[:-1, None] + step * part).ravel(), (step * weight).ravel()
 
 
 def _less(one: Immersed, other: Immersed) -> Immersed:

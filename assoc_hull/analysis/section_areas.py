@@ -10,11 +10,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.net.between import areas_between
 from assoc_hull.analysis.net.slabs import planes as stands
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.immersion import immersed, prepare
 from assoc_hull.geometry.isocurves import IsoCurves, Strips
 
@@ -130,20 +130,10 @@ def section_areas(body: Flotation, x: FloatArray, planes: Planes) -> FloatArray:
     own = body.stations(planes)
     for i in np.flatnonzero(on).tolist():
         found[:, i] = own.area[:, np.abs(own.x - x[i]).argmin()]
-    number = np.array([frame.slab for frame in body.layout.frames], np.int64)
     for s in np.unique(slab[~on]).tolist():
-        strip = np.flatnonzero(number == s)
-        if 0 < s < len(station) and len(strip) and body.strips.cells.plane[strip].all():
-            here = np.flatnonzero((slab == s) & ~on)
-            v = (x[here] - station[s - 1]) / (station[s] - station[s - 1])
-            found[:, here] = _across(body, strip, v, planes)
+        here = np.flatnonzero((slab == s) & ~on)
+        areas = areas_between(body.layout, body.strips, station, x[here], planes)
+        if areas is not None:
+            found[:, here] = areas
     freeze(found)
     return found
-
-
-def _across(body: Flotation, strip: IntArray, v: FloatArray, planes: Planes) -> FloatArray:
-    """Give the areas of the sections of all strips of a slab, (d, n), m2."""
-    curves = body.strips.curves(np.tile(strip, len(v)), np.repeat(v, len(strip)))
-    area = sections_below(curves, planes).reshape(len(planes.height), len(v), len(strip))
-    total: FloatArray = area.sum(axis=2)
-    return total

@@ -20,6 +20,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.dual import Dual, real
 from assoc_hull.geometry.polynomials import differentiate, horner, varied_roots
+from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import bernstein, power, segment_curve, sum_per_curve
 
@@ -117,7 +118,7 @@ def line_integral(
         )
     degree = 3 * sum(exponents) + 2
     plane = power(batch)[:, :, list(axes)]
-    nodes, weights = _gauss(max(_POINTS, degree // 2 + 1))
+    nodes, weights = gauss(max(_POINTS, degree // 2 + 1))
     first, second, step_first, step_second = _at_nodes(plane, nodes)
     step = step_second if along else step_first
     value = first ** exponents[0] * second ** exponents[1] * step * weights
@@ -306,12 +307,6 @@ def _check_axes(axes: tuple[int, int]) -> None:
         )
 
 
-def _gauss(count: int) -> tuple[FloatArray, FloatArray]:
-    """Give the nodes and weights of the Gauss rule on [0, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    return 0.5 + 0.5 * nodes, 0.5 * weights
-
-
 def _at_nodes(plane: FloatArray, u: FloatArray) -> tuple[FloatArray, ...]:
     """Give both coordinates and both derivatives, (s, k) each, of cubics (s, 4, 2)."""
     places = np.broadcast_to(u, (len(plane), u.shape[-1]))
@@ -323,7 +318,7 @@ def _at_nodes(plane: FloatArray, u: FloatArray) -> tuple[FloatArray, ...]:
 
 def _sectors(plane: FloatArray) -> FloatArray:
     """Give area and moments swept from the origin by each cubic (s, 4, 2), as (s, 6)."""
-    nodes, weights = _gauss(_POINTS)
+    nodes, weights = gauss(_POINTS)
     first, second, step_first, step_second = _at_nodes(plane, nodes)
     swept = (first * step_second - second * step_first) * weights
     # A sliver from the origin to (u, v) has its centre at 2/3, its mean squares at 1/2.
@@ -340,7 +335,7 @@ def _sectors(plane: FloatArray) -> FloatArray:
 
 def _strips(plane: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Integrate the first coordinate over the second between two parameters, (s,)."""
-    nodes, weights = _gauss(_POINTS)
+    nodes, weights = gauss(_POINTS)
     u = low[:, None] + (high - low)[:, None] * nodes
     first, _, _, step = _at_nodes(plane, u)
     integral: FloatArray = (first * step * weights).sum(axis=1) * (high - low)
