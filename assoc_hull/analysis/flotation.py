@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from functools import cached_property
-from weakref import WeakKeyDictionary
+from typing import Any
 
 import attrs
 import numpy as np
@@ -34,6 +34,9 @@ from assoc_hull.model.state import HullState
 
 __all__ = ["Flotation", "flotation"]
 
+_KEPT = "flotation"
+"""Under this name what floats of a hull is kept with its tables."""
+
 _SAMPLES = 8
 """Places on each segment among which the lowest of the hull is looked for."""
 
@@ -54,6 +57,8 @@ class Flotation:
         The surface.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
+    kept : dict
+        What others measured of it, to go when a line changes.
     """
 
     state: HullState
@@ -61,6 +66,7 @@ class Flotation:
     layout: Layout
     strips: CoonsStrips
     kinds: NDArray[np.int8]
+    kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
     _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
@@ -159,9 +165,6 @@ class Flotation:
         return found
 
 
-_KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()
-
-
 def flotation(state: HullState) -> Flotation:
     """Make what floats of a hull; the same as before if no line has changed.
 
@@ -186,7 +189,7 @@ def flotation(state: HullState) -> Flotation:
     2777
     """
     stamp = _stamp(state)
-    known = _KNOWN.get(state)
+    known: tuple[Hashable, Flotation] | None = state.kept.get(_KEPT)
     if known is not None and known[0] == stamp:
         return known[1]
     net = gather(state)
@@ -203,7 +206,7 @@ def flotation(state: HullState) -> Flotation:
         )
     kinds = curve_data(state, net.curve).kind
     found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch), kinds)
-    _KNOWN[state] = stamp, found
+    state.kept[_KEPT] = stamp, found
     return found
 
 
