@@ -15,6 +15,7 @@ from assoc_hull.analysis.form.value import Value
 from assoc_hull.analysis.hydrostatic_header import SALT
 from assoc_hull.analysis.hydrostatics import position_of
 from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
+from assoc_hull.arguments import shown
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.model.named import Named
 
@@ -83,13 +84,33 @@ def form_parameters(
     (0.444, '-')
     """
     shape, known = _shape(hull, draught, draughts, screw, rho, shell_factor, transom)
-    own = tuple(further)
+    own = _entries(further)
     entries: Mapping[str, Parameter] = CATALOGUE
     if own:
         entries = Named("form parameter", check_catalogue([*CATALOGUE.values(), *own]))
         known = dict(known)  # another call may bring another entry of this name
-    wanted = tuple(entries) if only is None else tuple(only)
+    wanted = tuple(entries) if only is None else _symbols(only)
     return Named("form parameter", evaluate(entries, wanted, shape, known))
+
+
+def _entries(further: object) -> tuple[Parameter, ...]:
+    """Take entries of a caller's own."""
+    found = tuple(further) if isinstance(further, Iterable) else (further,)
+    for each in found:
+        if not isinstance(each, Parameter):
+            raise WrongTypeError(
+                f"further holds {shown(each)}", _WHERE, "give entries made by `parameter`"
+            )
+    return found
+
+
+def _symbols(only: object) -> tuple[str, ...]:
+    """Take symbols; one alone may come without a list."""
+    found = (only,) if isinstance(only, str) or not isinstance(only, Iterable) else tuple(only)
+    for each in found:
+        if not isinstance(each, str):
+            raise WrongTypeError(f"only holds {shown(each)}", _WHERE, "give symbols of entries")
+    return found
 
 
 def shape_of(
@@ -117,7 +138,7 @@ def _shape(
 ) -> tuple[Shape, dict[str, Value]]:
     """Give a hull at its position, and what is known of it."""
     if not (screw is None or isinstance(screw, Screw)):
-        raise WrongTypeError(f"screw is {screw!r}", _WHERE, "give a Screw")
+        raise WrongTypeError(f"screw is {shown(screw)}", _WHERE, "give a Screw")
     state = state_of(hull)
     body = flotation(state)
     terms = {"rho": rho, "shell_factor": shell_factor, "transom": transom, "fingerprint": "",
