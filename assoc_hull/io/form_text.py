@@ -54,7 +54,7 @@ def _head(report: FormReport) -> Iterator[str]:
 def _named(part: Part) -> Iterator[str]:
     """Give lines with the names in words."""
     for row in part.rows:
-        name = f"{row.entry.name[0].upper()}{row.entry.name[1:]}"
+        name = f"{row.entry.name[:1].upper()}{row.entry.name[1:]}"
         yield f"{name:40} {row.entry.symbol:6} {_amount(row)}"
 
 

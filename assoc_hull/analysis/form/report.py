@@ -174,7 +174,8 @@ def form_report(
     """
     if date is not None:
         text(date, "date", _WHERE)
-    own = tuple(all_of(further, Parameter, "further", _WHERE))
+    some = (further,) if isinstance(further, Parameter) else further
+    own = tuple(all_of(some, Parameter, "further", _WHERE))
     entries = {**CATALOGUE, **{each.symbol: each for each in own}}
     place: dict[str, Any] = {"draught": draught, "draughts": draughts, "screw": screw, "rho": rho,
              "shell_factor": shell_factor, "transom": transom}  # fmt: skip
@@ -200,7 +201,8 @@ def _wanted(
         return only
     if only is not None:
         raise BadInputError("only and tables are both given", _WHERE, "give one of them")
-    chosen = [choice(each, "a table", TABLES, _WHERE) for each in all_of(tables, str, "tables")]
+    some = (tables,) if isinstance(tables, str) else all_of(tables, str, "tables", _WHERE)
+    chosen = [choice(each, "a table", TABLES, _WHERE) for each in some]
     return [symbol for symbol, each in entries.items() if each.table in chosen]
 
 

@@ -78,9 +78,11 @@ def test_numbers_have_the_digits_of_their_entry(hull: ah.Hull) -> None:
 
 
 def test_a_part_of_the_catalogue_may_be_wanted(hull: ah.Hull) -> None:
-    """By its name, or several."""
+    """By its name, or several; one alone needs no list, as with entries."""
     report = form_report(hull, tables=["measures", "hydrostatic"])
     assert {CATALOGUE[symbol].table for symbol in report.values} == {"measures", "hydrostatic"}
+    one = form_report(hull, tables="measures", further=bare)  # type: ignore[arg-type]
+    assert {CATALOGUE[symbol].table for symbol in one.values} == {"measures"}
 
 
 def test_the_head_says_what_the_numbers_hold_good_for(hull: ah.Hull) -> None:
