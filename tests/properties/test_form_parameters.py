@@ -17,7 +17,7 @@ from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.form.value import Value
 from assoc_hull.errors import OutOfRangeError
 from assoc_hull.sources import examples
-from tests.scaled import scaled
+from tests.mapped import scaled, turned
 
 HULLS: dict[str, Callable[[], ah.Hull]] = {
     "wigley": examples.wigley,
@@ -80,6 +80,42 @@ def test_a_hull_twice_as_large_has_the_same_form(
         if value.number is not None:
             wanted = value.number * FACTOR ** POWERS.get(value.unit, 0)
             assert other.number == pytest.approx(wanted, rel=1e-6, abs=1e-9), symbol
+
+
+TURNED = (
+    ("V_a", "V_f"), ("Aw_a", "Aw_f"), ("Cpa", "Cpf"), ("Cwa", "Cwf"), ("Ea", "Ef"),
+    ("Sigma_a", "Sigma_f"), ("L_R", "L_E"), ("V_R", "V_E"), ("CPR", "CPE"),
+)  # fmt: skip
+"""What is aft of one hull is forward of the other."""
+
+FROM_ENDS = {"m": (("LCBa", "LCBf"), ("LCFa", "LCFf"), ("LCF", "LCF")), "st": (("PMBs", "PMBe"),)}
+"""Places from AP, by their unit; of the other hull they count from FP."""
+
+SAME = (
+    "V", "VCB", "Aw", "WSA", "Amax", "LWL", "I_T", "I_L", "Cb", "Cm", "Cp", "Cw", "Cvp", "As",
+    "C_IT", "C_IL", "KMT", "KML", "M", "C_S", "B'",
+)  # fmt: skip
+
+
+@hulls
+@pytest.mark.parametrize("trim", [0.0, 0.08], ids=["even keel", "trimmed"])
+def test_a_hull_turned_end_for_end_changes_fore_and_aft(name: str, trim: float) -> None:
+    """What is measured aft of a hull is measured forward of the hull with x reversed."""
+    draught, length = (getattr(hull(name).state.particulars, a) for a in ("draught", "length"))
+    aft, fore = draught * (1.0 + trim), draught * (1.0 - trim)
+    here = form_parameters(hull(name), draughts=(aft, fore))
+    there = form_parameters(turned(hull(name)), draughts=(fore, aft))
+    pairs = [*TURNED, *((b, a) for a, b in TURNED), *((each, each) for each in SAME)]
+    wanted = {other: here[one].number for one, other in pairs}
+    for unit, places in FROM_ENDS.items():
+        whole = length if unit == "m" else 20.0
+        for one, other in [*places, *((b, a) for a, b in places)]:
+            place = here[one].number
+            wanted[other] = None if place is None else whole - place
+    for symbol, number in wanted.items():
+        found = there[symbol].number
+        assert (found is None) == (number is None), symbol
+        assert found is None or found == pytest.approx(number, rel=1e-7), symbol
 
 
 def draughts() -> st.SearchStrategy[tuple[float, float]]:
