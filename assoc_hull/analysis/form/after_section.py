@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
+from assoc_hull.analysis.form.literature import TABLE_4
 from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.section_shape import radius_of_three, section_at
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS"]
-
-_TABLE_4 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 4"
 
 _CHORD = (
     "between the outer skin of the half section and the chord from its lowest place to the "
@@ -31,7 +30,7 @@ def _half_breadth(shape: Shape, station: float, height: float) -> Found:
 @parameter(
     "BCL", name="half-breadth at the shaft", unit="m", table="hull form",
     definition="of the outer skin at station 2, at the height SCH", datum="from the centre line",
-    source=_TABLE_4, needs=(SHAPE, "SCH"),
+    source=TABLE_4, needs=(SHAPE, "SCH"),
 )  # fmt: skip
 def at_shaft(shape: Shape, height: float) -> Found:
     return _half_breadth(shape, 2.0, height)
@@ -40,7 +39,7 @@ def at_shaft(shape: Shape, height: float) -> Found:
 @parameter(
     "B07", name="half-breadth at 0.7 of the screw's radius", unit="m", table="hull form",
     definition="of the outer skin at station 2, at the height SCH + 0.35 D_p",
-    datum="from the centre line", source=_TABLE_4, needs=(SHAPE, "SCH", "D_p"),
+    datum="from the centre line", source=TABLE_4, needs=(SHAPE, "SCH", "D_p"),
 )  # fmt: skip
 def at_blade(shape: Shape, height: float, diameter: float) -> Found:
     return _half_breadth(shape, 2.0, height + 0.35 * diameter)
@@ -50,7 +49,7 @@ def at_blade(shape: Shape, height: float, diameter: float) -> Found:
     "Tau", name="inclination of the section at station 2", unit="deg", table="hull form",
     definition="of the line through the places of the half section (outer skin) at station 2 at "
     "the heights SCH and T", datum="from the vertical, + if its upper end lies farther out",
-    source=_TABLE_4, needs=(SHAPE, "SCH", "BCL"),
+    source=TABLE_4, needs=(SHAPE, "SCH", "BCL"),
 )  # fmt: skip
 def inclination(shape: Shape, height: float, at_height: float) -> Found:
     if shape.draught <= height:
@@ -83,7 +82,7 @@ def _half_area(shape: Shape, station: float) -> Found:
 
 @parameter(
     "S3.A1", name="area outside the chord at station 1.5", unit="m2", table="hull form",
-    definition=f"at station 1.5, {_CHORD}", datum="port side", source=_TABLE_4,
+    definition=f"at station 1.5, {_CHORD}", datum="port side", source=TABLE_4,
     needs=(SHAPE, "SCH"),
 )  # fmt: skip
 def off_chord_fore(shape: Shape, height: float) -> Found:
@@ -92,7 +91,7 @@ def off_chord_fore(shape: Shape, height: float) -> Found:
 
 @parameter(
     "S3.A2", name="area of the half section at station 1.5", unit="m2", table="hull form",
-    definition=_HALF, datum="port side", source=_TABLE_4,
+    definition=_HALF, datum="port side", source=TABLE_4,
 )  # fmt: skip
 def half_area_fore(shape: Shape) -> Found:
     return _half_area(shape, 1.5)
@@ -100,7 +99,7 @@ def half_area_fore(shape: Shape) -> Found:
 
 @parameter(
     "S3", name="stern area ratio at station 1.5", unit="-", table="hull form",
-    definition="S3.A1 / S3.A2", datum="+ for U, - for V", source=_TABLE_4,
+    definition="S3.A1 / S3.A2", datum="+ for U, - for V", source=TABLE_4,
     needs=("S3.A1", "S3.A2"),
 )  # fmt: skip
 def stern_ratio_fore(outside: float, whole: float) -> float:
@@ -109,7 +108,7 @@ def stern_ratio_fore(outside: float, whole: float) -> float:
 
 @parameter(
     "S3'.A1", name="area outside the chord at station 1", unit="m2", table="hull form",
-    definition=f"at station 1, {_CHORD}", datum="port side", source=_TABLE_4,
+    definition=f"at station 1, {_CHORD}", datum="port side", source=TABLE_4,
     needs=(SHAPE, "SCH"),
 )  # fmt: skip
 def off_chord_aft(shape: Shape, height: float) -> Found:
@@ -118,7 +117,7 @@ def off_chord_aft(shape: Shape, height: float) -> Found:
 
 @parameter(
     "S3'.A2", name="area of the half section at station 1", unit="m2", table="hull form",
-    definition=_HALF, datum="port side", source=_TABLE_4,
+    definition=_HALF, datum="port side", source=TABLE_4,
 )  # fmt: skip
 def half_area_aft(shape: Shape) -> Found:
     return _half_area(shape, 1.0)
@@ -126,7 +125,7 @@ def half_area_aft(shape: Shape) -> Found:
 
 @parameter(
     "S3'", name="stern area ratio at station 1", unit="-", table="hull form",
-    definition="S3'.A1 / S3'.A2", datum="+ for U, - for V", source=_TABLE_4,
+    definition="S3'.A1 / S3'.A2", datum="+ for U, - for V", source=TABLE_4,
     needs=("S3'.A1", "S3'.A2"),
 )  # fmt: skip
 def stern_ratio_aft(outside: float, whole: float) -> float:
@@ -136,7 +135,7 @@ def stern_ratio_aft(outside: float, whole: float) -> float:
 @parameter(
     "Raft", name="radius of the section at station 1.5", unit="m", table="hull form",
     definition="circle through the places of the half section (outer skin) at station 1.5 at "
-    "T/4, T/2 and 3T/4", datum="+ if convex", source=_TABLE_4, digits=2,
+    "T/4, T/2 and 3T/4", datum="+ if convex", source=TABLE_4, digits=2,
 )  # fmt: skip
 def after_radius(shape: Shape) -> Found:
     return radius_of_three(section_at(shape, shape.x_of(1.5)), shape.draught)

@@ -9,19 +9,27 @@ from __future__ import annotations
 from assoc_hull.analysis.form import (
     after_section,
     bow,
-    derived,
     floating,
+    fore_section,
     midship,
     particulars,
+    pending,
+    proportions,
+    resistance,
     skeg,
     stern,
+    volume_coefficients,
+    waterplane_coefficients,
 )
 from assoc_hull.analysis.form.evaluate import check_catalogue
 from assoc_hull.model.named import Named
 
 __all__ = ["CATALOGUE"]
 
-_MODULES = (particulars, floating, derived, bow, stern, after_section, skeg, midship)
+_MODULES = (
+    particulars, floating, volume_coefficients, waterplane_coefficients, proportions, resistance,
+    bow, fore_section, midship, after_section, stern, skeg, pending,
+)  # fmt: skip
 
 CATALOGUE = Named(
     "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)

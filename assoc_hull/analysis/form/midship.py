@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from assoc_hull.analysis.form.literature import TABLE_4
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.section_shape import Section, section_at
 from assoc_hull.analysis.form.shape import Shape
@@ -17,8 +18,6 @@ from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.places import turning_places
 
 __all__ = ["PARAMETERS"]
-
-_TABLE_4 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 4"
 
 _LEAST_TURN = 60.0
 """An arc of the section that turns by less (degrees) is no bilge."""
@@ -38,7 +37,7 @@ _CHORDS = 16
     definition="of the circular arc of the midship section that turns most, by 60 degrees or more; "
     "where there is none, from its area A below T: sqrt((B T - A) / (2 (1 - pi / 4))), if "
     "bottom and side are flat and the bottom does not rise",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def bilge_radius(shape: Shape) -> Found:
     section = section_at(shape, 0.5 * shape.length)

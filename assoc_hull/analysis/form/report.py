@@ -12,8 +12,8 @@ from assoc_hull.analysis.floating import FloatingPosition, planes_of
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.parts import GIVEN, TABLES, TITLES, by_table
 from assoc_hull.analysis.form.screw import Screw
+from assoc_hull.analysis.form.tables import GIVEN, TABLES, TITLES, by_table
 from assoc_hull.analysis.form.value import Value
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, state_of

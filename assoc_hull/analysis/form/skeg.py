@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from assoc_hull.analysis.form.literature import TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import profile_at, slope_deg
 from assoc_hull.analysis.form.section_shape import section_at
@@ -20,9 +21,6 @@ from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS"]
 
-_TABLE_3 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
-_TABLE_4 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 4"
-
 _NO_SKEG = Absent("no skeg at station 1")
 
 _SIDE = "between the tunnel's top line and the lower edge of the skeg, from where the two meet "
@@ -32,7 +30,7 @@ _ENDS = "aft to where the top line meets the base line"
 @parameter(
     "TTLS", name="slope of the tunnel's top line", unit="deg", table="hydrostatic",
     definition="of the profile between twin skegs at z = T/2", datum="to the base line",
-    source=_TABLE_3,
+    source=TABLE_3,
 )  # fmt: skip
 def tunnel_slope(shape: Shape) -> Found:
     if not shape.take(twin_skeg):
@@ -49,7 +47,7 @@ def tunnel_slope(shape: Shape) -> Found:
 @parameter(
     "HSKEG", name="height of the skeg", unit="m", table="hull form",
     definition="Hap: of the tunnel's top line at AP", datum="from the base line, up",
-    source=_TABLE_4, needs=("Hap", "TwTTL"),
+    source=TABLE_4, needs=("Hap", "TwTTL"),
 )  # fmt: skip
 def skeg_height(height: float, meets: float) -> float:
     return height
@@ -57,7 +55,7 @@ def skeg_height(height: float, meets: float) -> float:
 
 @parameter(
     "LSKEG", name="length of the skeg", unit="m", table="hull form",
-    definition=f"of what lies {_SIDE}{_ENDS}", datum="along x", source=_TABLE_4, digits=3,
+    definition=f"of what lies {_SIDE}{_ENDS}", datum="along x", source=TABLE_4, digits=3,
 )  # fmt: skip
 def skeg_length(shape: Shape) -> Found:
     side = shape.take(skeg)
@@ -67,7 +65,7 @@ def skeg_length(shape: Shape) -> Found:
 @parameter(
     "ASKEG", name="lateral area of the skeg", unit="m2", table="hull form",
     definition=f"of what lies {_SIDE}{_ENDS}", datum="of one skeg, seen from the side",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def skeg_area(shape: Shape) -> Found:
     side = shape.take(skeg)
@@ -77,7 +75,7 @@ def skeg_area(shape: Shape) -> Found:
 @parameter(
     "XSKEG", name="centre of the skeg's lateral area", unit="m", table="hull form",
     definition="Lpp / 2 - x of the centre of ASKEG", datum="from midship, + aft",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def skeg_centre(shape: Shape) -> Found:
     side = shape.take(skeg)
@@ -87,7 +85,7 @@ def skeg_centre(shape: Shape) -> Found:
 @parameter(
     "RSKEG", name="radius of the skeg's lower edge", unit="m", table="hull form",
     definition="of the circle fitted to the lower edge over LSKEG, by least squares of distances",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def skeg_radius(shape: Shape) -> Found:
     side = shape.take(skeg)
@@ -96,7 +94,7 @@ def skeg_radius(shape: Shape) -> Found:
 
 @parameter(
     "TwDS", name="distance between the shafts", unit="% B", table="hull form",
-    definition="100 (spacing of the shafts, as given) / B", source=_TABLE_4, needs=(SHAPE, "B"),
+    definition="100 (spacing of the shafts, as given) / B", source=TABLE_4, needs=(SHAPE, "B"),
 )  # fmt: skip
 def shaft_distance(shape: Shape, breadth: float) -> Found:
     if shape.screw is None:
@@ -109,7 +107,7 @@ def shaft_distance(shape: Shape, breadth: float) -> Found:
 @parameter(
     "TwTTL", name="station where the tunnel's top line meets the base line", unit="st",
     table="hull form", definition="of the aftmost place of the profile on the base line",
-    datum="AP is 0, FP is 20", source=_TABLE_4,
+    datum="AP is 0, FP is 20", source=TABLE_4,
 )  # fmt: skip
 def tunnel_end(shape: Shape) -> Found:
     x = shape.take(tunnel_meets_base)
@@ -120,7 +118,7 @@ def tunnel_end(shape: Shape) -> Found:
     "TwVSA", name="inclination of the skeg in the section", unit="deg", table="hull form",
     definition="at station 1, of the line half-way between inner and outer skin, from a quarter "
     "to three quarters of the height from the lowest place to the tunnel's top",
-    datum="to the vertical, + if its upper end lies farther out", source=_TABLE_4,
+    datum="to the vertical, + if its upper end lies farther out", source=TABLE_4,
 )  # fmt: skip
 def upright_angle(shape: Shape) -> Found:
     if not shape.take(twin_skeg):
@@ -149,7 +147,7 @@ def _heights(shape: Shape) -> tuple[float, float, float] | None:
     "TwLSA", name="inclination of the skeg in plan", unit="deg", table="hull form",
     definition="of the line half-way between inner and outer skin from station 0.9 to 1.1, half "
     "as high as the skeg at station 1", datum="to the centre line, + if it runs out forward",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def plan_angle(shape: Shape) -> Found:
     if not shape.take(twin_skeg):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from assoc_hull.analysis.form.literature import TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import profile_at, slope_deg
 from assoc_hull.analysis.form.shape import Shape
@@ -20,9 +21,6 @@ from assoc_hull.geometry.places import across
 
 __all__ = ["PARAMETERS"]
 
-_TABLE_3 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
-_TABLE_4 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 4"
-
 _NO_SCREW = Absent("no screw given")
 _UPRIGHT = 1e-9
 """A direction with a smaller part along the ship stands upright."""
@@ -34,7 +32,7 @@ _BASE = 1e-6
 @parameter(
     "ATT", name="immersed area of the transom", unit="m2", table="hydrostatic", ittc="A_T",
     definition="area of the transom below the floating plane; nil if the transom is dry",
-    datum="both sides", source=_TABLE_3,
+    datum="both sides", source=TABLE_3,
 )  # fmt: skip
 def transom_area(shape: Shape) -> Found:
     edge = shape.take(transom)
@@ -46,7 +44,7 @@ def transom_area(shape: Shape) -> Found:
 @parameter(
     "B_tr", name="breadth of the transom on the waterline", unit="m", table="measures",
     definition="greatest full breadth of the transom in the floating plane", datum="both sides",
-    source=_TABLE_3,
+    source=TABLE_3,
 )  # fmt: skip
 def transom_breadth(shape: Shape) -> Found:
     edge = shape.take(transom)
@@ -64,7 +62,7 @@ def transom_breadth(shape: Shape) -> Found:
 @parameter(
     "TH", name="height of the transom", unit="m", table="hull form",
     definition="lowest z of the transom on the centre line", datum="from the base line, up",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def transom_height(shape: Shape) -> Found:
     edge = shape.take(transom)
@@ -78,7 +76,7 @@ def transom_height(shape: Shape) -> Found:
 
 @parameter(
     "TRZ", name="immersion of the transom", unit="m", table="hydrostatic",
-    definition="T_A - TH", datum="+ if its lower edge is below T_A", source=_TABLE_3,
+    definition="T_A - TH", datum="+ if its lower edge is below T_A", source=TABLE_3,
     needs=("T_A", "TH"),
 )  # fmt: skip
 def transom_immersion(draught: float, height: float) -> float:
@@ -87,7 +85,7 @@ def transom_immersion(draught: float, height: float) -> float:
 
 @parameter(
     "SO", name="stern overhang", unit="m", table="hull form",
-    definition="from AP to the aft end of the profile", datum="from AP, + aft", source=_TABLE_4,
+    definition="from AP to the aft end of the profile", datum="from AP, + aft", source=TABLE_4,
 )  # fmt: skip
 def overhang(shape: Shape) -> Found:
     x = shape.take(aft_end)
@@ -96,7 +94,7 @@ def overhang(shape: Shape) -> Found:
 
 @parameter(
     "Hap", name="height of the bottom at AP", unit="m", table="hull form",
-    definition="lowest z of the profile at AP", datum="from the base line, up", source=_TABLE_4,
+    definition="lowest z of the profile at AP", datum="from the base line, up", source=TABLE_4,
 )  # fmt: skip
 def bottom_height(shape: Shape) -> Found:
     found = bottom_at(shape, 0.0)
@@ -106,7 +104,7 @@ def bottom_height(shape: Shape) -> Found:
 @parameter(
     "StemA", name="slope of the stern profile", unit="deg", table="hull form",
     definition="of the profile at AP, where the bottom's rise ends at the height Hap",
-    datum="to the base line", source=_TABLE_4,
+    datum="to the base line", source=TABLE_4,
 )  # fmt: skip
 def stern_slope(shape: Shape) -> Found:
     found = bottom_at(shape, 0.0)
@@ -124,7 +122,7 @@ def stern_slope(shape: Shape) -> Found:
 
 @parameter(
     "SCH", name="height of the shaft's centre", unit="m", table="hull form",
-    definition="at the screw, as given", datum="from the base line, up", source=_TABLE_4,
+    definition="at the screw, as given", datum="from the base line, up", source=TABLE_4,
 )  # fmt: skip
 def shaft_height(shape: Shape) -> Found:
     return _NO_SCREW if shape.screw is None else shape.screw.height
@@ -132,7 +130,7 @@ def shaft_height(shape: Shape) -> Found:
 
 @parameter(
     "D_p", name="diameter of the screw", unit="m", table="measures", definition="as given",
-    source=_TABLE_3, ittc="D",
+    source=TABLE_3, ittc="D",
 )  # fmt: skip
 def screw_diameter(shape: Shape) -> Found:
     return _NO_SCREW if shape.screw is None else shape.screw.diameter
@@ -140,7 +138,7 @@ def screw_diameter(shape: Shape) -> Found:
 
 @parameter(
     "PI", name="immersion of the screw's tip", unit="m", table="hydrostatic",
-    definition="T_A - SCH - D_p / 2", datum="from the tip, up", source=_TABLE_3,
+    definition="T_A - SCH - D_p / 2", datum="from the tip, up", source=TABLE_3,
     needs=("T_A", "SCH", "D_p"),
 )  # fmt: skip
 def tip_immersion(draught: float, height: float, diameter: float) -> float:
@@ -150,7 +148,7 @@ def tip_immersion(draught: float, height: float, diameter: float) -> float:
 @parameter(
     "PTC", name="clearance of the screw's tip", unit="% D", table="hull form",
     definition="100 (z - SCH - D_p / 2) / D_p, z the height of the hull over the shaft in the "
-    "plane of the screw", datum="from the tip, up", source=_TABLE_4,
+    "plane of the screw", datum="from the tip, up", source=TABLE_4,
     needs=(SHAPE, "SCH", "D_p"),
 )  # fmt: skip
 def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
@@ -166,7 +164,7 @@ def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
     "SA", name="fore edge of the screw's aperture", unit="m", table="hull form",
     definition="x of the profile at the height SCH; where a boss end is drawn, where the profile "
     "above leaves the boss; of twin skegs, where their lower edge reaches SCH",
-    datum="from AP, + forward", source=_TABLE_4, needs=(SHAPE, "SCH"),
+    datum="from AP, + forward", source=TABLE_4, needs=(SHAPE, "SCH"),
 )  # fmt: skip
 def aperture(shape: Shape, height: float) -> Found:
     if shape.take(twin_skeg):
@@ -182,7 +180,7 @@ def aperture(shape: Shape, height: float) -> Found:
 @parameter(
     "SBx", name="aft face of the stern boss", unit="m", table="hull form",
     definition="x of the boss end that is drawn, else as given with the screw",
-    datum="from AP, + forward", source=_TABLE_4,
+    datum="from AP, + forward", source=TABLE_4,
 )  # fmt: skip
 def boss_face(shape: Shape) -> Found:
     end = shape.take(boss)
@@ -196,7 +194,7 @@ def boss_face(shape: Shape) -> Found:
 @parameter(
     "SBD", name="diameter of the stern boss", unit="m", table="hull form",
     definition="of the circle through the boss end that is drawn, else as given with the screw",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def boss_diameter(shape: Shape) -> Found:
     end = shape.take(boss)
