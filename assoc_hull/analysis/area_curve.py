@@ -6,6 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.net.between import reaches
 from assoc_hull.analysis.net.slabs import planes as stands
 from assoc_hull.analysis.section_areas import between_stations, section_areas
 from assoc_hull.errors import BadInputError
@@ -18,6 +19,7 @@ from assoc_hull.geometry.segments import power
 __all__ = ["AreaCurve", "area_curve", "wet_reach"]
 
 _ON = 1e-9  # m above the water is on it
+_SAME = 1e-6  # m between two places along the ship
 
 
 @attrs.frozen(eq=False)
@@ -46,7 +48,7 @@ class AreaCurve:
     low, high : float, m
         Aftmost and foremost wet place.
     breaks : (b,), m
-        Stations between the two: there the curve may bend.
+        Stations between the two, and ends of parts: there the curve may bend or jump.
     largest : float, m2
         Area of the largest station.
     """
@@ -64,7 +66,7 @@ class AreaCurve:
         found = np.zeros(len(x))
         rest = (x >= self.low) & (x <= self.high)
         for slab in self._slabs:
-            here = rest & (x > slab.low) & (x < slab.high)
+            here = rest & (x >= slab.low) & (x <= slab.high)
             found[here] = slab.at(x[here])
             rest &= ~here
         found[rest] = section_areas(self._body, x[rest], self._planes)[0]
@@ -109,14 +111,22 @@ def area_curve(body: Flotation, planes: Planes) -> AreaCurve:
     (0.0, 100.0, [3.3, 41.7])
     """
     low, high = wet_reach(body, planes)
-    stations = stands(body.net)
-    breaks = stations[(stations > low) & (stations < high)]
-    edges = np.concatenate([[low], breaks, [high]])
+    stations = _inside(stands(body.net), low, high)
+    edges = np.concatenate([[low], stations, [high]])
     middle = 0.5 * (edges[1:] + edges[:-1])
     unknown = np.flatnonzero(np.isnan(section_areas(body, middle, planes)[0]))
     slabs = tuple(_slab(body, planes, *edges[i : i + 2].tolist()) for i in unknown.tolist())
     largest = float(body.stations(planes).area.max())
-    return AreaCurve(low, high, breaks, largest, body, planes, slabs)
+    plane = np.flatnonzero(body.layout.cells.plane)
+    breaks = np.concatenate([stations, reaches(body.strips, plane).ravel()])
+    return AreaCurve(low, high, _inside(breaks, low, high), largest, body, planes, slabs)
+
+
+def _inside(x: FloatArray, low: float, high: float) -> FloatArray:
+    """Give places between two, each once, ascending."""
+    every = np.sort(x[(x > low + _SAME) & (x < high - _SAME)])
+    found: FloatArray = every[np.diff(every, prepend=-np.inf) > _SAME]
+    return found
 
 
 def _slab(body: Flotation, planes: Planes, low: float, high: float) -> _Slab:

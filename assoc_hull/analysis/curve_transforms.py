@@ -14,7 +14,7 @@ from assoc_hull.analysis.line_chains import AXES, Span
 from assoc_hull.analysis.measured_hull import HasState, state_of
 from assoc_hull.analysis.transform_record import KINDS, CurveTransform, Kind
 from assoc_hull.analysis.transform_sources import AREAS, of_areas, of_line, of_loop
-from assoc_hull.arguments import choice, flag, pair, shown
+from assoc_hull.arguments import choice, flag, number, pair, shown
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.geometry.transforms import checked_terms
 from assoc_hull.model.handles import Curve, Line, handle
@@ -94,15 +94,16 @@ def curve_transform(
     which = _checked_kind(kind)
     count = checked_terms(terms)
     range_ = _span(span, state)
+    heel = number(heel_deg, "heel_deg", _WHERE)
     by_largest = None if relative is None else flag(relative, "relative", _WHERE)
     if isinstance(curve, str) and curve == AREAS:
         if which == "fourier" or along is not None or across is not None:
             what = "Fourier descriptors or axes are asked of sectional areas"
             raise BadInputError(what, _WHERE, "take kind 'chebyshev' or 'sine', and no axes")
         return of_areas(
-            hull, which, count, range_, by_largest is not False, (draught, draughts, heel_deg)
+            hull, which, count, range_, by_largest is not False, (draught, draughts, heel)
         )
-    if draught is not None or draughts is not None or heel_deg != 0.0:
+    if draught is not None or draughts is not None or heel != 0.0:
         what = "a floating position is given with a line"
         raise BadInputError(what, _WHERE, f"give a span, or take {AREAS!r}")
     line = _line(state, curve)

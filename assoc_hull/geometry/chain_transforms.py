@@ -47,6 +47,7 @@ __all__ = [
 
 _WHERE = "in a transform"
 _CLOSED = 1e-9  # of the length: so far apart the ends of a closed chain may be
+_ENDS = np.array([0.0, 1.0])
 _PANELS = 2  # on each cubic, where a series is compared with the curve
 
 
@@ -94,7 +95,7 @@ def chebyshev_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) ->
             found[:, k] = 2.0 / (np.pi * k) * part
         return found, float(np.abs(v).max())
 
-    return settled(integrate, count, allowed)
+    return settled(integrate, count * _widest(angle(_edges(chains))) / np.pi, allowed)
 
 
 def sine_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> FloatArray:
@@ -137,7 +138,7 @@ def sine_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> Floa
         parts = [chains.total((strip * np.sin(k * phase)).sum(axis=1)) for k in range(1, count + 1)]
         return np.stack(parts, axis=1), float(np.abs(v).max())
 
-    return settled(integrate, count, allowed)
+    return settled(integrate, count * _widest(_edges(chains)) / 2.0, allowed)
 
 
 def function_samples(chains: Chains) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -147,6 +148,15 @@ def function_samples(chains: Chains) -> tuple[FloatArray, FloatArray, FloatArray
     ends = chains.ends[0, :, 0]
     step = chains.slope(nodes)[..., 0] * (2.0 / (ends[1] - ends[0])) * weights
     return np.clip(xi, -1.0, 1.0).ravel(), v.ravel(), step.ravel()
+
+
+def _edges(chains: Chains) -> FloatArray:
+    """Give xi at both ends of every cubic, (p, 2)."""
+    return _function(chains, _ENDS)[0]
+
+
+def _widest(edges: FloatArray) -> float:
+    return float(np.abs(edges[:, 1] - edges[:, 0]).max())
 
 
 def _function(chains: Chains, nodes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -211,7 +221,9 @@ def fourier_descriptors(chains: Chains, terms: int, tolerance: float = 1e-12) ->
                 found[:, count + sign * k] = part / (2j * np.pi * k * sign)
         return found, float(np.abs(chains.cubic[:, 0]).max())
 
-    return settled(integrate, count, allowed)
+    return settled(
+        integrate, 2.0 * count * _widest(_fractions(chains, length, before, _ENDS)), allowed
+    )
 
 
 def evaluate_descriptors(descriptors: ComplexArray, fraction: ArrayLike) -> FloatArray:

@@ -116,7 +116,9 @@ def composite(panels: int) -> tuple[FloatArray, FloatArray]:
 
 
 def settled(
-    integrate: Callable[[FloatArray, FloatArray], tuple[Sums, float]], terms: int, tolerance: float
+    integrate: Callable[[FloatArray, FloatArray], tuple[Sums, float]],
+    waves: float,
+    tolerance: float,
 ) -> Sums:
     """Integrate with ever more nodes until nothing changes.
 
@@ -125,8 +127,8 @@ def settled(
     integrate : callable
         From nodes and weights on [0, 1], used on every piece, to integrals (of any shape) and
         the size of what is integrated.
-    terms : int
-        How many waves there are at most.
+    waves : float
+        Half waves of the last term on the widest piece: by these the first rule is chosen.
     tolerance : float
         By this part of the size integrals may still change.
 
@@ -135,7 +137,7 @@ def settled(
     BadInputError
         They go on changing: there is a break that was not given.
     """
-    panels = 1 + terms // _PER_PANEL
+    panels = 1 + int(waves / _PER_PANEL)
     coarse, size = integrate(*composite(panels))
     change = np.inf
     for _ in range(_DOUBLINGS):
@@ -193,7 +195,7 @@ def chebyshev(
         xi = np.clip(np.cos(theta), -1.0, 1.0)
         return _sums("chebyshev", values(xi), step, xi, count, factor)
 
-    return settled(integrate, count, allowed)
+    return settled(integrate, count * np.diff(edges).max() / np.pi, allowed)
 
 
 def sine(
@@ -231,7 +233,7 @@ def sine(
         xi, step = spread(edges, nodes, weights)
         return _sums("sine", values(xi), step, xi, count, factor)
 
-    return settled(integrate, count, allowed)
+    return settled(integrate, count * np.diff(edges).max() / 2.0, allowed)
 
 
 def evaluate_series(kind: Series, coefficients: FloatArray, xi: ArrayLike) -> FloatArray:
