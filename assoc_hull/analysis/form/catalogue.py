@@ -1,0 +1,20 @@
+"""All entries of the catalogue of form parameters.
+
+Entries stand in modules by subject; whatever entry such a module holds is taken. An entry of
+one's own is handed to `form_parameters` and needs no change anywhere.
+"""
+
+from __future__ import annotations
+
+from assoc_hull.analysis.form import derived, floating, particulars
+from assoc_hull.analysis.form.evaluate import check_catalogue
+from assoc_hull.model.named import Named
+
+__all__ = ["CATALOGUE"]
+
+_MODULES = (particulars, floating, derived)
+
+CATALOGUE = Named(
+    "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)
+)
+"""The catalogue, by symbol."""
