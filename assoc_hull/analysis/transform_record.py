@@ -38,6 +38,8 @@ class CurveTransform:
         By what ordinates are divided: 1 (m or m2), or the largest of them (none).
     coefficients : (terms,), or (2 terms + 1,) complex
         From c_0, or from b_1; of Fourier descriptors (m), X_k with k from -terms to terms.
+    position : str
+        Where the hull floats, for sectional areas; else empty.
     truncation : Truncation
         What is left after 1, 2, ... terms or pairs of harmonics, over `unit` too.
     places : (q, 2)
@@ -52,6 +54,7 @@ class CurveTransform:
     high: float
     unit: float
     coefficients: FloatArray | ComplexArray
+    position: str
     truncation: Truncation
     places: FloatArray
 

@@ -69,7 +69,7 @@ def of_line(
     rest = truncation(kind, series, xi, v / unit, weights)
     places = np.stack([low + 0.5 * (high - low) * (xi + 1.0), v / unit], axis=1)
     names = AXES[axes[0]], AXES[axes[1]]
-    return CurveTransform(kind, line.name, *names, low, high, unit, series, rest, places)
+    return CurveTransform(kind, line.name, *names, low, high, unit, series, "", rest, places)
 
 
 def of_loop(
@@ -89,7 +89,7 @@ def of_loop(
     names = AXES[axes[0]], AXES[axes[1]]
     places = _around(chain)
     length = float(length_of_chains(chain)[0])
-    return CurveTransform("fourier", line.name, *names, 0.0, length, 1.0, found, rest, places)
+    return CurveTransform("fourier", line.name, *names, 0.0, length, 1.0, found, "", rest, places)
 
 
 def _around(chain: Chains) -> FloatArray:
@@ -124,5 +124,5 @@ def of_areas(
     y = values(xi)
     drawn = np.stack([low + 0.5 * (high - low) * (xi + 1.0), y], axis=1)
     rest = truncation(kind, series, xi, y, weights)
-    name = f"{AREAS} {position}"
-    return CurveTransform(kind, name, "x", "A", low, high, unit, series, rest, drawn)
+    at = str(position)
+    return CurveTransform(kind, AREAS, "x", "A", low, high, unit, series, at, rest, drawn)
