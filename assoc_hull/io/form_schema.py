@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from assoc_hull.analysis.form.parts import TABLES
+from assoc_hull.analysis.form.tables import TABLES
 from assoc_hull.io.form_json import CATALOGUE_FORMAT, SCHEMA, VALUES_FORMAT
 from assoc_hull.io.hull_schema import DIALECT, FINGERPRINT
 from assoc_hull.model.form import (

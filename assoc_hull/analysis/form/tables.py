@@ -36,7 +36,7 @@ def by_table(entries: Iterable[Parameter]) -> dict[str, list[Parameter]]:
     Examples
     --------
     >>> from assoc_hull.analysis.form.catalogue import CATALOGUE
-    >>> from assoc_hull.analysis.form.parts import by_table
+    >>> from assoc_hull.analysis.form.tables import by_table
     >>> [each.symbol for each in by_table(CATALOGUE.values())["particulars"]][:2]
     ['Lpp', 'B']
     """
