@@ -10,6 +10,7 @@ from assoc_hull.analysis.form import (
     bow,
     floating,
     particulars,
+    parts,
     pending,
     proportions,
     resistance,
@@ -22,9 +23,16 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, volume_coefficients, waterplane_coefficients, proportions, resistance,
-    bow, pending,
-)  # fmt: skip
+    particulars,
+    floating,
+    volume_coefficients,
+    waterplane_coefficients,
+    proportions,
+    resistance,
+    parts,
+    bow,
+    pending,
+)
 
 CATALOGUE = Named(
     "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)
