@@ -7,13 +7,18 @@ one's own is handed to `form_parameters` and needs no change anywhere.
 from __future__ import annotations
 
 from assoc_hull.analysis.form import (
+    after_section,
     bow,
     floating,
+    fore_section,
+    midship,
     particulars,
     parts,
     pending,
     proportions,
     resistance,
+    skeg,
+    stern,
     volume_coefficients,
     waterplane_coefficients,
 )
@@ -31,6 +36,11 @@ _MODULES = (
     resistance,
     parts,
     bow,
+    midship,
+    stern,
+    fore_section,
+    after_section,
+    skeg,
     pending,
 )
 

@@ -230,4 +230,6 @@ def _screw_words(screw: Screw | None) -> str:
     words.append(f"two, {screw.spacing:g} m apart" if screw.spacing else "one")
     if screw.boss_diameter is not None:
         words.append(f"boss {screw.boss_diameter:g} m")
+    if screw.boss_x is not None:
+        words.append(f"its aft face at x {screw.boss_x:g} m")
     return ", ".join(words)
