@@ -21,12 +21,14 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+from assoc_hull.analysis.curve_transforms import curve_transform
 from assoc_hull.analysis.form.report import form_report
 from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.plot import lines_plan, neighbourhood
 from assoc_hull.plot.form_sheet import form_sheets
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
+from assoc_hull.plot.transforms import curve_series
 from assoc_hull.sources import examples
 
 FOLDER = Path(__file__).parent / "images"
@@ -60,10 +62,17 @@ def form_sheet() -> Figure:
     return form_sheets(report)[0].figure
 
 
+def series() -> Figure:
+    """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
+    areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
+    return curve_series(areas, terms=8)
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,
+    "curve_series": series,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,
