@@ -64,6 +64,9 @@ def of_line(
     low, high = chain.ends[0, :, 0].tolist()
     xi, v, weights = function_samples(chain)
     unit = float(np.abs(v).max()) if relative else 1.0
+    if unit == 0.0:
+        what = f"{AXES[axes[1]]} is nil all along {line.name}"
+        raise BadInputError(what, _WHERE, "choose another ordinate, or leave relative out")
     make = chebyshev_of_chains if kind == "chebyshev" else sine_of_chains
     series = make(chain, terms)[0] / unit
     rest = truncation(kind, series, xi, v / unit, weights)
