@@ -9,7 +9,7 @@ from pathlib import Path
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.parameter import SHAPE, Parameter
-from assoc_hull.analysis.form.parts import GIVEN, TITLES, by_table
+from assoc_hull.analysis.form.tables import GIVEN, TITLES, by_table
 
 PAGE = Path(__file__).resolve().parent / "parameters.md"
 MARK = "<!-- Made by `python docs/catalogue.py`; what stands below is not edited by hand. -->\n"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from assoc_hull.analysis.form.parts import TABLES
+from assoc_hull.analysis.form.tables import TABLES
 from assoc_hull.io.form_json import CATALOGUE_FORMAT, SCHEMA, VALUES_FORMAT
 from assoc_hull.io.hull_schema import DIALECT, FINGERPRINT
 from assoc_hull.model.form import (
@@ -89,6 +89,7 @@ _SCREW = _object(
         "x": _told("plane of the screw, from AP, + forward, m", or_none(REAL).schema),
         "spacing": _told("between two shafts, m; 0: one screw", NOT_NEGATIVE.schema),
         "boss_diameter": _told("m", or_none(POSITIVE).schema),
+        "boss_x": _told("aft face of the boss, from AP, + forward, m", or_none(REAL).schema),
     }
 )
 

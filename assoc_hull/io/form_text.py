@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
 
 from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.parts import TITLES, by_table
 from assoc_hull.analysis.form.report import FormReport, Part, Row, number_text
+from assoc_hull.analysis.form.tables import TITLES, by_table
 
 __all__ = ["catalogue_text", "form_text", "halves"]
 

@@ -11,8 +11,8 @@ import assoc_hull as ah
 from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.parameter import Parameter
-from assoc_hull.analysis.form.parts import TABLES, TITLES, by_table
 from assoc_hull.analysis.form.report import FormReport, form_report, number_text
+from assoc_hull.analysis.form.tables import TABLES, TITLES, by_table
 from assoc_hull.errors import BadInputError, UnknownNameError
 from tests.form_entries import bare, doubted, passed_on
 

@@ -9,7 +9,7 @@ from jsonschema import Draft202012Validator
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
-from assoc_hull.analysis.form.parts import TABLES
+from assoc_hull.analysis.form.tables import TABLES
 from assoc_hull.cli import main, parameters
 from assoc_hull.io.form_schema import catalogue_schema, form_schema
 from assoc_hull.plot.form_files import ENDINGS
@@ -44,9 +44,11 @@ def test_the_place_and_the_water_are_as_asked(hull: Path, facts: Json) -> None:
 def test_the_screw_is_as_told(hull: Path, facts: Json) -> None:
     """Height and diameter at least."""
     found = facts("parameters", hull, "--shaft-height", 2, "--propeller-diameter", 3, "--screw-x",
-                  2.5, "--shaft-spacing", 4, "--boss-diameter", 0.5, "--only", "Cb")  # fmt: skip
+                  2.5, "--shaft-spacing", 4, "--boss-diameter", 0.5, "--boss-x", 2.0,
+                  "--only", "Cb")  # fmt: skip
     assert found["screw"] == {
-        "height": 2.0, "diameter": 3.0, "x": 2.5, "spacing": 4.0, "boss_diameter": 0.5
+        "height": 2.0, "diameter": 3.0, "x": 2.5, "spacing": 4.0, "boss_diameter": 0.5,
+        "boss_x": 2.0,
     }  # fmt: skip
     found = facts(
         "parameters", hull, "--shaft-height", 2, "--propeller-diameter", 3, "--only", "Cb"
