@@ -21,7 +21,7 @@ from assoc_hull.geometry.chain_transforms import (
     length_of_chains,
     sine_of_chains,
 )
-from assoc_hull.geometry.chains import Chains
+from assoc_hull.geometry.chains import PlaneChains
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.transforms import (
     Series,
@@ -95,7 +95,7 @@ def of_loop(
     return CurveTransform("fourier", line.name, *names, 0.0, length, 1.0, found, "", rest, places)
 
 
-def _around(chain: Chains) -> FloatArray:
+def _around(chain: PlaneChains) -> FloatArray:
     """Give places once around a closed chain, (q, 2), m."""
     return np.asarray(chain.at(np.linspace(0.0, 1.0, 17))).reshape(-1, 2)
 
