@@ -13,6 +13,7 @@ from assoc_hull.analysis.form import (
     fore_section,
     midship,
     particulars,
+    parts,
     pending,
     proportions,
     resistance,
@@ -27,9 +28,21 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, volume_coefficients, waterplane_coefficients, proportions, resistance,
-    bow, fore_section, midship, after_section, stern, skeg, pending,
-)  # fmt: skip
+    particulars,
+    floating,
+    volume_coefficients,
+    waterplane_coefficients,
+    proportions,
+    resistance,
+    parts,
+    bow,
+    midship,
+    stern,
+    fore_section,
+    after_section,
+    skeg,
+    pending,
+)
 
 CATALOGUE = Named(
     "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)

@@ -8,13 +8,11 @@ from assoc_hull.analysis.form.value import Absent
 __all__ = ["PARAMETERS"]
 
 _MEASURES = {
-    "m": "L_R L_E LCBa LCBf LCFa LCFf b_st5",
-    "m2": "Amax A_st3 A_st5 Aw_a Aw_f Aw_st5 A_FP",
-    "m3": "V_a V_f V_st4 V_st5 V_R V_E V_PR",
+    "m": "b_st5",
+    "m3": "V_PR",
     "m4": "I_T I_L",
     "deg": "Eangle Rangle",
     "-": "Bluntness",
-    "st": "PMBs PMBe",
 }
 
 
