@@ -7,6 +7,7 @@ from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
 from assoc_hull.analysis.form.section_shape import section_at
 from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.slices import slices
 from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS"]
@@ -50,12 +51,11 @@ def bulb_breadth(shape: Shape) -> Found:
 
 @parameter(
     "Abulb", name="area of the section at FP", unit="m2", table="hull form",
-    definition="area of the section at FP below T, all of it, of a ship with a bulb",
-    datum="both sides", source=TABLE_4, needs=(SHAPE, "BL"),
+    definition="A_FP of a ship with a bulb: the whole section, of what stands above it, too",
+    datum="both sides", source=TABLE_4, needs=("A_FP", "BL"),
 )  # fmt: skip
-def bulb_area(shape: Shape, bulb: float) -> Found:
-    section = section_at(shape, shape.length)
-    return Absent("no section at FP") if section is None else section.area_below(shape.draught)
+def bulb_area(area: float, bulb: float) -> float:
+    return area
 
 
 @parameter(
@@ -119,6 +119,15 @@ def kracht_across(area: float) -> float:
 )  # fmt: skip
 def kracht_along(area: float) -> float:
     return area
+
+
+@parameter(
+    "V_PR", name="volume of the protruding part of the bulb", unit="m3", table="measures",
+    definition="V forward of FP, of a ship with a bulb", datum="both sides", source=KRACHT,
+    needs=(SHAPE, "BL"), digits=2,
+)  # fmt: skip
+def kracht_volume(shape: Shape, length: float) -> float:
+    return shape.take(slices).forward_of(shape.length).volume
 
 
 PARAMETERS = entries_in(vars())

@@ -9,7 +9,6 @@ __all__ = ["PARAMETERS"]
 
 _MEASURES = {
     "m": "b_st5",
-    "m3": "V_PR",
     "m4": "I_T I_L",
     "deg": "Eangle Rangle",
     "-": "Bluntness",
