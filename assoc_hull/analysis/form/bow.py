@@ -9,6 +9,7 @@ from assoc_hull.analysis.form.section_shape import section_at
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.slices import slices
 from assoc_hull.analysis.form.value import Absent, Found
+from assoc_hull.analysis.net.sections import CENTRE
 
 __all__ = ["PARAMETERS"]
 
@@ -46,15 +47,17 @@ def bulb_height(shape: Shape) -> Found:
 def bulb_breadth(shape: Shape) -> Found:
     section = section_at(shape, shape.length)
     half = None if section is None else section.greatest_below(shape.header.draught)
-    return 2.0 * half if half else Absent("no section at FP below the design draught")
+    if half is None or half <= CENTRE:
+        return Absent("no section at FP below the design draught")
+    return 2.0 * half
 
 
 @parameter(
     "Abulb", name="area of the section at FP", unit="m2", table="hull form",
     definition="A_FP of a ship with a bulb: the whole section, of what stands above it, too",
-    datum="both sides", source=TABLE_4, needs=("A_FP", "BL"),
+    datum="both sides", source=TABLE_4, needs=("BL", "A_FP"),
 )  # fmt: skip
-def bulb_area(area: float, bulb: float) -> float:
+def bulb_area(bulb: float, area: float) -> float:
     return area
 
 
@@ -99,9 +102,9 @@ def kracht_length(length: float) -> float:
 @parameter(
     "B_B", name="greatest breadth of the bulb at FP", unit="m", table="measures",
     definition="BW of a ship with a bulb", datum="both sides", source=KRACHT,
-    needs=("BW", "BL"),
+    needs=("BL", "BW"),
 )  # fmt: skip
-def kracht_breadth(breadth: float, length: float) -> float:
+def kracht_breadth(length: float, breadth: float) -> float:
     return breadth
 
 
