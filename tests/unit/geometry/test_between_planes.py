@@ -150,7 +150,8 @@ def test_a_traced_section_lies_in_its_plane_and_on_the_surface(raked: Spans) -> 
             t = (57.3 - RAKED.rake(t) * zeta) / RAKED.length
         tile = int(np.searchsorted(curves[:, 0], zeta, side="right")) - 1
         cubic = Polynomial(curves[tile] - np.array([zeta, 0.0, 0.0, 0.0]))
-        u = next(r.real for r in cubic.roots() if abs(r.imag) < 1e-9 and -1e-9 < r.real < 1 + 1e-9)
+        roots = np.asarray(cubic.roots(), np.complex128)
+        u = next(r.real for r in roots if abs(r.imag) < 1e-9 and -1e-9 < r.real < 1 + 1e-9)
         assert RAKED.breadth(t) * Polynomial(RAKED.profile[0][tile])(u) == pytest.approx(
             breadth, abs=1e-7
         )

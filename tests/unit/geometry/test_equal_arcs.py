@@ -65,7 +65,8 @@ def test_a_side_above_the_water_does_not_count() -> None:
     )
     wet = wet_runs(curves, 10.5, 0.0, 0.0)
     whole = Chains(np.array([0, len(short)]), short)
-    assert wet.bottom.all() and not wet.top.any()
+    assert wet.bottom.all()
+    assert not wet.top.any()
     assert_allclose(wet.chains.equal(20), whole.equal(20), rtol=0.0, atol=1e-12)
 
 
