@@ -21,9 +21,11 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+from assoc_hull.analysis.curve_transforms import curve_transform
 from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.plot import lines_plan, neighbourhood
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
+from assoc_hull.plot.transforms import curve_series
 from assoc_hull.sources import examples
 
 FOLDER = Path(__file__).parent / "images"
@@ -50,9 +52,16 @@ def curves() -> Figure:
     return hydrostatic_curves(table, paper="A4")
 
 
+def series() -> Figure:
+    """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
+    areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
+    return curve_series(areas, terms=8)
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "hydrostatic_curves": curves,
+    "curve_series": series,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

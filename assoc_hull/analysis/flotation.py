@@ -23,10 +23,10 @@ from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.coons import CoonsStrips
-from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersed_sections import sections_and_moments_below
 from assoc_hull.geometry.immersion import Prepared, immersed, prepare
 from assoc_hull.model.index import Objects
 from assoc_hull.model.recipe import curve_data
@@ -102,9 +102,15 @@ class Flotation:
 
     def stations(self, planes: Planes) -> StationAreas:
         """Give the areas of the stations below each plane."""
+        return self.stations_and_moments(planes)[0]
+
+    def stations_and_moments(self, planes: Planes) -> tuple[StationAreas, FloatArray]:
+        """Give the areas of the stations, and their moments about the base line, (d, n), m3."""
         found = self.sections
-        area = found.per_station(sections_below(found.curves, planes))
-        return StationAreas(found.x.copy(), area, found.names)
+        each = sections_and_moments_below(found.curves, planes)
+        area, moment = map(found.per_station, each)
+        freeze(moment)
+        return StationAreas(found.x.copy(), area, found.names), moment
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""

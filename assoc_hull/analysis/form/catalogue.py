@@ -6,13 +6,26 @@ one's own is handed to `form_parameters` and needs no change anywhere.
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form import derived, floating, particulars, parts
+from assoc_hull.analysis.form import (
+    bow,
+    floating,
+    particulars,
+    parts,
+    pending,
+    proportions,
+    resistance,
+    volume_coefficients,
+    waterplane_coefficients,
+)
 from assoc_hull.analysis.form.evaluate import check_catalogue
 from assoc_hull.model.named import Named
 
 __all__ = ["CATALOGUE"]
 
-_MODULES = (particulars, floating, parts, derived)
+_MODULES = (
+    particulars, floating, parts, volume_coefficients, waterplane_coefficients, proportions,
+    resistance, bow, pending,
+)  # fmt: skip
 
 CATALOGUE = Named(
     "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)

@@ -117,7 +117,17 @@ def _computed(
         if value.number is None:
             return _as_value(entry, Absent(_because(need, value.reason or "")))
         taken.append(value.number)
-    return _as_value(entry, entry.compute(*taken))
+    return _as_value(entry, _found(entry, taken))
+
+
+def _found(entry: Parameter, taken: list[object]) -> Found:
+    """Ask the entry; a formula may divide by nil, but a measure that does is wrong and raises."""
+    try:
+        return entry.compute(*taken)
+    except ZeroDivisionError:
+        if SHAPE in entry.needs:
+            raise
+        return Absent("the definition divides by nil here")
 
 
 def _because(need: str, reason: str) -> str:
