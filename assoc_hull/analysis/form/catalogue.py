@@ -15,6 +15,7 @@ from assoc_hull.analysis.form import (
     proportions,
     resistance,
     volume_coefficients,
+    waterline,
     waterplane_coefficients,
 )
 from assoc_hull.analysis.form.evaluate import check_catalogue
@@ -23,8 +24,8 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, parts, volume_coefficients, waterplane_coefficients, proportions,
-    resistance, bow, pending,
+    particulars, floating, parts, waterline, volume_coefficients, waterplane_coefficients,
+    proportions, resistance, bow, pending,
 )  # fmt: skip
 
 CATALOGUE = Named(
