@@ -7,6 +7,7 @@ one's own is handed to `form_parameters` and needs no change anywhere.
 from __future__ import annotations
 
 from assoc_hull.analysis.form import (
+    bow,
     floating,
     particulars,
     pending,
@@ -22,7 +23,7 @@ __all__ = ["CATALOGUE"]
 
 _MODULES = (
     particulars, floating, volume_coefficients, waterplane_coefficients, proportions, resistance,
-    pending,
+    bow, pending,
 )  # fmt: skip
 
 CATALOGUE = Named(
