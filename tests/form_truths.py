@@ -53,7 +53,39 @@ def wigley() -> dict[str, float]:
         "Eangle": math.degrees(math.atan(0.2)),
         "Bluntness": 25.0 * (0.04 - math.log(1.04)),
     }  # fmt: skip
-    return found | SAME_BOTH_ENDS
+    return found | SAME_BOTH_ENDS | _wigley_sections(draught)
+
+
+def _wigley_sections(draught: float) -> dict[str, float]:
+    """All half sections are parabolas with a vertical top: y = b (2 t - t^2), t = z / T."""
+    low, tip = 0.32, 0.488  # 2 m and 3.05 m, of the draught
+    ahead = 1.5 * (1.0 / 6.0 - low**2 / 2.0 + low**3 / 3.0)  # outside the chord, of the whole
+    golden = 0.5 * (math.sqrt(5.0) - 1.0)
+    breadth = {"aft": 1.3875, "aftmost": 0.95, "fore": 0.4875}
+    inner = 1.8 * (2.0 * low - low**2)
+    return {
+        "SCH": 2.0, "PI": 2.75, "BCL": inner, "B07": 1.8 * (2.0 * tip - tip**2),
+        "Tau": math.degrees(math.atan((1.8 - inner) / 4.25)),
+        "S3.A2": 2.0 / 3.0 * breadth["aft"] * draught, "S3": ahead,
+        "S3'.A2": 2.0 / 3.0 * breadth["aftmost"] * draught, "S3'": ahead,
+        "S3.A1": ahead * 2.0 / 3.0 * breadth["aft"] * draught,
+        "S3'.A1": ahead * 2.0 / 3.0 * breadth["aftmost"] * draught,
+        "Ldiag": math.hypot(5.0 / 3.0, draught), "L": golden * math.hypot(5.0 / 3.0, draught),
+        "L/Ldiag": golden, "Raft": _through_three(breadth["aft"], draught),
+        "Rfwd": _through_three(breadth["fore"], draught), "SO": 0.0, "Hap": 0.0,
+    }  # fmt: skip
+
+
+def _through_three(breadth: float, draught: float) -> float:
+    """Radius of the circle through the parabola at a quarter, a half and three quarters of T.
+
+    With sides of 5, 3 and 8 sixteenths of b across, the triangle's area is b T / 64.
+    """
+    sides = [
+        math.hypot(across * breadth / 16.0, along * draught / 4.0)
+        for across, along in ((5.0, 1.0), (3.0, 1.0), (8.0, 2.0))
+    ]
+    return math.prod(sides) * 16.0 / (breadth * draught)
 
 
 def ellipsoid() -> dict[str, float]:
