@@ -10,6 +10,7 @@ from assoc_hull.analysis.form import (
     bow,
     floating,
     particulars,
+    parts,
     pending,
     proportions,
     resistance,
@@ -22,7 +23,7 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, volume_coefficients, waterplane_coefficients, proportions, resistance,
+    particulars, floating, parts, volume_coefficients, waterplane_coefficients, proportions, resistance,
     bow, pending,
 )  # fmt: skip
 

@@ -8,14 +8,13 @@ from assoc_hull.analysis.form.value import Absent
 __all__ = ["PARAMETERS"]
 
 _MEASURES = {
-    "m": "L_R L_E LCBa LCBf LCFa LCFf b_st5 B_tr SO SCH TH TRZ L Ldiag BCL B07 "
-    "PI SA SBx SBD BR Hap HSKEG LSKEG XSKEG RSKEG Rfwd Raft",
-    "m2": "Amax A_st3 A_st5 Aw_a Aw_f Aw_st5 A_FP ATT S3.A1 S3.A2 S3'.A1 S3'.A2 ASKEG",
-    "m3": "V_a V_f V_st4 V_st5 V_R V_E V_PR",
+    "m": "b_st5 B_tr SO SCH TH TRZ L Ldiag BCL B07 PI SA SBx SBD BR Hap HSKEG LSKEG XSKEG RSKEG Rfwd Raft",
+    "m2": "ATT S3.A1 S3.A2 S3'.A1 S3'.A2 ASKEG",
+    "m3": "V_PR",
     "m4": "I_T I_L",
     "deg": "Eangle Tau Rangle TTLS StemA TwVSA TwLSA",
     "-": "S3 S3' L/Ldiag Bluntness",
-    "st": "PMBs PMBe TwTTL",
+    "st": "TwTTL",
     "% D": "PTC",
     "% B": "TwDS",
 }
