@@ -109,8 +109,7 @@ def bluntness() -> float:
     return float((-dy * dy**2 / (dx**2 + dy**2)).sum()) / (0.5 * form.BREADTH)
 
 
-def run_angle() -> float:
-    """Of the chord of the waterline at T/2 from its after end to the parallel body; degrees."""
-    aft, fore = form.aft_end(0.5 * DRAUGHT), carrier_truth.parallel_body()[0]
-    rise = float(form.half_breadth(fore, 0.5 * DRAUGHT)) - aft[1]
-    return math.degrees(math.atan2(rise, fore - aft[0]))
+def run_angle(fore: float) -> float:
+    """Of the chord of the waterline at T/2 from its after end to a place; degrees."""
+    x, y = form.aft_end(0.5 * DRAUGHT)
+    return math.degrees(math.atan2(float(form.half_breadth(fore, 0.5 * DRAUGHT)) - y, fore - x))

@@ -10,14 +10,12 @@ from functools import cache
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.examples import carrier_form as form
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
-    "Sums", "Waterline", "area_of", "between", "flotation_of", "inertias", "parallel_body",
-    "volumes",
+    "Sums", "Waterline", "area_of", "between", "flotation_of", "inertias", "volumes",
 ]  # fmt: skip
 
 DRAUGHT = form.DRAUGHT
@@ -103,12 +101,3 @@ def area_of(x: float) -> float:
         z, dz = between([low, *sorted(each for each in levels if low < each < top), top])
         total += 2.0 * float(form.half_breadth(np.full_like(z, x), z) @ dz) if top > low else 0.0
     return total
-
-
-def parallel_body(part: float = 1.0 - 1e-4) -> tuple[float, float]:
-    """First and last place at which the section has that part of the midship section; m."""
-    least = part * area_of(150.0)
-    aft, fore = (
-        float(brentq(lambda x: area_of(x) - least, end, 150.0, xtol=1e-6)) for end in (60.0, 270.0)
-    )
-    return aft, fore

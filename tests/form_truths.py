@@ -15,7 +15,7 @@ import numpy as np
 from assoc_hull.examples import carrier_form as form
 from tests import carrier_ends, carrier_truth
 
-__all__ = ["carrier", "ellipsoid", "wigley"]
+__all__ = ["SCREW", "SCREW_AT", "SHAFT", "carrier", "ellipsoid", "parted", "wigley"]
 
 # Of 1 - s^2 from the end of a half length to a place: to stations 3 and 4, 5 and 10 of 20.
 AT_3, TO_4, AT_5, TO_5 = 0.51, 0.416 / 3.0, 0.75, 0.625 / 3.0
@@ -127,7 +127,7 @@ def _carrier_measures() -> dict[str, float]:
 
 
 def _volumes() -> dict[str, float]:
-    whole, run, entrance = carrier_truth.volumes(), *carrier_truth.parallel_body()
+    whole = carrier_truth.volumes()
     aft, fore = carrier_truth.volumes(fore=150.0), carrier_truth.volumes(aft=150.0)
     return {
         "V": whole.amount, "LCB": whole.x / 3.0 - 50.0, "VCB": whole.z,
@@ -135,9 +135,6 @@ def _volumes() -> dict[str, float]:
         "V_st4": carrier_truth.volumes(fore=60.0).amount,
         "V_st5": carrier_truth.volumes(fore=75.0).amount,
         "V_PR": carrier_truth.volumes(aft=300.0).amount,
-        "PMBs": run / 15.0, "PMBe": entrance / 15.0, "L_R": run, "L_E": 300.0 - entrance,
-        "V_R": carrier_truth.volumes(fore=run).amount,
-        "V_E": carrier_truth.volumes(aft=entrance).amount,
     }  # fmt: skip
 
 
@@ -149,7 +146,7 @@ def _waterplanes() -> dict[str, float]:
         "Aw_a": aft.amount, "Aw_f": fore.amount, "LCFa": aft.x, "LCFf": fore.x,
         "Aw_st5": carrier_truth.flotation_of(fore=75.0).amount,
         "b_st5": float(form.half_breadth(75.0, 18.0)), "LWL": 300.0 - form.aft_end(18.0)[0],
-        "Bluntness": carrier_ends.bluntness(), "Rangle": carrier_ends.run_angle(),
+        "Bluntness": carrier_ends.bluntness(),
     }  # fmt: skip
 
 
@@ -191,6 +188,18 @@ def _ends() -> dict[str, float]:
     }  # fmt: skip
 
 
+def parted(run: float, entrance: float) -> dict[str, float]:
+    """Of the carrier, what depends on where her parallel body begins and ends, m from AP."""
+    area = carrier_truth.area_of(150.0)
+    aft, fore = carrier_truth.volumes(fore=run), carrier_truth.volumes(aft=entrance)
+    return {
+        "PMBs": run / 15.0, "PMBe": entrance / 15.0, "L_R": run, "L_E": 300.0 - entrance,
+        "V_R": aft.amount, "V_E": fore.amount, "CPR": aft.amount / (area * run),
+        "CPE": fore.amount / (area * (300.0 - entrance)),
+        "Rangle": carrier_ends.run_angle(run),
+    }  # fmt: skip
+
+
 def _coefficients(of: Mapping[str, float]) -> dict[str, float]:
     """On boxes and rectangles of 300 m, 150 m, 75 m and 60 m by 50 m by 18 m."""
     volume, area = of["V"], of["Amax"]
@@ -210,5 +219,4 @@ def _coefficients(of: Mapping[str, float]) -> dict[str, float]:
         "KMT": of["VCB"] + of["I_T"] / volume, "KML": of["VCB"] + of["I_L"] / volume,
         "LCF-LCB": of["LCF"] - 3.0 * (50.0 + of["LCB"]), "C_VPR": of["V_PR"] / volume,
         "C_ABT": of["A_BT"] / area, "C_ABL": of["A_BL"] / area,
-        "CPR": of["V_R"] / (area * of["L_R"]), "CPE": of["V_E"] / (area * of["L_E"]),
     }  # fmt: skip

@@ -23,8 +23,8 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, parts, volume_coefficients, waterplane_coefficients, proportions, resistance,
-    bow, pending,
+    particulars, floating, parts, volume_coefficients, waterplane_coefficients, proportions,
+    resistance, bow, pending,
 )  # fmt: skip
 
 CATALOGUE = Named(
