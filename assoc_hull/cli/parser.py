@@ -19,6 +19,7 @@ from assoc_hull.cli import (
     plot,
     replay,
     shell,
+    transform,
     why,
 )
 from assoc_hull.cli.problems import UsageError
@@ -64,8 +65,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters, plot, export,
-        shell,
+        demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
+        transform, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

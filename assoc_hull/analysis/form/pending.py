@@ -8,16 +8,11 @@ from assoc_hull.analysis.form.value import Absent
 __all__ = ["PARAMETERS"]
 
 _MEASURES = {
-    "m": "b_st5 B_tr SO SCH TH TRZ L Ldiag BCL B07 PI SA SBx SBD BR Hap "
-    "HSKEG LSKEG XSKEG RSKEG Rfwd Raft",
-    "m2": "ATT S3.A1 S3.A2 S3'.A1 S3'.A2 ASKEG",
+    "m": "b_st5",
     "m3": "V_PR",
     "m4": "I_T I_L",
-    "deg": "Eangle Tau Rangle TTLS StemA TwVSA TwLSA",
-    "-": "S3 S3' L/Ldiag Bluntness",
-    "st": "TwTTL",
-    "% D": "PTC",
-    "% B": "TwDS",
+    "deg": "Eangle Rangle",
+    "-": "Bluntness",
 }
 
 
