@@ -50,8 +50,11 @@ BLUNT = {"BH", "Z_B", "C_ZB", "A_FP", "Abulb", "A_BT", "BAR", "C_ABT", "B_B", "B
 """Of the carrier, hardly determined by her lines: the height at which the bulb reaches farthest,
 as it is round there, and the section at FP, where waterlines end bluntly on the stem."""
 
-DIFFERENCES = {"Ea": 6.0, "Ef": 6.0, "Ea'": 6.0, "Sigma_a": 3.0, "Sigma_f": 4.0, "Sigma_a'": 3.0}
-"""So many times an error of a coefficient counts in what is made of 1 less this coefficient."""
+DIFFERENCES = {
+    "Ea": 6.0, "Ef": 6.0, "Ea'": 6.0, "Sigma_a": 3.0, "Sigma_f": 4.0, "Sigma_a'": 3.0,
+    "S3": 25.0, "S3.A1": 25.0,
+}  # fmt: skip
+"""So many times an error counts in the difference of numbers that are nearly equal."""
 
 PARTED = ("PMBs", "PMBe", "L_R", "L_E", "V_R", "V_E", "CPR", "CPE", "Rangle")
 

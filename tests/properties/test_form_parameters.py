@@ -155,7 +155,7 @@ def test_every_entry_answers_at_any_draught(
 MAY_BE_NIL = {
     "ATT", "TRAR", "TRAR_paper", "A_T",  # of a dry transom
     "LCB", "LCF-LCB",  # of a hull that is alike fore and aft
-    "SO", "TRZ", "Hap", "BH", "Rangle",
+    "SO", "SA", "Hap", "TRZ",  # of a profile that ends at AP, on the base line, at the draught
 }  # fmt: skip
 """Nil says something here; elsewhere it would stand for what is not there."""
 
