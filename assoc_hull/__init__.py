@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
     from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
+    from assoc_hull.analysis.form.form_parameters import form_parameters
+    from assoc_hull.analysis.form.screw import Screw
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
     from assoc_hull.errors import (
         AssocHullError,
@@ -67,11 +69,13 @@ __all__ = [
     "PointRoleError",
     "RefusedEditError",
     "RingError",
+    "Screw",
     "StaleHullError",
     "Tolerances",
     "UnknownNameError",
     "__version__",
     "examples",
+    "form_parameters",
     "hydrostatic_derivatives",
     "hydrostatic_table",
     "hydrostatics",
@@ -86,6 +90,8 @@ _HOMES = {
     "analysis.appendage": ("Appendage",),
     "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
+    "analysis.form.form_parameters": ("form_parameters",),
+    "analysis.form.screw": ("Screw",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
     "errors": (
         "AssocHullError",
