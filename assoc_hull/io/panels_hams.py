@@ -75,7 +75,8 @@ def loads_pnl(text: str, path: str) -> PanelMesh:
         It is cut short, or holds no number where one must be, or names vertices that are not
         there.
     """
-    rows = [row for row in rows_of(text) if row[1][0][0] not in "#-!"]
+    # Comments may say anything; the other lines begin with a number without a sign.
+    rows = [row for row in rows_of(text) if row[1][0][0].isdigit()]
     if not rows or len(rows[0][1]) < 4:
         what = "there is no line of four numbers before the vertices"
         raise BadInputError(what, f"at {path}", "check the form")

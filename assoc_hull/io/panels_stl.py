@@ -73,7 +73,8 @@ def loads_stl(data: bytes, path: str) -> PanelMesh:
     count = int.from_bytes(data[80:_HEAD], "little")
     if len(data) >= _HEAD and len(data) == _HEAD + _RECORD.itemsize * count:
         records = np.frombuffer(data, _RECORD, count, _HEAD)
-        xyz = records["corner"].reshape(-1, 3).astype(np.float64)
+        with np.errstate(invalid="ignore"):  # some bytes are no number, and signal it
+            xyz = records["corner"].reshape(-1, 3).astype(np.float64)
     else:
         xyz = _text_vertices(data.decode("latin-1"), path)
     if not len(xyz):
