@@ -15,8 +15,11 @@ import assoc_hull.examples  # else its first import would bind this name again
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.curve_transforms import curve_transform
     from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
+    from assoc_hull.analysis.form.form_parameters import form_parameters
+    from assoc_hull.analysis.form.screw import Screw
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
     from assoc_hull.errors import (
         AssocHullError,
@@ -67,11 +70,14 @@ __all__ = [
     "PointRoleError",
     "RefusedEditError",
     "RingError",
+    "Screw",
     "StaleHullError",
     "Tolerances",
     "UnknownNameError",
     "__version__",
+    "curve_transform",
     "examples",
+    "form_parameters",
     "hydrostatic_derivatives",
     "hydrostatic_table",
     "hydrostatics",
@@ -84,8 +90,11 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "analysis.appendage": ("Appendage",),
+    "analysis.curve_transforms": ("curve_transform",),
     "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
+    "analysis.form.form_parameters": ("form_parameters",),
+    "analysis.form.screw": ("Screw",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
     "errors": (
         "AssocHullError",

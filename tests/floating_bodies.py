@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import attrs
 import numpy as np
@@ -12,9 +13,10 @@ from assoc_hull.analysis.floating_body import Change, StationAreas
 from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersion import Prepared, immersed
+from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from tests import exact_hulls
 
-__all__ = ["Box", "StripBody", "Wigley", "head"]
+__all__ = ["Box", "StripBody", "Wigley", "box_body", "ellipsoid_body", "head", "wigley_body"]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)
 
@@ -165,3 +167,24 @@ class StripBody:
 
     def doubts(self, planes: Planes, numbers: bool = True) -> Sequence[str]:
         return []
+
+
+@cache
+def wigley_body() -> StripBody:
+    """Wigley's hull, wall-sided to 12.5 m; it has no deck, so nothing may come near to it."""
+    return StripBody.of(prepare(exact_hulls.wigley()), 5.0, 12.5)
+
+
+@cache
+def ellipsoid_body() -> StripBody:
+    """The ellipsoid; what a plane must lie between are the corners of the box around it."""
+    places = np.array([[x, 8.0, z] for x in (0.0, 100.0) for z in (0.0, 12.0)])
+    return StripBody(prepare(exact_hulls.ellipsoid()), Limits(places, places.copy(), closed=True))
+
+
+@cache
+def box_body(closed: bool = True) -> StripBody:
+    """The box of 100 x 20 x 12 m."""
+    low = np.array([[0.0, 10.0, 0.0], [100.0, 10.0, 0.0]])
+    limits = Limits(low, low + np.array([0.0, 0.0, 12.0]), closed)
+    return StripBody(prepare(exact_hulls.box()), limits)

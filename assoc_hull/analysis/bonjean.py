@@ -1,4 +1,7 @@
-"""Areas of stations: at one floating position, and over the draught (Bonjean curves)."""
+"""Areas of stations: at one floating position, and over the draught (Bonjean curves).
+
+Source: E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ import numpy as np
 
 from assoc_hull.analysis.floating import FloatingPosition, require_afloat
 from assoc_hull.analysis.floating_body import StationAreas
-from assoc_hull.analysis.measured_hull import HasState, body_of
+from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.measured_hull import HasState, body_of, state_of
 from assoc_hull.arguments import integer
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -19,7 +23,7 @@ _WHERE = "in Bonjean curves"
 
 @attrs.frozen(eq=False)
 class Bonjean:
-    """Areas of the stations up to level planes.
+    """Areas of the stations up to level planes, and their moments.
 
     Attributes
     ----------
@@ -27,13 +31,16 @@ class Bonjean:
         Heights of the planes above base.
     stations : StationAreas
         Below each of them.
+    moment : (k, n), m3
+        Of these areas about the base line: the integral of z dA.
     """
 
     z: FloatArray
     stations: StationAreas
+    moment: FloatArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.z)
+        freeze(self.z, self.moment)
 
 
 def sectional_areas(hull: HasState, position: FloatingPosition) -> StationAreas:
@@ -72,12 +79,13 @@ def bonjean(hull: HasState, levels: int = 41) -> Bonjean:
     >>> from assoc_hull.analysis.bonjean import bonjean
     >>> from assoc_hull.sources import examples
     >>> curves = bonjean(examples.wigley(), 5)
-    >>> curves.stations.area.shape == (5, len(curves.stations.x))
+    >>> curves.stations.area.shape == curves.moment.shape == (5, len(curves.stations.x))
     True
     """
     count = integer(levels, "levels", _WHERE, least=2, most=1000)
-    body = body_of(hull)
+    body = flotation(state_of(hull))
     level = Planes(np.zeros(1), np.zeros(1), np.zeros(1))
     low, high = body.limits.mean_draughts(level, hull.state.particulars.length)
     z = np.linspace(float(low[0]), float(high[0]), count)
-    return Bonjean(z, body.stations(Planes(z.copy(), np.zeros(count), np.zeros(count))))
+    planes = Planes(z.copy(), np.zeros(count), np.zeros(count))
+    return Bonjean(z, *body.stations_and_moments(planes))

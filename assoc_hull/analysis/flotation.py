@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from functools import cached_property
-from weakref import WeakKeyDictionary
+from typing import Any
 
 import attrs
 import numpy as np
@@ -23,16 +23,19 @@ from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.analysis.net.sections import Sections, flat_ends_below, sections_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.coons import CoonsStrips
-from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersed_sections import sections_and_moments_below
 from assoc_hull.geometry.immersion import Prepared, immersed, prepare
 from assoc_hull.model.index import Objects
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
 __all__ = ["Flotation", "flotation"]
+
+_KEPT = "flotation"
+"""Under this name what floats of a hull is kept with its tables."""
 
 _SAMPLES = 8
 """Places on each segment among which the lowest of the hull is looked for."""
@@ -54,6 +57,8 @@ class Flotation:
         The surface.
     kinds : (n,) int8
         The `PointKind` of each defining point of the net.
+    kept : dict
+        What others measured of it, to go when a line changes.
     """
 
     state: HullState
@@ -61,6 +66,7 @@ class Flotation:
     layout: Layout
     strips: CoonsStrips
     kinds: NDArray[np.int8]
+    kept: dict[object, Any] = attrs.field(factory=dict, init=False, repr=False)
     _route: dict[bytes, Immersed] = attrs.field(factory=dict, init=False, repr=False)
 
     @cached_property
@@ -96,9 +102,15 @@ class Flotation:
 
     def stations(self, planes: Planes) -> StationAreas:
         """Give the areas of the stations below each plane."""
+        return self.stations_and_moments(planes)[0]
+
+    def stations_and_moments(self, planes: Planes) -> tuple[StationAreas, FloatArray]:
+        """Give the areas of the stations, and their moments about the base line, (d, n), m3."""
         found = self.sections
-        area = found.per_station(sections_below(found.curves, planes))
-        return StationAreas(found.x.copy(), area, found.names)
+        each = sections_and_moments_below(found.curves, planes)
+        area, moment = map(found.per_station, each)
+        freeze(moment)
+        return StationAreas(found.x.copy(), area, found.names), moment
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
@@ -159,9 +171,6 @@ class Flotation:
         return found
 
 
-_KNOWN: WeakKeyDictionary[HullState, tuple[Hashable, Flotation]] = WeakKeyDictionary()
-
-
 def flotation(state: HullState) -> Flotation:
     """Make what floats of a hull; the same as before if no line has changed.
 
@@ -186,7 +195,7 @@ def flotation(state: HullState) -> Flotation:
     2777
     """
     stamp = _stamp(state)
-    known = _KNOWN.get(state)
+    known: tuple[Hashable, Flotation] | None = state.kept.get(_KEPT)
     if known is not None and known[0] == stamp:
         return known[1]
     net = gather(state)
@@ -203,7 +212,7 @@ def flotation(state: HullState) -> Flotation:
         )
     kinds = curve_data(state, net.curve).kind
     found = Flotation(state, net, layout, CoonsStrips.on(layout.cells, net.batch), kinds)
-    _KNOWN[state] = stamp, found
+    state.kept[_KEPT] = stamp, found
     return found
 
 

@@ -18,23 +18,17 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage, require_volume, with_appendages
+from assoc_hull.analysis.bracketed import newton
 from assoc_hull.analysis.floating import FloatingPosition
 from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.trim_lever import STEEPEST, trim_lever
 from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Immersed, Planes
 
 __all__ = ["Load", "immersion"]
 
 _WHERE = "in an immersion by weight"
-_TRIALS = 100
-_FINE = 1e-13
-"""Where steps are this part of the range, the rounding of the volume is all that is left."""
-
-_SMALL = 1e-7
-"""Steps of this part of the range that no longer shrink are those of what rounds integrals."""
-
-_STEEPEST = 0.25
-"""Tangent of the largest trim that is tried."""
 
 
 @attrs.frozen
@@ -132,26 +126,16 @@ def immersion(body: FloatingBody, load: Load, length: float) -> FloatingPosition
     return FloatingPosition(draught - lift, draught + lift, load.heel_deg)
 
 
-def _newton(
+def _root(
     value: Callable[[float], tuple[float, float]], start: float, low: float, high: float
 ) -> float:
-    """Find the root of a rising function, given with its slope, in a bracket.
+    """Find the root of one rising function, given with its slope, in a bracket."""
 
-    It is found when steps are no more than rounding, or small and no longer shrink.
-    """
-    fine, small = _FINE * (high - low), _SMALL * (high - low)
-    root, last = start, np.inf
-    for trial in range(1, _TRIALS):
-        height, slope = value(root)
-        low, high = (root, high) if height < 0.0 else (low, root)
-        step = -height / slope if slope > 0.0 else np.inf
-        if abs(step) <= fine or (abs(step) <= small and abs(step) >= 0.5 * last):
-            return root + step
-        new, last = root + step, abs(step)
-        root = new if low < new < high and trial % 8 else 0.5 * (low + high)
-        if high - low <= fine:
-            break
-    return root
+    def rising(x: FloatArray, _: IntArray) -> tuple[FloatArray, FloatArray]:
+        height, slope = value(float(x[0]))
+        return np.array([height]), np.array([slope])
+
+    return float(newton(rising, np.array([start]), np.array([low]), np.array([high]))[0])
 
 
 def _draught(sought: _Sought, slope: float, start: float) -> float:
@@ -164,7 +148,7 @@ def _draught(sought: _Sought, slope: float, start: float) -> float:
         found = sought.measure(sought.plane(draught, slope))
         return float(found.volume[0]) - want, float(found.area[0])
 
-    root = _newton(missing, start if low < start < high else 0.5 * (low + high), low, high)
+    root = _root(missing, start if low < start < high else 0.5 * (low + high), low, high)
     if abs(missing(root)[0]) > 1e-9 * want:
         raise BadInputError(
             f"{sought.load.weight:g} t lies where an appendage gets wet at once", _WHERE,
@@ -201,28 +185,17 @@ def _trim(sought: _Sought, lcg: float) -> tuple[float, float]:
             if slope == 0.0:
                 raise
             return (np.inf if slope > 0.0 else -np.inf), 0.0
-        found = sought.measure(sought.plane(draughts[-1], slope))
-        return _lever(found, slope, load, lcg)
+        planes = sought.plane(draughts[-1], slope)
+        ahead, growth = trim_lever(sought.measure(planes), planes, lcg, load.kg)
+        return float(ahead[0]), float(growth[0])
 
-    slope = _newton(lever, 0.0, -_STEEPEST, _STEEPEST)
+    slope = _root(lever, 0.0, -STEEPEST, STEEPEST)
     draught = _draught(sought, slope, draughts[-1])
-    off, _ = _lever(sought.measure(sought.plane(draught, slope)), slope, load, lcg)
+    planes = sought.plane(draught, slope)
+    off = float(trim_lever(sought.measure(planes), planes, lcg, load.kg)[0][0])
     if not abs(off) <= 1e-8 * sought.length:
         raise BadInputError(
             f"no trim brings the centre of buoyancy nearer than {abs(off):.4g} m to LCG {lcg:g} m",
             _WHERE, f"give an LCG nearer to {lcg + off:.6g} m, or less weight",
         )  # fmt: skip
     return slope, draught
-
-
-def _lever(found: Immersed, slope: float, load: Load, lcg: float) -> tuple[float, float]:
-    """Give ``(x_B - x_G) + (z_B - z_G) tt`` and how it grows with tt at constant volume."""
-    volume, area = float(found.volume[0]), float(found.area[0])
-    x, y = float(found.area_x[0]) / area, float(found.area_y[0]) / area
-    i_l = float(found.area_xx[0]) - area * x * x
-    i_lt = float(found.area_xy[0]) - area * x * y
-    ahead = float(found.moment_x[0]) / volume - lcg
-    up = 0.0 if load.kg is None else float(found.moment_z[0]) / volume - load.kg
-    rise = slope * i_l - np.tan(np.radians(load.heel_deg)) * i_lt
-    turn = i_l / volume + (0.0 if load.kg is None else slope * rise / volume + up)
-    return ahead + up * slope, turn

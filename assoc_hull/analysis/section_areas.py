@@ -51,7 +51,7 @@ def between_stations(body: Flotation, aft: float, fore: float, planes: Planes) -
     body : Flotation
         The hull.
     aft, fore : float, m
-        x of the stations, such as those at AP and FP.
+        x of the stations, such as those at AP and FP; infinite for an end of the hull.
     planes : Planes
         d planes.
 
@@ -85,6 +85,8 @@ def between_stations(body: Flotation, aft: float, fore: float, planes: Planes) -
 
 
 def _station(x: FloatArray, place: float) -> int:
+    if np.isinf(place):
+        return -1 if place < 0.0 else len(x)
     near = int(np.abs(x - place).argmin())
     if not abs(x[near] - place) <= _ON:
         what = f"no station stands at x {place:g} m"

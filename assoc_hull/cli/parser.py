@@ -15,9 +15,11 @@ from assoc_hull.cli import (
     hydrostatics,
     look,
     make,
+    parameters,
     plot,
     replay,
     shell,
+    transform,
     why,
 )
 from assoc_hull.cli.problems import UsageError
@@ -63,7 +65,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, look, edit, history, replay, why, graph, hydrostatics, plot, export, shell
+        demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
+        transform, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

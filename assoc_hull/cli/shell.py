@@ -13,6 +13,7 @@ from assoc_hull.cli.problems import check_target
 __all__ = ["add"]
 
 _SHELLS = ("bash", "zsh", "fish")
+_DOCUMENTS = ("hull", "form-catalogue", "form-parameters")
 
 
 def add(commands: Commands) -> None:
@@ -25,9 +26,15 @@ def add(commands: Commands) -> None:
     )  # fmt: skip
     completion.add_argument("shell", metavar="SHELL", choices=_SHELLS, help=", ".join(_SHELLS))
     schema = add_command(
-        commands, "schema", "print the JSON Schema of .hull.json files", _schema,
+        commands, "schema", "print the JSON Schema of .hull.json files, or of other documents",
+        _schema,
         """assoc-hull schema
-        assoc-hull schema -o hull_json.schema.json""",
+        assoc-hull schema -o hull_json.schema.json
+        assoc-hull schema --of form-parameters""",
+    )  # fmt: skip
+    schema.add_argument(
+        "--of", choices=_DOCUMENTS, default="hull", metavar="DOCUMENT",
+        help=f"{', '.join(_DOCUMENTS)} (default: hull)",
     )  # fmt: skip
     schema.add_argument("-o", "--out", type=Path, metavar="FILE", help="a .json file to write to")
 
@@ -58,12 +65,24 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 
 
 def _schema(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.hull_schema import dumps_hull_schema
+    from assoc_hull.io.hull_schema import dumps_schema
     from assoc_hull.io.whole_file import write_whole
 
+    text = dumps_schema(_schema_of(arguments.of))
     if arguments.out is None:
-        print(dumps_hull_schema(), end="")
+        print(text, end="")
         return 0
     check_target(arguments.out, (".json",))
-    write_whole(arguments.out, dumps_hull_schema().encode())
+    write_whole(arguments.out, text.encode())
     return 0
+
+
+def _schema_of(document: str) -> dict[str, Any]:
+    """Give the schema of a document."""
+    if document == "hull":
+        from assoc_hull.io.hull_schema import hull_json_schema
+
+        return hull_json_schema()
+    from assoc_hull.io.form_schema import catalogue_schema, form_schema
+
+    return catalogue_schema() if document == "form-catalogue" else form_schema()

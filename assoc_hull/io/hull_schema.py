@@ -11,14 +11,22 @@ file; ``assoc-hull schema`` prints it.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 from assoc_hull.io.hull_json import FORMAT, SCHEMA
 from assoc_hull.model.schema import DEFINITION, PUBLISHED
 
-__all__ = ["dumps_hull_schema", "hull_json_schema"]
+__all__ = ["DIALECT", "FINGERPRINT", "dumps_hull_schema", "dumps_schema", "hull_json_schema"]
 
-_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+FINGERPRINT = {
+    "description": "SHA-256 of definition and published values",
+    "type": "string",
+    "pattern": "^[0-9a-f]{64}$",
+}
+"""The schema of a fingerprint."""
 
 
 def hull_json_schema() -> dict[str, Any]:
@@ -33,16 +41,12 @@ def hull_json_schema() -> dict[str, Any]:
     parts = {
         "format": {"const": FORMAT},
         "schema": {"const": SCHEMA, "description": "version of this form"},
-        "fingerprint": {
-            "description": "SHA-256 of definition and published values",
-            "type": "string",
-            "pattern": "^[0-9a-f]{64}$",
-        },
+        "fingerprint": FINGERPRINT,
         "definition": {"description": "what the designer decided", **DEFINITION.schema},
         "published": {"description": "what was made of it, by key", **PUBLISHED.schema},
     }
     return {
-        "$schema": _DIALECT,
+        "$schema": DIALECT,
         "title": "assoc-hull hull",
         "description": "The canonical text of a ship hull, .hull.json",
         "type": "object",
@@ -52,6 +56,11 @@ def hull_json_schema() -> dict[str, Any]:
     }
 
 
+def dumps_schema(schema: Mapping[str, Any]) -> str:
+    """Give a JSON Schema as text; it ends with a newline."""
+    return json.dumps(schema, indent=1) + "\n"
+
+
 def dumps_hull_schema() -> str:
-    """Give the JSON Schema as text; it ends with a newline."""
-    return json.dumps(hull_json_schema(), indent=1) + "\n"
+    """Give the JSON Schema of a hull as text; it ends with a newline."""
+    return dumps_schema(hull_json_schema())

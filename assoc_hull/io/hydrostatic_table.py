@@ -23,7 +23,7 @@ from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.whole_file import write_whole
-from assoc_hull.io.workbook import openpyxl_module, workbook_bytes
+from assoc_hull.io.workbook import head_on, openpyxl_module, workbook_bytes
 
 __all__ = ["TABLE_ENDINGS", "csv_text", "write_hydrostatic_table", "xlsx_bytes"]
 
@@ -90,9 +90,7 @@ def xlsx_bytes(table: HydrostaticTable) -> bytes:
     book = openpyxl_module().Workbook()
     sheet = book.active
     sheet.title = "hydrostatics"
-    for title, words in _head(table):
-        sheet.append([f"# {title}", words])
-        sheet.cell(sheet.max_row, 2).data_type = "s"  # a name that begins with = is no formula
+    head_on(sheet, _head(table))
     columns = list(_columns(table))
     top = sheet.max_row + 1
     sheet.append([each.name for each in columns])

@@ -13,11 +13,12 @@ import datetime
 import io
 import re
 import zipfile
+from collections.abc import Iterable
 from typing import Any
 
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["openpyxl_module", "workbook_bytes"]
+__all__ = ["head_on", "openpyxl_module", "workbook_bytes"]
 
 _DAY = datetime.datetime(2000, 1, 1)
 """A workbook bears a date; one that never changes gives the same bytes for the same cells."""
@@ -36,6 +37,13 @@ def openpyxl_module() -> Any:
     except ImportError:
         raise MissingExtraError("openpyxl", "xlsx") from None
     return openpyxl
+
+
+def head_on(sheet: Any, lines: Iterable[tuple[str, str]]) -> None:
+    """Write the head of a table: pairs of a title and words, a row each."""
+    for title, words in lines:
+        sheet.append([f"# {title}", " ".join(words.split())])
+        sheet.cell(sheet.max_row, 2).data_type = "s"  # a name that begins with = is no formula
 
 
 def workbook_bytes(book: Any) -> bytes:

@@ -246,6 +246,9 @@ class HullState:
         change, so the particulars lie here too.
     revision_row, revision_curve : list of int
         Revisions; outside the journal, as they never run backward.
+    kept : dict
+        What higher layers made of the tables, which they check before they use it again. It lies
+        here to go with the hull: a store by hull elsewhere would keep it for ever.
     """
 
     _given: Particulars = attrs.field(alias="particulars")
@@ -259,6 +262,7 @@ class HullState:
     settings: Any = attrs.field(factory=_settings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
+    kept: dict[str, Any] = attrs.field(factory=dict, init=False, repr=False)
 
     def __attrs_post_init__(self) -> None:
         if not self.settings.count:

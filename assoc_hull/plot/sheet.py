@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.paper import POINT, Pen, paper_of
+from assoc_hull.plot.paper import POINT, Paper, Pen, paper_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,8 +48,8 @@ class Sheet:
 
     Parameters
     ----------
-    paper : str
-        Name of the size.
+    paper : str or Paper
+        The size, or its name.
     height : float, mm, optional
         Instead of the paper's own.
 
@@ -63,12 +63,12 @@ class Sheet:
         Boxes of labels that others must keep clear of, mm.
     """
 
-    def __init__(self, paper: str, height: float | None = None) -> None:
+    def __init__(self, paper: str | Paper, height: float | None = None) -> None:
         require_matplotlib()
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        size = paper_of(paper)
+        size = paper if isinstance(paper, Paper) else paper_of(paper)
         self.paper = size if height is None else attrs.evolve(size, height=height)
         inches = (self.paper.width / 25.4, self.paper.height / 25.4)
         self.figure: Figure = Figure(figsize=inches, dpi=self.paper.dots, facecolor="white")
@@ -183,6 +183,17 @@ class Sheet:
         extent = text.get_window_extent(self._renderer)
         corners = np.array([extent.x0, extent.y0, extent.x1, extent.y1])
         return corners * (25.4 / self.paper.dots)
+
+    def width(self, words: str, *, size: float = 1.0, bold: bool = False) -> float:
+        """Give how wide words are on paper, mm; the dots of a screen may ask for a little more."""
+        from matplotlib.font_manager import FontProperties
+        from matplotlib.textpath import text_to_path
+
+        font = FontProperties(
+            family=_FONT, weight="bold" if bold else "normal", size=size * self.paper.letter
+        )
+        wide, _, _ = text_to_path.get_text_width_height_descent(words, font, ismath=False)
+        return float(wide) * POINT
 
     def take(self, text: Text) -> None:
         """Keep later labels clear of these words."""

@@ -145,6 +145,13 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "Appendage": (
         ah.Appendage, {"name": "a", "volume": 1.0, "centroid": PLACE, "area": 1.0},
     ),
+    "Screw": (
+        ah.Screw,
+        {
+            "height": 2.0, "diameter": 3.0, "x": None, "spacing": 0.0, "boss_diameter": None,
+            "boss_x": None,
+        },
+    ),
     "LineSource.make": (
         ah.LineSource.make,
         {
@@ -176,6 +183,14 @@ FLOATING: dict[str, Given] = {
         "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
     },
     "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
+    "curve_transform": {
+        "curve": "sectional areas", "kind": "chebyshev", "terms": 2, "along": None, "across": None,
+        "span": None, "relative": None, **ONE, "heel_deg": 0.0,
+    },
+    "form_parameters": {
+        **ONE, "screw": None, "rho": 1.0, "shell_factor": 1.0, "transom": False, "only": None,
+        "further": (),
+    },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
 }  # fmt: skip
 

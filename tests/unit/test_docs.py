@@ -17,9 +17,9 @@ FENCE = re.compile(r"```.*?```", re.DOTALL)
 LARGEST_IMAGE = 150_000
 
 
-def _blocks() -> ModuleType:
-    """`docs/blocks.py`; the folder is no package."""
-    spec = importlib.util.spec_from_file_location("blocks", ROOT / "docs" / "blocks.py")
+def _script(name: str) -> ModuleType:
+    """A program of `docs`; the folder is no package."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -27,7 +27,7 @@ def _blocks() -> ModuleType:
     return module
 
 
-BLOCKS = _blocks()
+BLOCKS = _script("blocks")
 
 
 def _name(page: Path) -> str:
@@ -47,6 +47,13 @@ def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) ->
     for block, printed in BLOCKS.run(page, tmp_path):
         if block["shown"] is not None:
             assert printed == block["shown"], "if the page is out of date: python docs/blocks.py"
+
+
+def test_the_catalogue_of_form_parameters_is_that_of_the_code() -> None:
+    """Every entry stands on its page, as it is; `python docs/catalogue.py` renews it."""
+    script = _script("catalogue")
+    page = script.PAGE.read_text("utf-8")
+    assert script.refreshed(page) == page, "the page is out of date: python docs/catalogue.py"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=_name)

@@ -50,6 +50,9 @@ def completed(script: Path, *words: str) -> set[str]:
         (("graph", "--format", ""), {"dot", "graphml", "mermaid", "json"}),
         (("import", "--uni"), {"--unit"}),
         (("import", "--unit", "m"), {"m", "mm"}),
+        (("param",), {"parameters"}),
+        (("parameters", "--sha"), {"--shaft-height", "--shaft-spacing"}),
+        (("schema", "--of", ""), {"hull", "form-catalogue", "form-parameters"}),
         (("check", "--"), {"--help", "--json", "--notes"}),
         (("info", "sh"), {"ship.hull.json"}),
         (("completion", ""), {"bash", "zsh", "fish"}),
@@ -90,3 +93,13 @@ def test_the_schema_is_printed_and_written(
     assert main(["schema", "-o", str(tmp_path / "hull.schema.json")]) == 0
     assert (tmp_path / "hull.schema.json").read_text("utf-8") == text
     assert main(["schema", "-o", str(tmp_path / "hull.txt")]) == 2
+
+
+@pytest.mark.parametrize("document", ["form-catalogue", "form-parameters"])
+def test_the_schema_of_another_document_is_printed(
+    document: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each has the words that its document begins with."""
+    assert main(["schema", "--of", document]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert schema["properties"]["format"] == {"const": f"assoc-hull {document.replace('-', ' ')}"}

@@ -47,10 +47,11 @@ def areas(height: FloatArray) -> StationAreas:
 def pictures(table: HydrostaticTable, hull: Hull, paper: str) -> list[Figure]:
     """All three."""
     z = np.linspace(0.01, 6.25, 9)
+    curves = Bonjean(z, areas(z.copy()), np.zeros((len(z), 1)))
     return [
         hydrostatic_curves(table, paper=paper),  # type: ignore[arg-type]
         sectional_area_curve(areas(LEVELS[:1]), table, paper=paper),  # type: ignore[arg-type]
-        bonjean_curves(hull, Bonjean(z, areas(z.copy())), table, paper=paper),  # type: ignore[arg-type]
+        bonjean_curves(hull, curves, table, paper=paper),  # type: ignore[arg-type]
     ]
 
 
@@ -85,7 +86,7 @@ def test_bonjean_curves_start_at_their_stations(
 ) -> None:
     """And reach as far to the right as the area is large, all on one scale."""
     z = np.linspace(0.0, 6.25, 9)
-    figure = bonjean_curves(wigley, Bonjean(z, areas(z.copy())), table)
+    figure = bonjean_curves(wigley, Bonjean(z, areas(z.copy()), np.zeros((len(z), 1))), table)
     reach, found = [], areas(z.copy())
     for name in found.names:
         (curve,), (upright,) = (

@@ -1,0 +1,116 @@
+"""The sectional-area curve of the surface: where it is greatest, and where it is level."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.slices import strips_of
+from assoc_hull.geometry.cross_sections import areas_at
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.strip_spans import Spans
+
+__all__ = ["EQUAL", "SHORT", "AreaCurve", "area_curve"]
+
+EQUAL = 1e-4
+"""Areas of sections of the parallel middle body differ by less, in parts of the largest."""
+
+SHORT = 0.02
+"""Of Lpp: what is level over less is no parallel middle body."""
+
+_WIDE = 1e-2
+_RATIO = 0.25
+"""The top of a parabola that is level to `_WIDE` over some length is level to `EQUAL` over 1/10
+of it; a stretch that is more than so much of it does not come from a rounded top."""
+
+_SAME = 1e-12
+_SAMPLES = 9  # on each strip, and on each bracket
+_ROUNDS = 7
+
+
+@attrs.frozen
+class AreaCurve:
+    """What the sectional-area curve says.
+
+    Attributes
+    ----------
+    largest : float, m2
+        A_max, of all sections, also between stations.
+    x_largest : float, m
+        Where it is; of several places that nearest to midship.
+    level : (float, float) or None, m
+        The parallel middle body: first and last place at which the area is that of the largest
+        section but for 1e-4 of it; None if it is too short for one.
+    """
+
+    largest: float
+    x_largest: float
+    level: tuple[float, float] | None
+
+    @property
+    def run(self) -> float:
+        """Where the run ends: the parallel middle body begins, or the largest section is; m."""
+        return self.x_largest if self.level is None else self.level[0]
+
+    @property
+    def entrance(self) -> float:
+        """Where the entrance begins: behind it the parallel middle body or largest section; m."""
+        return self.x_largest if self.level is None else self.level[1]
+
+
+def area_curve(shape: Shape) -> AreaCurve:
+    """Look along a hull; to be asked by `Shape.take`."""
+    strips = strips_of(shape)
+
+    def areas(x: FloatArray) -> FloatArray:
+        return areas_at(strips, x, shape.planes)
+
+    x = _samples(strips)
+    area = areas(x)
+    for _ in range(_ROUNDS):
+        best = int(area.argmax())
+        ends = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
+        more = np.linspace(*ends, _SAMPLES)
+        x, first = np.unique(np.concatenate([x, more]), return_index=True)
+        area = np.concatenate([area, areas(more)])[first]
+    largest = float(area.max())
+    near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
+    place = float(x[near.argmin()])
+    least = (1.0 - np.array([EQUAL, _WIDE])) * largest
+    level, wide = _level(areas, x, area, least)
+    length = level[1] - level[0]
+    parallel = length >= SHORT * shape.length and length >= _RATIO * (wide[1] - wide[0])
+    return AreaCurve(largest, place, level if parallel else None)
+
+
+def _samples(strips: Spans) -> FloatArray:
+    """Give places along the ship from the first section to the last, ascending, m."""
+    flat = strips.flat & (strips.fore > strips.aft)
+    edge = np.unique(np.concatenate([strips.aft[flat], strips.fore[flat]]))
+    part = np.linspace(0.0, 1.0, _SAMPLES)[:-1]
+    inner = (edge[:-1, None] + np.diff(edge)[:, None] * part).ravel()
+    return np.append(inner, edge[-1:])
+
+
+def _level(
+    areas: Callable[[FloatArray], FloatArray], x: FloatArray, area: FloatArray, least: FloatArray
+) -> list[tuple[float, float]]:
+    """Give the first and the last place at which areas are not less than some areas (k,)."""
+    outside, inside = [], []
+    for each in least.tolist():
+        above = np.flatnonzero(area >= each)
+        first, last = int(above[0]), int(above[-1])
+        inside += [x[first], x[last]]
+        outside += [x[max(first - 1, 0)], x[min(last + 1, len(x) - 1)]]
+    out, within, rows = np.array(outside), np.array(inside), np.arange(len(inside))
+    part = np.linspace(0.0, 1.0, _SAMPLES)
+    for _ in range(_ROUNDS):
+        tried = out[:, None] + (within - out)[:, None] * part
+        enough = areas(tried.ravel()).reshape(tried.shape) >= least.repeat(2)[:, None]
+        enough[:, 0], enough[:, -1] = False, True
+        k = enough.argmax(axis=1)
+        out, within = tried[rows, k - 1], tried[rows, k]
+    return [(float(a), float(b)) for a, b in within.reshape(-1, 2)]

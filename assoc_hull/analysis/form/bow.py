@@ -1,0 +1,125 @@
+"""Entries of stem, bulb and fore body."""
+
+from __future__ import annotations
+
+from assoc_hull.analysis.form.literature import KRACHT, TABLE_3, TABLE_4
+from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
+from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
+from assoc_hull.analysis.form.section_shape import section_at
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.value import Absent, Found
+
+__all__ = ["PARAMETERS"]
+
+_TIP = (
+    "foremost place of the profile before FP and below the design draught, from which it runs "
+    "back upward and downward"
+)
+
+
+@parameter(
+    "BL", name="length of the bulb", unit="m", table="hull form",
+    definition=f"x - Lpp at the bulb's tip: the {_TIP}", datum="from FP, + forward",
+    source=TABLE_4,
+)  # fmt: skip
+def bulb_length(shape: Shape) -> Found:
+    tip = shape.take(bulb_tip)
+    return tip if isinstance(tip, Absent) else float(tip[0]) - shape.length
+
+
+@parameter(
+    "BH", name="height of the bulb's tip", unit="m", table="hull form",
+    definition=f"z of the bulb's tip: the {_TIP}", datum="from the base line, up",
+    source=TABLE_4,
+)  # fmt: skip
+def bulb_height(shape: Shape) -> Found:
+    tip = shape.take(bulb_tip)
+    return tip if isinstance(tip, Absent) else float(tip[2])
+
+
+@parameter(
+    "BW", name="breadth of the section at FP", unit="m", table="hull form",
+    definition="greatest full breadth of the section at FP below the design draught",
+    datum="both sides", source=TABLE_4,
+)  # fmt: skip
+def bulb_breadth(shape: Shape) -> Found:
+    section = section_at(shape, shape.length)
+    half = None if section is None else section.greatest_below(shape.header.draught)
+    return 2.0 * half if half else Absent("no section at FP below the design draught")
+
+
+@parameter(
+    "Abulb", name="area of the section at FP", unit="m2", table="hull form",
+    definition="area of the section at FP below T, all of it, of a ship with a bulb",
+    datum="both sides", source=TABLE_4, needs=(SHAPE, "BL"),
+)  # fmt: skip
+def bulb_area(shape: Shape, bulb: float) -> Found:
+    section = section_at(shape, shape.length)
+    return Absent("no section at FP") if section is None else section.area_below(shape.draught)
+
+
+@parameter(
+    "LBA", name="lateral area of the bulb", unit="m2", table="hull form",
+    definition="area of the profile before FP and below the design draught",
+    datum="in the centre plane", source=TABLE_4, needs=(SHAPE, "BL"),
+)  # fmt: skip
+def lateral_area(shape: Shape, bulb: float) -> float:
+    return area_before_fp(shape, shape.header.draught, 0.0)
+
+
+@parameter(
+    "LIBA", name="immersed lateral area of the bulb", unit="m2", table="hydrostatic",
+    definition="area of the profile before FP and below the floating plane",
+    datum="in the centre plane", source=TABLE_3, needs=(SHAPE, "BL"),
+)  # fmt: skip
+def immersed_lateral_area(shape: Shape, bulb: float) -> float:
+    rise = -shape.position.trim_by_stern / shape.length
+    return area_before_fp(shape, shape.position.draught_aft, rise)
+
+
+# Kracht's measures.
+
+
+@parameter(
+    "Z_B", name="height of the bulb's foremost place", unit="m", table="measures",
+    definition="BH", datum="from the base line, up", source=KRACHT, needs=("BH",),
+)  # fmt: skip
+def kracht_height(height: float) -> float:
+    return height
+
+
+@parameter(
+    "L_PR", name="protruding length of the bulb", unit="m", table="measures",
+    definition="BL", datum="from FP, + forward", source=KRACHT, needs=("BL",),
+)  # fmt: skip
+def kracht_length(length: float) -> float:
+    return length
+
+
+@parameter(
+    "B_B", name="greatest breadth of the bulb at FP", unit="m", table="measures",
+    definition="BW of a ship with a bulb", datum="both sides", source=KRACHT,
+    needs=("BW", "BL"),
+)  # fmt: skip
+def kracht_breadth(breadth: float, length: float) -> float:
+    return breadth
+
+
+@parameter(
+    "A_BT", name="cross section of the bulb at FP", unit="m2", table="measures",
+    definition="Abulb", datum="both sides", source=KRACHT, needs=("Abulb",),
+)  # fmt: skip
+def kracht_across(area: float) -> float:
+    return area
+
+
+@parameter(
+    "A_BL", name="lateral area of the bulb before FP", unit="m2", table="measures",
+    definition="LBA", datum="in the centre plane", source=KRACHT, needs=("LBA",),
+)  # fmt: skip
+def kracht_along(area: float) -> float:
+    return area
+
+
+PARAMETERS = entries_in(vars())
+"""The entries of this module, in order."""

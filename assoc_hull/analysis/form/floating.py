@@ -1,0 +1,91 @@
+"""Entries that the record of hydrostatics holds."""
+
+from __future__ import annotations
+
+from assoc_hull.analysis.form.parameter import entries_in, parameter
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.value import Absent, Found
+
+__all__ = ["PARAMETERS"]
+
+_SOURCE = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
+
+
+@parameter(
+    "V", name="displacement volume", unit="m3", table="hydrostatic", ittc="∇",
+    definition="moulded, with stern overhang and bulb, without appendages",
+    source=_SOURCE, digits=2,
+)  # fmt: skip
+def volume(shape: Shape) -> float:
+    return shape.record.volume
+
+
+@parameter(
+    "Disp", name="displacement", unit="t", table="hydrostatic", ittc="Δ",
+    definition="rho V shell_factor", source=_SOURCE, digits=2,
+)  # fmt: skip
+def displacement(shape: Shape) -> float:
+    return shape.record.displacement
+
+
+@parameter(
+    "LCB", name="centre of buoyancy", unit="% Lpp", table="hydrostatic", ittc="X_B",
+    definition="100 (x_B - Lpp/2) / Lpp", datum="from midship, + forward", source=_SOURCE,
+)  # fmt: skip
+def buoyancy_ahead(shape: Shape) -> float:
+    return shape.record.lcb_percent
+
+
+@parameter(
+    "VCB", name="centre of buoyancy above base", unit="m", table="hydrostatic", ittc="KB",
+    definition="integral of z dV / V", datum="from the base line, up", source=_SOURCE,
+)  # fmt: skip
+def buoyancy_above(shape: Shape) -> float:
+    return shape.record.kb
+
+
+@parameter(
+    "LWL", name="length of the waterline", unit="m", table="hydrostatic", ittc="L_WL",
+    definition="from the aftmost to the foremost place of the waterline, transom included",
+    datum="along x", source=_SOURCE, digits=3,
+)  # fmt: skip
+def waterline_length(shape: Shape) -> float:
+    return shape.record.lwl
+
+
+@parameter(
+    "Aw", name="area of the waterplane", unit="m2", table="measures", ittc="A_W",
+    definition="in plan", source=_SOURCE, digits=2,
+)  # fmt: skip
+def waterplane_area(shape: Shape) -> float:
+    return shape.record.waterplane_area_proj
+
+
+@parameter(
+    "LCF", name="centre of flotation", unit="m", table="hydrostatic", ittc="X_F",
+    definition="integral of x dA / A_W", datum="from AP, + forward", source=_SOURCE,
+)  # fmt: skip
+def flotation_ahead(shape: Shape) -> float:
+    return shape.record.lcf
+
+
+@parameter(
+    "WSA", name="wetted surface", unit="m2", table="hydrostatic", ittc="S",
+    definition="integral of the true surface element; an immersed transom counts if asked for",
+    source=_SOURCE, digits=2,
+)  # fmt: skip
+def wetted_surface(shape: Shape) -> float:
+    return shape.record.wetted_surface
+
+
+@parameter(
+    "KMT", name="transverse metacentre above base", unit="m", table="hydrostatic", ittc="KM_T",
+    definition="KB + I_T / V", datum="from the base line, up", source=_SOURCE,
+)  # fmt: skip
+def metacentre(shape: Shape) -> Found:
+    found = shape.record.kmt
+    return Absent("none when heeled") if found is None else found
+
+
+PARAMETERS = entries_in(vars())
+"""The entries of this module, in order."""

@@ -1,0 +1,27 @@
+"""Measures that others need and that are not measured yet."""
+
+from __future__ import annotations
+
+from assoc_hull.analysis.form.parameter import Parameter
+from assoc_hull.analysis.form.value import Absent
+
+__all__ = ["PARAMETERS"]
+
+_MEASURES = {
+    "m": "b_st5",
+    "m3": "V_PR",
+    "m4": "I_T I_L",
+    "deg": "Eangle Rangle",
+    "-": "Bluntness",
+}
+
+
+def _absent() -> Absent:
+    return Absent("not measured yet")
+
+
+PARAMETERS = tuple(
+    Parameter(symbol, symbol, unit, "measures", "not measured yet", "-", "-", None, (), 4, _absent)
+    for unit, symbols in _MEASURES.items()
+    for symbol in symbols.split()
+)

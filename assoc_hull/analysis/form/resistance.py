@@ -1,0 +1,127 @@
+"""Entries that methods of resistance take: Kracht's numbers of a bulb, Holtrop's of the ends."""
+
+from __future__ import annotations
+
+from assoc_hull.analysis.form.literature import HOLTROP, ITTC, KRACHT, TABLE_3
+from assoc_hull.analysis.form.parameter import entries_in, parameter
+from assoc_hull.analysis.form.value import Absent, Found
+
+__all__ = ["PARAMETERS"]
+
+
+@parameter(
+    "C_LPR", name="Kracht's length of the bulb", unit="-", table="bulb and resistance",
+    definition="L_PR / Lpp", source=KRACHT, needs=("L_PR", "Lpp"),
+)  # fmt: skip
+def bulb_length(protruding: float, length: float) -> float:
+    return protruding / length
+
+
+@parameter(
+    "C_BB", name="Kracht's breadth of the bulb", unit="-", table="bulb and resistance",
+    definition="B_B / B", datum="at FP", source=KRACHT, needs=("B_B", "B"),
+)  # fmt: skip
+def bulb_breadth(bulb: float, breadth: float) -> float:
+    return bulb / breadth
+
+
+@parameter(
+    "C_ZB", name="Kracht's depth of the bulb", unit="-", table="bulb and resistance",
+    definition="Z_B / T_F", datum="foremost point of the bulb, from the base line", source=KRACHT,
+    needs=("Z_B", "T_F"),
+)  # fmt: skip
+def bulb_height(height: float, draught: float) -> float:
+    return height / draught
+
+
+@parameter(
+    "C_ABT", name="Kracht's cross section of the bulb", unit="-", table="bulb and resistance",
+    definition="A_BT / Amax", datum="at FP", source=KRACHT, needs=("A_BT", "Amax"),
+)  # fmt: skip
+def bulb_across(area: float, greatest: float) -> float:
+    return area / greatest
+
+
+@parameter(
+    "C_ABL", name="Kracht's lateral area of the bulb", unit="-", table="bulb and resistance",
+    definition="A_BL / Amax", datum="forward of FP", source=KRACHT, needs=("A_BL", "Amax"),
+)  # fmt: skip
+def bulb_along(area: float, greatest: float) -> float:
+    return area / greatest
+
+
+@parameter(
+    "C_VPR", name="Kracht's volume of the bulb", unit="-", table="bulb and resistance",
+    definition="V_PR / V", datum="forward of FP", source=KRACHT, needs=("V_PR", "V"), digits=6,
+)  # fmt: skip
+def bulb_volume(protruding: float, volume: float) -> float:
+    return protruding / volume
+
+
+@parameter(
+    "f_BL", name="lateral area of the bulb over length by draught", unit="-",
+    table="bulb and resistance", ittc="f_BL", definition="A_BL / (Lpp T)",
+    datum="forward of FP", source=ITTC, needs=("A_BL", "Lpp", "T"), digits=6,
+)  # fmt: skip
+def bulb_along_plane(area: float, length: float, draught: float) -> float:
+    return area / (length * draught)
+
+
+@parameter(
+    "TRAR", name="immersed area of the transom", unit="-", table="hydrostatic", ittc="f_T",
+    definition="ATT / Amax", source=TABLE_3, needs=("ATT", "Amax"),
+)  # fmt: skip
+def transom_area(area: float, greatest: float) -> float:
+    return area / greatest
+
+
+@parameter(
+    "TRAR_paper", name="immersed area of the transom as its source prints it", unit="1/m",
+    table="hydrostatic", definition="ATT / (Amax T)",
+    datum="the source means a ratio, but divides by the draught too", source=TABLE_3,
+    needs=("ATT", "Amax", "T"),
+)  # fmt: skip
+def transom_area_as_printed(area: float, greatest: float, draught: float) -> float:
+    return area / (greatest * draught)
+
+
+@parameter(
+    "A_T", name="Holtrop's area of the transom", unit="m2", table="bulb and resistance",
+    ittc="A_T", definition="ATT", datum="immersed, the ship at rest", source=HOLTROP,
+    needs=("ATT",),
+)  # fmt: skip
+def transom(area: float) -> float:
+    return area
+
+
+@parameter(
+    "iE", name="Holtrop's half angle of entrance", unit="deg", table="bulb and resistance",
+    ittc="i_E", definition="Eangle", datum="from the centre line", source=HOLTROP,
+    needs=("Eangle",),
+)  # fmt: skip
+def entrance(angle: float) -> float:
+    return angle
+
+
+@parameter(
+    "L_R Holtrop", name="Holtrop's length of the run", unit="m", table="bulb and resistance",
+    definition="LWL (1 - C + 0.06 C l / (4 C - 1)), C = V / (Amax LWL), l = LCB",
+    datum="an estimate; l in percent forward of midship; L_R is measured", source=HOLTROP,
+    needs=("V", "Amax", "LWL", "LCB"), digits=3,
+)  # fmt: skip
+def estimated_run(volume: float, area: float, length: float, percent: float) -> float:
+    prismatic = volume / (area * length)
+    return length * (1.0 - prismatic + 0.06 * prismatic * percent / (4.0 * prismatic - 1.0))
+
+
+@parameter(
+    "C_stern", name="Holtrop's number of the stern", unit="-", table="bulb and resistance",
+    definition="-25 pram with gondola, -10 V-shaped, 0 normal, 10 U-shaped sections",
+    datum="the after body, looked at", source=HOLTROP, needs=(), digits=0,
+)  # fmt: skip
+def stern() -> Found:
+    return Absent("chosen by eye from the shape of the stern's sections")
+
+
+PARAMETERS = entries_in(vars())
+"""The entries of this module, in order."""

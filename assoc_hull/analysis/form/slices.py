@@ -1,0 +1,76 @@
+"""Measures of parts of the ship: what lies between two planes across it, and single sections."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.geometry.between_planes import Between, between
+from assoc_hull.geometry.cross_sections import cross_section
+from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.strip_spans import Spans, spans
+
+__all__ = ["Slices", "slices", "strips_of"]
+
+_KEPT = "spans"
+
+
+@attrs.frozen(eq=False)
+class Slices:
+    """A hull below its floating plane, part by part; each part is measured once.
+
+    Attributes
+    ----------
+    shape : Shape
+        The hull.
+    """
+
+    shape: Shape
+    _between: dict[tuple[float, float], Between] = attrs.field(factory=dict, init=False)
+    _sections: dict[float, IsoCurves] = attrs.field(factory=dict, init=False)
+
+    def aft_of(self, x: float) -> Between:
+        """Give all that lies aft of a place, m from AP, overhang included."""
+        return self._part(-np.inf, x)
+
+    def forward_of(self, x: float) -> Between:
+        """Give all that lies forward of a place, m from AP, bulb included."""
+        return self._part(x, np.inf)
+
+    def _part(self, aft: float, fore: float) -> Between:
+        if (aft, fore) not in self._between:
+            found = between(strips_of(self.shape), aft, fore, self.shape.planes)
+            self._between[aft, fore] = found
+        return self._between[aft, fore]
+
+    def section(self, x: float) -> IsoCurves:
+        """Give the section at a place, port side."""
+        if x not in self._sections:
+            self._sections[x] = cross_section(strips_of(self.shape), x)
+        return self._sections[x]
+
+    def area(self, x: float) -> float:
+        """Give the immersed area of the section at a place, both sides, m2."""
+        return float(sections_below(self.section(x), self.shape.planes).sum())
+
+    def runs_back(self, x: float) -> bool:
+        """Tell whether a raked end of the surface is there that runs back somewhere."""
+        strips = strips_of(self.shape)
+        met = np.flatnonzero((strips.aft < x) & (strips.fore > x) & ~strips.flat)
+        return not all(strips.raked[strip].forward for strip in met.tolist())
+
+
+def slices(shape: Shape) -> Slices:
+    """Give the parts of a hull; to be asked by `Shape.take`."""
+    return Slices(shape)
+
+
+def strips_of(shape: Shape) -> Spans:
+    """Give the strips of the surface and where they lie, whatever the draught."""
+    kept = shape.body.kept
+    found: Spans | None = kept.get(_KEPT)
+    if found is None:
+        found = kept[_KEPT] = spans(shape.body.prepared)
+    return found

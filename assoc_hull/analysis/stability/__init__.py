@@ -1,0 +1,1 @@
+"""Stability: righting levers, cross curves, equilibrium, and criteria of intact stability."""

@@ -1,0 +1,178 @@
+"""Cross curves of stability: KN over displacement and heel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.floating import planes_of, rising
+from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
+from assoc_hull.analysis.stability.asked import OnError, heels_of, require_sound
+from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
+from assoc_hull.analysis.stability.heeled import heeled
+from assoc_hull.analysis.stability.levers import TrimRule
+from assoc_hull.arguments import choice, number
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["CrossCurves", "cross_curves", "cross_curves_of"]
+
+_WHERE = "in cross curves"
+
+ANGLES: tuple[float, ...] = tuple(float(each) for each in range(5, 95, 5))
+"""Heels that are taken if none are given, degrees."""
+
+
+@attrs.frozen(eq=False)
+class CrossCurves:
+    """KN of n displacements at k heels.
+
+    Attributes
+    ----------
+    header : HydrostaticHeader
+        What the numbers hold good for; whether the deck is open or closed.
+    trim : str
+        "fixed" or "free".
+    conditions : tuple of n Condition
+        The displacements, with the floating position upright.
+    heel_deg : (k,), degrees
+        + starboard down.
+    kn : (n, k), m
+        GZ = KN - KG sin(heel) at no trim; nan where she does not float so.
+    notes : tuple of str
+        What else there is to say.
+    """
+
+    header: HydrostaticHeader
+    trim: str
+    conditions: tuple[Condition, ...]
+    heel_deg: FloatArray
+    kn: FloatArray
+    notes: tuple[str, ...]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.heel_deg, self.kn)
+
+    @property
+    def displacement(self) -> FloatArray:
+        """Of the conditions, t, (n,)."""
+        return np.array([each.weight for each in self.conditions])
+
+    @property
+    def volume(self) -> FloatArray:
+        """Of the conditions, m3, (n,)."""
+        return np.array([each.volume for each in self.conditions])
+
+    @property
+    def draught(self) -> FloatArray:
+        """Mean draughts upright, m, (n,)."""
+        return np.array([each.upright.draught_mean for each in self.conditions])
+
+
+def cross_curves(
+    hull: HasState,
+    *,
+    weights: Sequence[float] | None = None,
+    draughts: Sequence[float] | None = None,
+    heels: Sequence[float] = ANGLES,
+    trim_by_stern: float = 0.0,
+    trim: TrimRule = "fixed",
+    rho: float = SALT,
+    shell_factor: float = 1.0,
+    kg: float | None = None,
+    appendages: Iterable[Appendage] = (),
+    on_error: OnError = "refuse",
+    date: str | None = None,
+) -> CrossCurves:
+    """Compute KN over displacement and heel, all in one go.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull; its `particulars.deck` tells whether the deck is open or closed.
+    weights : (n,), t
+        Displacements at even keel, rising; or `draughts`.
+    draughts : (n,), m
+        Mean draughts upright, rising.
+    heels : (k,), degrees
+        Rising, + starboard down, from -90 to 90.
+    trim_by_stern : float, m
+        Of the draughts, upright.
+    trim : "fixed" or "free"
+        Keep the trim that she has upright, or find that of equilibrium at each heel, with the
+        centre of gravity where it balances her upright.
+    kg : float or None, m
+        Where it lies above the base line, for the trim of equilibrium; None: at each heel as
+        high as the centre of buoyancy.
+    rho, shell_factor, appendages, on_error, date
+        As for `stability`.
+
+    Raises
+    ------
+    OutOfRangeError
+        A displacement that she does not carry, or a draught at which she does not float.
+    BadInputError
+        Neither weights nor draughts, or both; a number that cannot be used; a doubtful hull.
+
+    Examples
+    --------
+    >>> from assoc_hull.analysis.stability.cross_curves import cross_curves
+    >>> from assoc_hull.sources import examples
+    >>> found = cross_curves(examples.wigley(), draughts=[5.0, 6.25], heels=[10, 30])
+    >>> found.kn.shape, found.kn[1].round(3).tolist()
+    ((2, 2), [0.918, 2.694])
+    """
+    terms: dict[str, object] = {
+        "rho": rho, "shell_factor": shell_factor, "kg": kg, "appendages": appendages, "date": date,
+    }  # fmt: skip
+    choice(trim, "trim", ("fixed", "free"), _WHERE)
+    wanted = heels_of(heels)
+    body = body_of(hull)
+    header = header_of(hull, body, terms)
+    asked = _asked(weights, draughts, number(trim_by_stern, "trim_by_stern", _WHERE), header.kg)
+    found = cross_curves_of(body, header, asked, trim, wanted)
+    upright = planes_of([each.upright for each in found.conditions], header.length)
+    doubts = require_sound(body, upright, on_error)
+    return attrs.evolve(found, notes=(*found.notes, *doubts))
+
+
+def cross_curves_of(
+    body: FloatingBody,
+    header: HydrostaticHeader,
+    asked: Sequence[Asked],
+    trim: TrimRule,
+    heels: FloatArray,
+) -> CrossCurves:
+    """Compute KN of a floating body; as `cross_curves`, of which it is the inner part."""
+    conditions = [condition_of(body, header, each) for each in asked]
+    case = case_of(body, header, conditions, trim)
+    rows = np.repeat(np.arange(len(conditions)), len(heels))
+    found = heeled(case, np.tile(heels, len(conditions)), rows)
+    kn = found.kn.reshape(len(conditions), len(heels))
+    deck = "closed" if body.limits.closed else "open"
+    notes = [f"the deck is {deck}"]
+    if deck == "open" and np.isnan(kn).any():
+        notes[0] += ": where its edge would be under water there is no KN"
+    return CrossCurves(header, trim, tuple(conditions), heels, kn.copy(), tuple(notes))
+
+
+def _asked(
+    weights: object, draughts: object, trim_by_stern: float, kg: float | None
+) -> list[Asked]:
+    """Take the displacements."""
+    if (weights is None) == (draughts is None):
+        raise BadInputError(
+            "neither or both of weights and draughts are given", _WHERE, "give one of them"
+        )
+    if weights is not None:
+        if trim_by_stern:
+            raise BadInputError("trim_by_stern is given with weights", _WHERE, "give draughts")
+        return [Asked(weight=each, kg=kg) for each in rising(weights, "weights", _WHERE).tolist()]
+    half = 0.5 * trim_by_stern
+    levels = rising(draughts, "draughts", _WHERE).tolist()
+    return [Asked(draughts=(each + half, each - half), kg=kg) for each in levels]

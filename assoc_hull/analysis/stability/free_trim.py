@@ -1,0 +1,190 @@
+"""Draught and trim together: at a given heel, the plane of a volume below a centre of gravity.
+
+Newton's rule in the mean draught t and the tangent tt of the trim, with X = x - Lpp / 2 and
+z = h + tt x - th y on the plane:
+
+    dV = A dt + A_X dtt
+    d(M_x + tt M_z) = (A_x + tt Z) dt + (A_xX + tt Z_X + M_z) dtt,   Z = int z dA, Z_X = int z X dA
+
+less x_G and tt z_G times the same of the volume. Where it does not arrive, the trim is looked
+for in a bracket, with the draught solved anew for each.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.bracketed import newton
+from assoc_hull.analysis.stability.afloat import EXACT, Afloat, sinkage
+from assoc_hull.analysis.trim_lever import STEEPEST, trim_lever
+from assoc_hull.geometry.curves import FloatArray, IntArray
+
+__all__ = ["Sought", "trimmed"]
+
+_TRIALS = 25
+_STEP = 0.05
+"""Tangent of the largest change of trim in one step, along the ship."""
+
+_FINE, _SMALL = 1e-9, 1e-7
+"""Of the range of draughts: steps after which rounding is left, and small ones."""
+
+_OFF = 1e-8
+"""Part of the length by which buoyancy may stay ahead of gravity."""
+
+
+@attrs.frozen(eq=False)
+class Sought:
+    """What is to be in equilibrium lengthwise, (d,) each.
+
+    Attributes
+    ----------
+    volume : (d,), m3
+        To displace.
+    lcg : (d,), m
+        Centre of gravity from AP.
+    kg : float or None, m
+        Above base; None: as high as the centre of buoyancy.
+    heel : (d,)
+        Tangents of the heel.
+    """
+
+    volume: FloatArray
+    lcg: FloatArray
+    kg: float | None
+    heel: FloatArray
+
+    def some(self, rows: IntArray) -> Sought:
+        """Give some of them."""
+        return Sought(self.volume[rows], self.lcg[rows], self.kg, self.heel[rows])
+
+    @property
+    def cosine(self) -> FloatArray:
+        """Of the heel."""
+        found: FloatArray = 1.0 / np.sqrt(1.0 + self.heel**2)
+        return found
+
+
+def trimmed(
+    afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Find mean draughts and trims at which buoyancy lies below gravity.
+
+    Parameters
+    ----------
+    afloat : Afloat
+        The hull.
+    sought : Sought
+        Volumes, centres and heels.
+    mean, slope : (d,), m and 1
+        First trials: mean draughts, nan where none is to be found, and tangents of trim.
+
+    Returns
+    -------
+    mean, slope : (d,), m and 1
+        Nan where there is no such plane.
+    """
+    mean, slope = mean.copy(), slope.copy()
+    slope[~np.isfinite(mean)] = np.nan
+    known = np.flatnonzero(np.isfinite(mean))
+    mean[known], slope[known] = _together(afloat, sought.some(known), mean[known], slope[known])
+    left = known[~_balanced(afloat, sought.some(known), mean[known], slope[known])]
+    if len(left):
+        rest = sought.some(left)
+        mean[left], slope[left] = _one_by_one(afloat, rest)
+        off = left[~_balanced(afloat, rest, mean[left], slope[left])]
+        mean[off] = slope[off] = np.nan
+    return mean, slope
+
+
+def _balanced(
+    afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray
+) -> NDArray[np.bool_]:
+    """Tell where volume and trim are right."""
+    good = np.isfinite(mean) & np.isfinite(slope)
+    some = np.flatnonzero(good)
+    if len(some):
+        of = sought.some(some)
+        planes = afloat.planes(mean[some], slope[some], of.heel)
+        found = afloat.measure(planes)
+        ahead = trim_lever(found, planes, of.lcg, of.kg)[0]
+        right = np.abs(found.volume - of.volume) <= EXACT * of.volume
+        good[some] = right & (np.abs(ahead) <= _OFF * afloat.length)
+    return good
+
+
+def _together(
+    afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Run Newton's rule in both unknowns."""
+    mean, slope = mean.copy(), slope.copy()
+    last = np.full(len(mean), np.inf)
+    rows = np.arange(len(mean))
+    for _ in range(_TRIALS):
+        if not len(rows):
+            break
+        of = sought.some(rows)
+        low, high = afloat.range(slope[rows], of.heel)
+        step, turn = _step(afloat, of, mean[rows], slope[rows])
+        part = np.minimum(1.0, _STEP / np.maximum(np.abs(turn) * of.cosine, 1e-300))
+        size = np.maximum(np.abs(step), np.abs(turn) * afloat.length) / (high - low)
+        slope[rows] += part * turn
+        mean[rows] = _inside(afloat, of, mean[rows] + part * step, slope[rows])
+        done = (size <= _FINE) | ((size <= _SMALL) & (size >= 0.5 * last[rows]))
+        last[rows] = size
+        lost = ~(np.isfinite(mean[rows]) & (np.abs(slope[rows]) * of.cosine < STEEPEST))
+        mean[rows[lost]] = np.nan
+        rows = rows[~done & ~lost]
+    return mean, slope
+
+
+def _inside(afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray) -> FloatArray:
+    """Keep mean draughts within what is admissible at their trims; nan where nothing is."""
+    low, high = afloat.range(slope, sought.heel)
+    rim = 1e-3 * (high - low)
+    kept: FloatArray = np.where(mean <= low, low + rim, np.where(mean >= high, high - rim, mean))
+    return np.where(low < high, kept, np.nan)
+
+
+def _step(
+    afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give the steps of mean draught and slope."""
+    planes = afloat.planes(mean, slope, sought.heel)
+    f, half = afloat.measure(planes), 0.5 * afloat.length
+    x, h, th, g = sought.lcg, planes.height, planes.tan_heel, sought.kg
+    a_x, a_xx = f.area_x - half * f.area, f.area_xx - half * f.area_x
+    excess, moment = f.volume - sought.volume, f.moment_x - x * f.volume
+    down, turn = f.area_x - x * f.area, a_xx - x * a_x
+    if g is not None:
+        z = h * f.area + slope * f.area_x - th * f.area_y
+        z_x = h * f.area_x + slope * f.area_xx - th * f.area_xy - half * z
+        high = f.moment_z - g * f.volume
+        moment = moment + slope * high
+        down = down + slope * (z - g * f.area)
+        turn = turn + slope * (z_x - g * a_x) + high
+    det = f.area * turn - a_x * down
+    det = np.where(det > 0.0, det, np.nan)
+    return (-excess * turn + moment * a_x) / det, (-moment * f.area + excess * down) / det
+
+
+def _one_by_one(afloat: Afloat, sought: Sought) -> tuple[FloatArray, FloatArray]:
+    """Look for each trim in a bracket; the draught is solved anew at every trial."""
+    cosine = sought.cosine
+
+    def lever(lean: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+        of, slope = sought.some(rows), lean / cosine[rows]
+        mean = sinkage(afloat, of.volume, slope, of.heel)
+        ahead = np.where(lean > 0.0, np.inf, -np.inf)
+        growth = np.zeros(len(rows))
+        some = np.flatnonzero(np.isfinite(mean))
+        if len(some):
+            planes = afloat.planes(mean[some], slope[some], of.heel[some])
+            found = afloat.measure(planes)
+            ahead[some], growth[some] = trim_lever(found, planes, of.lcg[some], of.kg)
+        return ahead, growth / cosine[rows]
+
+    ends = np.full(len(cosine), STEEPEST)
+    slope = newton(lever, 0.0 * ends, -ends, ends) / cosine
+    return sinkage(afloat, sought.volume, slope, sought.heel), slope
