@@ -14,12 +14,12 @@ from assoc_hull.analysis.form import (
     midship,
     particulars,
     parts,
-    pending,
     proportions,
     resistance,
     skeg,
     stern,
     volume_coefficients,
+    waterline,
     waterplane_coefficients,
 )
 from assoc_hull.analysis.form.evaluate import check_catalogue
@@ -35,13 +35,13 @@ _MODULES = (
     proportions,
     resistance,
     parts,
+    waterline,
     bow,
     midship,
     stern,
     fore_section,
     after_section,
     skeg,
-    pending,
 )
 
 CATALOGUE = Named(
