@@ -51,11 +51,11 @@ SHIPS = {
 
 BLUNT = {
     "BH", "Z_B", "C_ZB", "A_FP", "Abulb", "A_BT", "BAR", "C_ABT", "B_B", "BW", "C_BB",
-    "ATT", "A_T", "TRAR", "TRAR_paper",
+    "ATT", "A_T", "TRAR", "TRAR_paper", "Bluntness",
 }  # fmt: skip
 """Of the carrier, hardly determined by her lines: the height at which the bulb reaches farthest,
-as it is round there; the section at FP, where waterlines end bluntly on the stem; the transom
-where it begins."""
+as it is round there; the section at FP, where waterlines end bluntly on the stem, and how
+bluntly; the transom where it begins."""
 
 DIFFERENCES = {
     "Ea": 6.0, "Ef": 6.0, "Ea'": 6.0, "Sigma_a": 3.0, "Sigma_f": 4.0, "Sigma_a'": 3.0,
