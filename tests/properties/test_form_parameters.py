@@ -64,8 +64,13 @@ def test_every_unit_is_a_power_of_length_or_a_ratio() -> None:
 
 
 @hulls
-@pytest.mark.parametrize("twin", [False, True], ids=["one screw", "two screws"])
-@pytest.mark.parametrize("parts", [(1.0, 1.0), (0.75, 0.6)], ids=["design", "ballast"])
+@pytest.mark.parametrize(
+    ("parts", "twin"),
+    [
+        pytest.param((1.0, 1.0), False, id="design, one screw"),
+        pytest.param((0.75, 0.6), True, id="ballast, two screws"),
+    ],
+)
 def test_a_hull_twice_as_large_has_the_same_form(
     ships: dict[str, ah.Hull],
     twice: dict[str, ah.Hull],
