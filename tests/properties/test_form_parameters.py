@@ -26,6 +26,9 @@ POWERS = {"m": 1, "m2": 2, "m3": 3, "m4": 4, "t": 3, "1/m": -1}
 RATIOS = {"-", "deg", "st", "% Lpp", "% B", "% D"}
 FACTOR = 2.0
 
+NEAR_CENTRE = {"LSKEG", "RSKEG"}
+"""A skeg ends where it is a tenth of a millimetre high, whatever the size of the ship."""
+
 hulls = pytest.mark.parametrize("name", NAMES)
 shipped = pytest.mark.parametrize("name", NAMES[:-1])
 
@@ -78,10 +81,7 @@ def test_a_hull_twice_as_large_has_the_same_form(
     parts: tuple[float, float],
     twin: bool,
 ) -> None:
-    """Each number grows by its unit's power of length, and what has none has none.
-
-    Profiles are the same to the tenth of a millimetre that a place may lie off the centre plane.
-    """
+    """Each number grows by its unit's power of length, and what has none has none."""
     small, large = (_at_parts(each[name], parts, twin) for each in (ships, twice))
     assert list(small) == list(CATALOGUE)
     for symbol, value in small.items():
@@ -89,7 +89,8 @@ def test_a_hull_twice_as_large_has_the_same_form(
         assert (other.reason is None) == (value.reason is None), symbol
         if value.number is not None:
             wanted = value.number * FACTOR ** POWERS.get(value.unit, 0)
-            assert other.number == pytest.approx(wanted, rel=1e-5, abs=1e-9), symbol
+            part = 1e-5 if symbol in NEAR_CENTRE else 1e-7
+            assert other.number == pytest.approx(wanted, rel=part, abs=1e-9), symbol
 
 
 TURNED = (
