@@ -22,8 +22,11 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from assoc_hull.analysis.curve_transforms import curve_transform
+from assoc_hull.analysis.form.report import form_report
+from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.plot import lines_plan, neighbourhood
+from assoc_hull.plot.form_sheet import form_sheets
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.transforms import curve_series
 from assoc_hull.sources import examples
@@ -52,6 +55,13 @@ def curves() -> Figure:
     return hydrostatic_curves(table, paper="A4")
 
 
+def form_sheet() -> Figure:
+    """Draw the first page of the form parameters of the bulk carrier."""
+    screw = Screw(height=4.9, diameter=8.8, x=7.5)
+    report = form_report(examples.bulk_carrier_207k(), screw=screw, date="2026-01-31")
+    return form_sheets(report)[0].figure
+
+
 def series() -> Figure:
     """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
     areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
@@ -61,6 +71,7 @@ def series() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "hydrostatic_curves": curves,
+    "form_sheet": form_sheet,
     "curve_series": series,
     "crossing": crossing,
     "roles": roles,
@@ -76,7 +87,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
-DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96}
+DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
+       "form_sheet": 100}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
 
 

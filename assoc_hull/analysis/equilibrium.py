@@ -17,7 +17,7 @@ from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
 from assoc_hull.arguments import number, plain, shown
 from assoc_hull.errors import BadInputError
 
-__all__ = ["deck_edge_angle", "freeboard", "immersion"]
+__all__ = ["deck_edge_angle", "freeboard", "immersion", "tons"]
 
 _WHERE = "in hydrostatics"
 
@@ -77,7 +77,7 @@ def immersion(
         raise BadInputError(what, _WHERE, "give one of them: with lcg the trim is found")
     load = Load(
         # What is no finite number is refused with the range, which needs the hull.
-        _tons(weight),
+        tons(weight),
         header.rho,
         header.shell_factor,
         None if lcg is None else number(lcg, "lcg", _WHERE),
@@ -89,8 +89,8 @@ def immersion(
     return float_at(body, load, header.length)
 
 
-def _tons(weight: object) -> float:
-    """Take a weight; any number will do here."""
+def tons(weight: object) -> float:
+    """Take a weight, t; any number will do: the hull tells what is in its range."""
     found: object = plain(weight)  # type: ignore[arg-type]
     if isinstance(found, int) and not isinstance(found, bool):
         return math.inf if found > 0 else -math.inf  # beyond what a float can be

@@ -78,6 +78,12 @@ def _add_screw(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--boss-diameter", type=float, metavar="D", help="of the stern boss at its aft face, m"
     )
+    parser.add_argument(
+        "--boss-x",
+        type=float,
+        metavar="X",
+        help="aft face of the stern boss, from AP, + forward, m",
+    )
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -158,7 +164,7 @@ def _screw(arguments: argparse.Namespace) -> Screw | None:
     given = {
         "height": arguments.shaft_height, "diameter": arguments.propeller_diameter,
         "x": arguments.screw_x, "spacing": arguments.shaft_spacing,
-        "boss_diameter": arguments.boss_diameter,
+        "boss_diameter": arguments.boss_diameter, "boss_x": arguments.boss_x,
     }  # fmt: skip
     told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if not told:

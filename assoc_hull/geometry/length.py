@@ -15,7 +15,7 @@ from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import locate, power, segment_curve, sum_per_curve
 from assoc_hull.geometry.vectors import dot
 
-__all__ = ["arc_length", "length_at", "segment_length"]
+__all__ = ["arc_length", "length_at", "length_until", "segment_length"]
 
 _ROOTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _NODES, _WEIGHTS = 0.5 + 0.5 * _ROOTS, 0.5 * _WEIGHTS
@@ -130,6 +130,35 @@ def length_at(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> FloatArray:
     segment, u = locate(batch, curve, t)
     slopes = differentiate(power(batch))
     lengths = _before(batch)[segment] + _adaptive(slopes[segment], u)
+    freeze(lengths)
+    return lengths
+
+
+def length_until(slopes: FloatArray, u: FloatArray) -> FloatArray:
+    """Give the arc length of cubics from their beginning to given parameters.
+
+    Parameters
+    ----------
+    slopes : (p, 3, 3), m
+        Coefficients of the derivative of each cubic, in 1, u, u^2.
+    u : (p,)
+        From 0 to 1.
+
+    Returns
+    -------
+    (p,), m
+        Lengths; relative error 1e-12.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.length import length_until
+    >>> straight = np.zeros((1, 3, 3))
+    >>> straight[0, 0] = [3.0, 4.0, 0.0]
+    >>> length_until(straight, np.array([0.5])).round(12).tolist()
+    [2.5]
+    """
+    lengths = _adaptive(slopes, u)
     freeze(lengths)
     return lengths
 

@@ -89,6 +89,7 @@ _SCREW = _object(
         "x": _told("plane of the screw, from AP, + forward, m", or_none(REAL).schema),
         "spacing": _told("between two shafts, m; 0: one screw", NOT_NEGATIVE.schema),
         "boss_diameter": _told("m", or_none(POSITIVE).schema),
+        "boss_x": _told("aft face of the boss, from AP, + forward, m", or_none(REAL).schema),
     }
 )
 

@@ -25,3 +25,37 @@ def test_without_a_bulb_there_is_a_reason(wigley: Mapping[str, Value], symbol: s
     assert "no bulb" in (wigley[symbol].reason or "") or "no section" in (
         wigley[symbol].reason or ""
     )
+
+
+@pytest.mark.parametrize("symbol", ["ATT", "B_tr", "TH", "TRZ"])
+def test_without_a_transom_there_is_a_reason(wigley: Mapping[str, Value], symbol: str) -> None:
+    """Both ends of Wigley's hull are sharp."""
+    assert wigley[symbol].number is None
+    assert "no transom" in (wigley[symbol].reason or "")
+
+
+@pytest.mark.parametrize(
+    "symbol",
+    ["SCH", "D_p", "PI", "PTC", "SA", "BCL", "B07", "Tau", "S3.A1", "S3", "S3'.A1", "S3'", "TwDS"],
+)
+def test_without_a_screw_there_is_a_reason(wigley: Mapping[str, Value], symbol: str) -> None:
+    """What depends on the shaft is not guessed."""
+    assert wigley[symbol].number is None
+    assert "no screw given" in (wigley[symbol].reason or "")
+
+
+@pytest.mark.parametrize(
+    "symbol",
+    ["TTLS", "HSKEG", "LSKEG", "ASKEG", "XSKEG", "RSKEG", "TwTTL", "TwVSA", "TwLSA"],
+)
+def test_a_single_skeg_has_no_tunnel(wigley: Mapping[str, Value], symbol: str) -> None:
+    """Nothing hangs below the centre line."""
+    assert wigley[symbol].number is None
+    assert "single skeg" in (wigley[symbol].reason or "")
+
+
+def test_wigley_has_no_bilge_circle_and_a_level_bottom(wigley: Mapping[str, Value]) -> None:
+    """Its midship section is a parabola; its stern stands at AP, its bottom on the base line."""
+    assert wigley["BR"].number is None
+    assert wigley["StemA"].reason == "the bottom does not rise to AP"
+    assert (wigley["SO"].number, wigley["Hap"].number) == (0.0, 0.0)

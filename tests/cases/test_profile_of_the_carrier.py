@@ -7,14 +7,15 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.value import Value
 from assoc_hull.examples import carrier_form as form
 
-FP, DRAUGHT = form.LENGTH, form.DRAUGHT
+FP, DRAUGHT, STATION = form.LENGTH, form.DRAUGHT, form.LENGTH / 20.0
 BULB_LOW, BULB_HIGH = form.pieces(FP)[0]
+SCREW = ah.Screw(height=form.SHAFT, diameter=6.5, x=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +27,7 @@ def carrier() -> ah.Hull:
 @pytest.fixture(scope="module")
 def found(carrier: ah.Hull) -> Mapping[str, Value]:
     """Its form parameters at the design draught, with a screw."""
-    return ah.form_parameters(carrier)
+    return ah.form_parameters(carrier, screw=SCREW)
 
 
 def number(found: Mapping[str, Value], symbol: str) -> float:
@@ -85,3 +86,107 @@ def test_an_emerging_bulb_is_immersed_in_part(carrier: ah.Hull) -> None:
     assert number(trimmed, "LIBA") == pytest.approx(area, rel=1e-4)
     dry = ah.form_parameters(carrier, draughts=(12.0, 1.0), only=["LIBA"])
     assert number(dry, "LIBA") == 0.0
+
+
+# The stern.
+
+
+def test_overhang_and_transom_are_those_of_the_form(found: Mapping[str, Value]) -> None:
+    """SO, TH, TRZ: the transom stands 5 m abaft AP and 0.4 m above the design draught."""
+    assert number(found, "SO") == pytest.approx(5.0, abs=1e-9)
+    assert number(found, "TH") == pytest.approx(18.4, abs=1e-9)
+    assert number(found, "TRZ") == pytest.approx(-0.4, abs=1e-9)
+
+
+def test_a_dry_transom_has_no_immersed_area(found: Mapping[str, Value]) -> None:
+    """ATT is truly nil; a breadth on the waterline there is not."""
+    assert number(found, "ATT") == 0.0
+    assert found["B_tr"].reason == "transom is dry"
+
+
+def test_an_immersed_transom_is_measured_in_the_floating_plane(carrier: ah.Hull) -> None:
+    """ATT, B_tr, TRZ at a trim by the stern, against the formula's half-breadths."""
+    aft, fore = 22.0, 17.0
+    part = ah.form_parameters(carrier, draughts=(aft, fore), only=["ATT", "B_tr", "TRZ"])
+    level = aft - (fore - aft) / FP * 5.0
+    half = float(form.half_breadth(form.TRANSOM, level))
+    low = form.TRANSOM_LOW
+    area = 2.0 * quad(lambda z: float(form.half_breadth(form.TRANSOM, z)), low, level)[0]
+    assert number(part, "B_tr") == pytest.approx(2.0 * half, abs=2e-3)
+    assert number(part, "ATT") == pytest.approx(area, rel=2e-4)
+    assert number(part, "TRZ") == pytest.approx(3.6, abs=1e-9)
+
+
+def test_the_bottom_at_ap_is_the_contours(found: Mapping[str, Value]) -> None:
+    """Hap, StemA: height and slope of the overhang at AP."""
+    z = brentq(lambda z: float(form.contour_over_bossing(z)), 9.0, 18.0, xtol=1e-12)
+    step = 1e-5
+    run = np.diff(form.contour_over_bossing([z - step, z + step]))[0]
+    assert number(found, "Hap") == pytest.approx(z, abs=1e-5)
+    assert number(found, "StemA") == pytest.approx(
+        np.degrees(np.arctan2(2.0 * step, abs(run))), abs=5e-3
+    )
+
+
+def test_boss_and_aperture_are_those_of_the_form(found: Mapping[str, Value]) -> None:
+    """SBx, SBD, SA, SCH: a cylinder of 0.725 m from x = 6.0 to 7.5 about the shaft at 5.0 m."""
+    assert number(found, "SBx") == form.BOSS_AFT
+    assert number(found, "SBD") == pytest.approx(2.0 * form.BOSS, abs=2e-6)
+    assert number(found, "SA") == pytest.approx(form.BOSS_FORE, abs=1e-9)
+    assert number(found, "SCH") == form.SHAFT
+
+
+def test_the_screw_is_as_deep_as_the_numbers_say(found: Mapping[str, Value]) -> None:
+    """PI = 18 - 5 - 3.25; PTC from the overhang at x = 3, drawn within 1e-3 m."""
+    z = brentq(lambda z: float(form.contour_over_bossing(z)) - 3.0, 9.0, 18.0, xtol=1e-12)
+    assert number(found, "PI") == pytest.approx(9.75, abs=1e-12)
+    assert number(found, "PTC") == pytest.approx((z - 8.25) / 0.065, abs=0.02)
+
+
+# Sections.
+
+
+def test_breadths_at_the_screw_are_the_forms(found: Mapping[str, Value]) -> None:
+    """BCL, B07, Tau at station 2."""
+    x = 2.0 * STATION
+    shaft, blade, water = form.half_breadth(x, np.array([5.0, 5.0 + 0.7 * 3.25, DRAUGHT]))
+    assert number(found, "BCL") == pytest.approx(float(shaft), abs=1e-4)
+    assert number(found, "B07") == pytest.approx(float(blade), abs=1e-3)
+    tau = np.degrees(np.arctan2(water - shaft, DRAUGHT - 5.0))
+    assert number(found, "Tau") == pytest.approx(float(tau), abs=1e-3)
+
+
+@pytest.mark.parametrize(("symbol", "station"), [("S3", 1.5), ("S3'", 1.0)])
+def test_the_stern_area_ratio_is_that_of_the_form(
+    found: Mapping[str, Value], symbol: str, station: float
+) -> None:
+    """S3 and S3' with both their areas: V-shaped sections lie inside their chord."""
+    x = station * STATION
+    low = form.pieces(x)[0][0]
+    half = float(form.half_breadth(x, DRAUGHT))
+
+    def outside(z: float) -> float:
+        return float(form.half_breadth(x, z)) - half * (z - low) / (DRAUGHT - low)
+
+    shaft = max(low, form.SHAFT)
+    first = quad(outside, shaft, DRAUGHT, limit=200)[0]
+    second = quad(lambda z: float(form.half_breadth(x, z)), low, DRAUGHT, limit=200)[0]
+    assert number(found, f"{symbol}.A1") == pytest.approx(first, abs=2e-3)
+    assert number(found, f"{symbol}.A2") == pytest.approx(second, rel=2e-5)
+    assert number(found, symbol) == pytest.approx(first / second, abs=2e-5)
+    assert first < 0.0
+
+
+def test_the_after_section_is_hollow(found: Mapping[str, Value]) -> None:
+    """Raft: the circle through three places of station 1.5, by a second formula; - if hollow."""
+    z = np.array([0.25, 0.5, 0.75]) * DRAUGHT
+    y = form.half_breadth(1.5 * STATION, z)
+    # (y - a)^2 + (z - b)^2 = r^2 is linear in a, b and r^2 - a^2 - b^2.
+    known = np.linalg.solve(np.column_stack([2.0 * y, 2.0 * z, np.ones(3)]), y * y + z * z)
+    radius = np.sqrt(known[2] + known[0] ** 2 + known[1] ** 2)
+    assert number(found, "Raft") == pytest.approx(-radius, rel=2e-4)
+
+
+def test_the_bilge_radius_is_the_forms(found: Mapping[str, Value]) -> None:
+    """BR: station 10 is drawn within 1e-4 m of its circle."""
+    assert number(found, "BR") == pytest.approx(form.BILGE, abs=2e-4)

@@ -147,7 +147,10 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "Screw": (
         ah.Screw,
-        {"height": 2.0, "diameter": 3.0, "x": None, "spacing": 0.0, "boss_diameter": None},
+        {
+            "height": 2.0, "diameter": 3.0, "x": None, "spacing": 0.0, "boss_diameter": None,
+            "boss_x": None,
+        },
     ),
     "LineSource.make": (
         ah.LineSource.make,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from assoc_hull.analysis.form.literature import KRACHT, TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
 from assoc_hull.analysis.form.section_shape import section_at
@@ -9,10 +10,6 @@ from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS"]
-
-_TABLE_3 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
-_TABLE_4 = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 4"
-_KRACHT = "Kracht, Design of bulbous bows, SNAME Transactions 86, 1978"
 
 _TIP = (
     "foremost place of the profile before FP and below the design draught, from which it runs "
@@ -23,7 +20,7 @@ _TIP = (
 @parameter(
     "BL", name="length of the bulb", unit="m", table="hull form",
     definition=f"x - Lpp at the bulb's tip: the {_TIP}", datum="from FP, + forward",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def bulb_length(shape: Shape) -> Found:
     tip = shape.take(bulb_tip)
@@ -33,7 +30,7 @@ def bulb_length(shape: Shape) -> Found:
 @parameter(
     "BH", name="height of the bulb's tip", unit="m", table="hull form",
     definition=f"z of the bulb's tip: the {_TIP}", datum="from the base line, up",
-    source=_TABLE_4,
+    source=TABLE_4,
 )  # fmt: skip
 def bulb_height(shape: Shape) -> Found:
     tip = shape.take(bulb_tip)
@@ -43,7 +40,7 @@ def bulb_height(shape: Shape) -> Found:
 @parameter(
     "BW", name="breadth of the section at FP", unit="m", table="hull form",
     definition="greatest full breadth of the section at FP below the design draught",
-    datum="both sides", source=_TABLE_4,
+    datum="both sides", source=TABLE_4,
 )  # fmt: skip
 def bulb_breadth(shape: Shape) -> Found:
     section = section_at(shape, shape.length)
@@ -54,7 +51,7 @@ def bulb_breadth(shape: Shape) -> Found:
 @parameter(
     "Abulb", name="area of the section at FP", unit="m2", table="hull form",
     definition="area of the section at FP below T, all of it, of a ship with a bulb",
-    datum="both sides", source=_TABLE_4, needs=(SHAPE, "BL"),
+    datum="both sides", source=TABLE_4, needs=(SHAPE, "BL"),
 )  # fmt: skip
 def bulb_area(shape: Shape, bulb: float) -> Found:
     section = section_at(shape, shape.length)
@@ -64,7 +61,7 @@ def bulb_area(shape: Shape, bulb: float) -> Found:
 @parameter(
     "LBA", name="lateral area of the bulb", unit="m2", table="hull form",
     definition="area of the profile before FP and below the design draught",
-    datum="in the centre plane", source=_TABLE_4, needs=(SHAPE, "BL"),
+    datum="in the centre plane", source=TABLE_4, needs=(SHAPE, "BL"),
 )  # fmt: skip
 def lateral_area(shape: Shape, bulb: float) -> float:
     return area_before_fp(shape, shape.header.draught, 0.0)
@@ -73,7 +70,7 @@ def lateral_area(shape: Shape, bulb: float) -> float:
 @parameter(
     "LIBA", name="immersed lateral area of the bulb", unit="m2", table="hydrostatic",
     definition="area of the profile before FP and below the floating plane",
-    datum="in the centre plane", source=_TABLE_3, needs=(SHAPE, "BL"),
+    datum="in the centre plane", source=TABLE_3, needs=(SHAPE, "BL"),
 )  # fmt: skip
 def immersed_lateral_area(shape: Shape, bulb: float) -> float:
     rise = -shape.position.trim_by_stern / shape.length
@@ -85,7 +82,7 @@ def immersed_lateral_area(shape: Shape, bulb: float) -> float:
 
 @parameter(
     "Z_B", name="height of the bulb's foremost place", unit="m", table="measures",
-    definition="BH", datum="from the base line, up", source=_KRACHT, needs=("BH",),
+    definition="BH", datum="from the base line, up", source=KRACHT, needs=("BH",),
 )  # fmt: skip
 def kracht_height(height: float) -> float:
     return height
@@ -93,7 +90,7 @@ def kracht_height(height: float) -> float:
 
 @parameter(
     "L_PR", name="protruding length of the bulb", unit="m", table="measures",
-    definition="BL", datum="from FP, + forward", source=_KRACHT, needs=("BL",),
+    definition="BL", datum="from FP, + forward", source=KRACHT, needs=("BL",),
 )  # fmt: skip
 def kracht_length(length: float) -> float:
     return length
@@ -101,7 +98,7 @@ def kracht_length(length: float) -> float:
 
 @parameter(
     "B_B", name="greatest breadth of the bulb at FP", unit="m", table="measures",
-    definition="BW of a ship with a bulb", datum="both sides", source=_KRACHT,
+    definition="BW of a ship with a bulb", datum="both sides", source=KRACHT,
     needs=("BW", "BL"),
 )  # fmt: skip
 def kracht_breadth(breadth: float, length: float) -> float:
@@ -110,7 +107,7 @@ def kracht_breadth(breadth: float, length: float) -> float:
 
 @parameter(
     "A_BT", name="cross section of the bulb at FP", unit="m2", table="measures",
-    definition="Abulb", datum="both sides", source=_KRACHT, needs=("Abulb",),
+    definition="Abulb", datum="both sides", source=KRACHT, needs=("Abulb",),
 )  # fmt: skip
 def kracht_across(area: float) -> float:
     return area
@@ -118,7 +115,7 @@ def kracht_across(area: float) -> float:
 
 @parameter(
     "A_BL", name="lateral area of the bulb before FP", unit="m2", table="measures",
-    definition="LBA", datum="in the centre plane", source=_KRACHT, needs=("LBA",),
+    definition="LBA", datum="in the centre plane", source=KRACHT, needs=("LBA",),
 )  # fmt: skip
 def kracht_along(area: float) -> float:
     return area

@@ -7,13 +7,18 @@ one's own is handed to `form_parameters` and needs no change anywhere.
 from __future__ import annotations
 
 from assoc_hull.analysis.form import (
+    after_section,
     bow,
     floating,
+    fore_section,
+    midship,
     particulars,
     parts,
     pending,
     proportions,
     resistance,
+    skeg,
+    stern,
     volume_coefficients,
     waterline,
     waterplane_coefficients,
@@ -24,9 +29,22 @@ from assoc_hull.model.named import Named
 __all__ = ["CATALOGUE"]
 
 _MODULES = (
-    particulars, floating, parts, waterline, volume_coefficients, waterplane_coefficients,
-    proportions, resistance, bow, pending,
-)  # fmt: skip
+    particulars,
+    floating,
+    volume_coefficients,
+    waterplane_coefficients,
+    proportions,
+    resistance,
+    parts,
+    waterline,
+    bow,
+    midship,
+    stern,
+    fore_section,
+    after_section,
+    skeg,
+    pending,
+)
 
 CATALOGUE = Named(
     "form parameter", check_catalogue(each for module in _MODULES for each in module.PARAMETERS)

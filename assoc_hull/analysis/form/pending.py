@@ -8,15 +8,7 @@ from assoc_hull.analysis.form.value import Absent
 __all__ = ["PARAMETERS"]
 
 _MEASURES = {
-    "m": "B_tr SO SCH TH TRZ L Ldiag BCL B07 "
-    "PI SA SBx SBD BR Hap HSKEG LSKEG XSKEG RSKEG Rfwd Raft",
-    "m2": "ATT S3.A1 S3.A2 S3'.A1 S3'.A2 ASKEG",
     "m3": "V_PR",
-    "deg": "Tau TTLS StemA TwVSA TwLSA",
-    "-": "S3 S3' L/Ldiag",
-    "st": "TwTTL",
-    "% D": "PTC",
-    "% B": "TwDS",
 }
 
 

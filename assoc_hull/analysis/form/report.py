@@ -23,7 +23,10 @@ from assoc_hull.model.definition import fingerprint
 
 __all__ = ["FormReport", "Part", "Row", "form_report", "number_text"]
 
-_HEAD = ("ship", "datum", "water", "shell factor", "wetted surface", "deck", "date", "fingerprint")
+_HEAD = (
+    "ship", "design draught", "datum", "water", "shell factor", "wetted surface", "deck", "date",
+    "fingerprint",
+)  # fmt: skip
 _WHERE = "in a report of form parameters"
 
 
@@ -124,7 +127,7 @@ class FormReport:
 
     def lines(self) -> Iterator[tuple[str, str]]:
         """Give the head, but for the particulars, as pairs of a title and words."""
-        known = dict(self.header.lines())
+        known = {**dict(self.header.lines()), "design draught": f"{self.header.draught:.3f} m"}
         yield from ((title, known[title]) for title in _HEAD if title in known)
         yield "screw", _screw_words(self.screw)
         yield from (("doubt", each) for each in self.doubts)
@@ -227,4 +230,6 @@ def _screw_words(screw: Screw | None) -> str:
     words.append(f"two, {screw.spacing:g} m apart" if screw.spacing else "one")
     if screw.boss_diameter is not None:
         words.append(f"boss {screw.boss_diameter:g} m")
+    if screw.boss_x is not None:
+        words.append(f"its aft face at x {screw.boss_x:g} m")
     return ", ".join(words)

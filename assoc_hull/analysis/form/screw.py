@@ -37,6 +37,8 @@ class Screw:
         Between the centres of the shafts of two screws; 0: one screw on the centre line.
     boss_diameter : float or None, m
         Of the stern boss at its aft face.
+    boss_x : float or None, m
+        Aft face of the stern boss, from AP, + forward.
 
     Raises
     ------
@@ -57,3 +59,4 @@ class Screw:
     boss_diameter: float | None = attrs.field(
         default=None, validator=checked(_maybe_positive, _WHERE)
     )
+    boss_x: float | None = attrs.field(default=None, validator=checked(_maybe_number, _WHERE))

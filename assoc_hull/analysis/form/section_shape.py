@@ -53,6 +53,10 @@ class Section:
         found = across(self.curves, 2, z).xyz[:, 1]
         return float(found.max()) if len(found) else None
 
+    def heights(self, y: float) -> FloatArray:
+        """Give the heights at a half-breadth, ascending, m."""
+        return np.sort(across(self.curves, 1, y).xyz[:, 2])
+
     def skins(self, z: float) -> FloatArray:
         """Give the half-breadths at a height, ascending, m."""
         return np.sort(across(self.curves, 2, z).xyz[:, 1])

@@ -6,14 +6,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.dual import real
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.segments import power
 
-__all__ = ["CENTRE", "Sections", "flat_ends_below", "sections_of"]
+__all__ = ["CENTRE", "Sections", "areas_of_ends", "flat_ends_below", "sections_of"]
 
 CENTRE = 1e-4
 """A curve that ends so near to the centre plane (m) ends on it."""
@@ -59,7 +59,8 @@ def sections_of(net: Net, closed: bool) -> Sections:
     chosen = chosen[np.argsort(net.x[chosen], kind="stable")]
     x, station = np.unique(net.x[chosen], return_inverse=True)
     names = tuple(net.name[int(chosen[np.argmax(station == i)])] for i in range(len(x)))
-    return Sections(_curves(net, chosen, closed), chosen, station, x, names)
+    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
+    return Sections(_curves(SplineBatch.join(parts), closed), chosen, station, x, names)
 
 
 def flat_ends_below(net: Net, closed: bool, planes: Planes) -> FloatArray:
@@ -67,16 +68,22 @@ def flat_ends_below(net: Net, closed: bool, planes: Planes) -> FloatArray:
     chosen = np.flatnonzero(np.isfinite(net.x) & net.end)
     if not len(chosen):
         return np.zeros(len(planes.height))
-    area: FloatArray = sections_below(_curves(net, chosen, closed), planes).sum(axis=1)
+    parts = [net.batch.part(curve, curve + 1) for curve in chosen.tolist()]
+    return areas_of_ends(SplineBatch.join(parts), closed, planes)
+
+
+def areas_of_ends(edges: SplineBatch, closed: bool, planes: Planes) -> FloatArray:
+    """Give the area inside the edges of ends across the ship, (d,), m2."""
+    area: FloatArray = sections_below(_curves(edges, closed), planes).sum(axis=1)
     return area
 
 
-def _curves(net: Net, chosen: IntArray, closed: bool) -> IsoCurves:
+def _curves(batch: SplineBatch, closed: bool) -> IsoCurves:
     """Give curves as tiles from keel to deck, with a deck where they end off the centre plane."""
     tiles: list[FloatArray] = []
     start, deck = [0], []
-    for curve in chosen.tolist():
-        cubic = _upward(power(net.batch.part(curve, curve + 1)))
+    for curve in range(batch.count):
+        cubic = _upward(power(batch.part(curve, curve + 1)))
         last = cubic[-1].sum(axis=0)
         covered = bool(closed and abs(last[1]) > CENTRE)
         if covered:

@@ -8,12 +8,12 @@ import numpy as np
 
 from assoc_hull.analysis.floating import rising
 from assoc_hull.analysis.floating_body import FloatingBody
-from assoc_hull.arguments import choice, number
+from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
-__all__ = ["HEELS", "OnError", "heels_of", "require_sound", "tons"]
+__all__ = ["HEELS", "OnError", "heels_of", "require_sound"]
 
 _WHERE = "in stability"
 
@@ -39,11 +39,6 @@ def heels_of(heels: object) -> FloatArray:
         why = "turns the ship over"
         raise OutOfRangeError("a heel", float(far[0]), _WHERE, why, -90.0, 90.0, "deg")
     return found
-
-
-def tons(weight: object) -> float | None:
-    """Take a weight, t, or None; that it is one which the hull carries is looked at later."""
-    return None if weight is None else number(weight, "weight", _WHERE)
 
 
 def require_sound(body: FloatingBody, planes: Planes, on_error: str) -> tuple[str, ...]:

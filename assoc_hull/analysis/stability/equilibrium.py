@@ -13,13 +13,15 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.equilibrium import tons
 from assoc_hull.analysis.floating import FloatingPosition, planes_of
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import OnError, require_sound, tons
+from assoc_hull.analysis.stability.asked import OnError, require_sound
 from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
 from assoc_hull.analysis.stability.crossings import crossings
+from assoc_hull.analysis.stability.flooding import open_deck_limit
 from assoc_hull.analysis.stability.heeled import Heeled, heeled
 from assoc_hull.analysis.stability.levers import Case
 from assoc_hull.arguments import number
@@ -29,11 +31,14 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 __all__ = ["Equilibrium", "equilibrium", "equilibrium_of"]
 
 _WHERE = "in an equilibrium"
-_STEPS = np.array(
-    [0.0, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0]
-)
+_STEPS = np.array([1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0])
+"""Heels that are tried, degrees."""
+
 _LEAST = 1e-3
 """Degrees: beyond this an unstable ship is past upright."""
+
+_RIM = 1e-6
+"""Degrees by which the edge of an open deck is not come nearer to."""
 
 _NONE = 1e-12
 """A lever (m) that is rounding."""
@@ -141,28 +146,27 @@ def equilibrium_of(body: FloatingBody, header: HydrostaticHeader, asked: Asked) 
     if abs(gz) <= _NONE and gm > 0.0:
         return Equilibrium(_position(case, upright), "upright", gm, gm, condition, notes)
     side = -1.0 if gz > _NONE else 1.0
-    rest = _rest(case, side, loll=abs(gz) <= _NONE)
+    limit = None if body.limits.closed else open_deck_limit(case, condition, int(side))
     kind: Literal["list", "loll"] = "loll" if abs(gz) <= _NONE else "list"
+    rest = _rest(case, side, limit, loll=kind == "loll")
     if kind == "loll":
         notes = (*notes, "unstable upright: she may rest as well at this heel to port")
     return Equilibrium(_position(case, rest), kind, float(rest.growth[0]), gm, condition, notes)
 
 
-def _rest(case: Case, side: float, *, loll: bool) -> Heeled:
+def _rest(case: Case, side: float, limit: float | None, *, loll: bool) -> Heeled:
     """Give the ship at the first heel at which her lever rises through nought."""
-    at = _STEPS.copy()
-    at[0] = _LEAST if loll else 0.0
+    at = np.append(_LEAST if loll else 0.0, _STEPS)
+    if limit is not None:
+        at = np.append(at[at < limit], max(limit - _RIM, at[0]))
     tried = heeled(case, side * at)
     levers = side * tried.gz
     levers[0] = -np.inf  # she goes on from upright
     rights = np.flatnonzero(levers >= 0.0)
-    lost = np.flatnonzero(~np.isfinite(levers[1:]))
-    end = int(lost[0]) if len(lost) else len(at) - 1
-    if not len(rights) or rights[0] > end:
-        drowned = len(lost) and not case.afloat.body.limits.closed
-        before = (
-            "before the edge of the open deck goes under" if drowned else (f"up to {at[end]:g} deg")
-        )
+    if not len(rights):
+        before = f"up to {at[-1]:g} deg"
+        if limit is not None:
+            before = f"before the edge of the open deck goes under at {limit:.2f} deg"
         raise BadInputError(
             f"she does not come to rest {before}", _WHERE, "lower KG, or bring TCG nearer to 0"
         )

@@ -7,6 +7,7 @@ suddenly where a deck edge goes under or a bilge comes out.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 
 import attrs
@@ -56,6 +57,14 @@ class LeverCurve:
     @cached_property
     def _areas(self) -> CubicHermiteSpline:
         return self._cubics.antiderivative()
+
+    def through(self, heel_deg: Iterable[float | None]) -> LeverCurve:
+        """Give the curve with levers computed at more heels (degrees, to the side judged)."""
+        more = [self.side * each for each in heel_deg if each is not None]
+        if not more:
+            return self
+        found = _afloat(heeled(self.case, np.array(more), near=self.heels))
+        return LeverCurve(self.case, self.heels.joined(found), self.side)
 
     @property
     def end(self) -> float:

@@ -8,11 +8,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.equilibrium import tons
 from assoc_hull.analysis.floating import planes_of
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import HEELS, OnError, heels_of, require_sound, tons
+from assoc_hull.analysis.stability.asked import HEELS, OnError, heels_of, require_sound
 from assoc_hull.analysis.stability.condition import Asked, case_of, condition_of
 from assoc_hull.analysis.stability.criteria import Judged, intact_criteria
 from assoc_hull.analysis.stability.flooding import (
@@ -117,7 +118,9 @@ def stability(
     header = header_of(hull, body, terms)
     centre = None if lcg is None else number(lcg, "lcg", _WHERE)
     aside = number(tcg, "tcg", _WHERE)
-    asked = Asked(tons(weight), draught, draughts, centre, aside, header.kg)
+    asked = Asked(
+        None if weight is None else tons(weight), draught, draughts, centre, aside, header.kg
+    )
     found = stability_of(body, header, asked, trim, wanted, points)
     upright = planes_of([found.condition.upright], header.length)
     doubts = require_sound(body, upright, on_error)
@@ -157,11 +160,11 @@ def stability_of(
         raise BadInputError("she does not float upright", _WHERE, remedy)
     side = -1 if upright.gz[0] > 1e-12 else 1
     limit = None if body.limits.closed else open_deck_limit(case, condition, side)
-    end = _end(limit)
-    curve = lever_curve(case, _nodes(heels, side, end), side)
+    curve = lever_curve(case, _nodes(heels, side, _end(limit)), side)
     drowned = drowned_at(curve, [both_sides(body.limits.deck), *(each.places for each in points)])
     floodings = tuple(map(Flooding, points, drowned[1:]))
     first = min((each for each in drowned[1:] if each is not None), default=None)
+    curve = curve.through([*drowned[:1], first])
     why = _why(curve.end, limit)
     gz_max, largest = curve.most()
     return Stability(
@@ -174,12 +177,15 @@ def stability_of(
 
 def _end(limit: float | None) -> float:
     """Give the largest heel that is computed, degrees."""
-    return 90.0 if limit is None else max(limit - _RIM, 0.0)
+    if limit is not None and limit <= 2.0 * _RIM:
+        remedy = "give less draught, or close the deck"
+        raise BadInputError("the edge of the open deck is in the water upright", _WHERE, remedy)
+    return 90.0 if limit is None else limit - _RIM
 
 
 def _nodes(heels: FloatArray, side: int, end: float) -> FloatArray:
     """Give the heels from which the curve is begun: all that are asked, and every 5 degrees."""
-    most = max(_LEAST, float((side * heels).max()))
+    most = max(_LEAST, float(np.abs(heels).max()))
     least = min(0.0, float((side * heels).min()))
     steps = np.arange(0.0, 90.0 + _STEP, _STEP)
     judged = np.concatenate([steps[steps < most], [most], -steps[-steps > least], [least]])

@@ -19,6 +19,8 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 from tests.floating_bodies import StripBody, box_body, ellipsoid_body, head, wigley_body
 
+Made = Callable[[], StripBody]
+
 WIGLEY_VOLUME = 25000.0 / 9.0
 ELLIPSOID_VOLUME = 3781.5467126543804
 

@@ -44,9 +44,11 @@ def test_the_place_and_the_water_are_as_asked(hull: Path, facts: Json) -> None:
 def test_the_screw_is_as_told(hull: Path, facts: Json) -> None:
     """Height and diameter at least."""
     found = facts("parameters", hull, "--shaft-height", 2, "--propeller-diameter", 3, "--screw-x",
-                  2.5, "--shaft-spacing", 4, "--boss-diameter", 0.5, "--only", "Cb")  # fmt: skip
+                  2.5, "--shaft-spacing", 4, "--boss-diameter", 0.5, "--boss-x", 2.0,
+                  "--only", "Cb")  # fmt: skip
     assert found["screw"] == {
-        "height": 2.0, "diameter": 3.0, "x": 2.5, "spacing": 4.0, "boss_diameter": 0.5
+        "height": 2.0, "diameter": 3.0, "x": 2.5, "spacing": 4.0, "boss_diameter": 0.5,
+        "boss_x": 2.0,
     }  # fmt: skip
     found = facts(
         "parameters", hull, "--shaft-height", 2, "--propeller-diameter", 3, "--only", "Cb"

@@ -1,0 +1,118 @@
+"""Measures of the stern: transom, boss end, bottom above the screw, aperture."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.form.profile import NO_PROFILE, profile_at, profile_curves
+from assoc_hull.analysis.form.section_shape import section_at
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.value import Absent
+from assoc_hull.analysis.net.sections import CENTRE
+from assoc_hull.geometry.circle import fit_circle
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.evaluation import sample
+from assoc_hull.geometry.places import turning_places
+
+__all__ = ["Boss", "aft_end", "boss", "bottom_at", "height_above", "leaves_boss", "transom"]
+
+_AT_END = 1e-3
+"""A flat end so near to the aftmost place of the lines (m) is the transom."""
+
+_LEVEL = 1e-4
+"""Places that differ in height by less (m) are level."""
+
+
+def _flat_ends(shape: Shape) -> list[int]:
+    """Give the curves of the net that are flat ends of the after body."""
+    net = shape.body.net
+    return np.flatnonzero(net.end & (net.x < 0.5 * shape.length)).tolist()
+
+
+def transom(shape: Shape) -> SplineBatch | Absent:
+    """Give the edge of the transom: a flat end across the ship at the aft end of all lines."""
+    net = shape.body.net
+    aftmost = float(net.batch.xyz[:, 0].min())
+    chosen = [i for i in _flat_ends(shape) if net.x[i] <= aftmost + _AT_END]
+    if not chosen:
+        return Absent("no transom")
+    return SplineBatch.join([net.batch.part(i, i + 1) for i in chosen])
+
+
+@attrs.frozen
+class Boss:
+    """A boss end on the centre line, as drawn.
+
+    Attributes
+    ----------
+    x : float, m
+        Of its aft face.
+    top : float, m
+        z of its upper side.
+    diameter : float, m
+        Of the circle through its edge.
+    """
+
+    x: float
+    top: float
+    diameter: float
+
+
+def boss(shape: Shape) -> Boss | None:
+    """Give the boss end: a flat end that begins and ends on the centre plane, not the transom."""
+    net, edge = shape.body.net, shape.take(transom)
+    aft = np.nan if isinstance(edge, Absent) else float(edge.xyz[0, 0])
+    for i in _flat_ends(shape):
+        one = net.batch.part(i, i + 1)
+        if net.x[i] != aft and np.abs(one.xyz[[0, -1], 1]).max() <= CENTRE:
+            places = sample(one)[1][:, 1:]
+            both = np.concatenate([places, places * [-1.0, 1.0]])
+            diameter = 2.0 * fit_circle(both).radius
+            return Boss(float(net.x[i]), float(one.xyz[[0, -1], 2].max()), diameter)
+    return None
+
+
+def leaves_boss(shape: Shape, end: Boss) -> float | Absent:
+    """Give x where the profile above leaves the boss, whose upper side is level, m."""
+    curves = shape.take(profile_curves)
+    if curves is None:
+        return NO_PROFILE
+    for i in range(curves.count):
+        xyz = curves.part(i, i + 1).xyz
+        for run in (xyz, xyz[::-1]):
+            if abs(run[0, 0] - end.x) <= CENTRE and abs(run[0, 2] - end.top) <= CENTRE:
+                level = np.abs(run[:, 2] - end.top) <= _LEVEL
+                return float(run[int(np.append(level, False).argmin()) - 1, 0])
+    return Absent("no profile above the boss")
+
+
+def aft_end(shape: Shape) -> float | Absent:
+    """Give x of the aft end of the profile, m."""
+    curves = shape.take(profile_curves)
+    if curves is None:
+        return NO_PROFILE
+    return float(np.concatenate(turning_places(curves, 0))[:, 0].min())
+
+
+def bottom_at(shape: Shape, x: float) -> tuple[float, FloatArray] | Absent:
+    """Give height (m) and direction of the profile at a place, where it is lowest."""
+    found = profile_at(shape, 0, x)
+    if found is None:
+        return NO_PROFILE
+    if not len(found.t):
+        return Absent("the profile does not reach there")
+    lowest = int(found.xyz[:, 2].argmin())
+    return float(found.xyz[lowest, 2]), found.along[lowest]
+
+
+def height_above(shape: Shape, x: float, y: float, z: float) -> float | Absent:
+    """Give the height of the hull over a place, m: its lowest z there that is above `z`."""
+    if y == 0.0:
+        places = profile_at(shape, 0, x)
+        found = np.zeros(0) if places is None else places.xyz[:, 2]
+    else:
+        section = section_at(shape, x)
+        found = np.zeros(0) if section is None else section.heights(y)
+    above = found[found > z]
+    return float(above.min()) if len(above) else Absent("no hull above the screw")
