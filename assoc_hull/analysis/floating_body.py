@@ -11,7 +11,7 @@ from assoc_hull.analysis.floating import Limits
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.immersed import Immersed, Planes
 
-__all__ = ["Change", "FloatingBody", "Measurable", "StationAreas"]
+__all__ = ["Change", "FloatingBody", "Floats", "Measurable", "StationAreas"]
 
 
 @attrs.frozen(eq=False)
@@ -68,6 +68,19 @@ class Measurable(Protocol):
 
     def transom(self, planes: Planes) -> FloatArray:
         """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        ...
+
+
+class Floats(Protocol):
+    """What can be floated: integrals below planes, and what planes must lie between."""
+
+    @property
+    def limits(self) -> Limits:
+        """What a waterplane must lie between, and the deck edge."""
+        ...
+
+    def measure(self, planes: Planes) -> Immersed:
+        """Give the integrals below each plane."""
         ...
 
 

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.floating import FloatingPosition, Limits, planes_of
-from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.floating_body import Floats
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
@@ -68,7 +68,7 @@ def freeboard(deck: FloatArray, position: FloatingPosition, length: float) -> Fr
 
 
 def deck_edge_angle(
-    body: FloatingBody,
+    body: Floats,
     position: FloatingPosition,
     length: float,
     appendages: tuple[Appendage, ...] = (),
@@ -80,7 +80,7 @@ def deck_edge_angle(
 
     Parameters
     ----------
-    body : FloatingBody
+    body : Floats
         The hull.
     position : FloatingPosition
         Where it floats upright; its own heel does not count.
@@ -116,7 +116,7 @@ def deck_edge_angle(
 
 
 def _touching_volume(
-    body: FloatingBody,
+    body: Floats,
     heel: float,
     slope: float,
     length: float,

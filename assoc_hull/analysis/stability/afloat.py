@@ -7,7 +7,7 @@ import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage, with_appendages
 from assoc_hull.analysis.bracketed import newton
-from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.floating_body import Floats
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Immersed, Planes
 
@@ -26,7 +26,7 @@ class Afloat:
 
     Attributes
     ----------
-    body : FloatingBody
+    body : Floats
         The hull.
     length : float, m
         Between perpendiculars.
@@ -34,7 +34,7 @@ class Afloat:
         That carry as well.
     """
 
-    body: FloatingBody
+    body: Floats
     length: float
     appendages: tuple[Appendage, ...] = ()
 

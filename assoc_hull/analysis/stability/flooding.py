@@ -7,19 +7,22 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.floating import Limits
+from assoc_hull.analysis.floating_body import Floats
 from assoc_hull.analysis.freeboard import deck_edge_angle
 from assoc_hull.analysis.stability.condition import Condition
 from assoc_hull.analysis.stability.crossings import crossings
-from assoc_hull.analysis.stability.heeled import Heeled, heeled
+from assoc_hull.analysis.stability.heeled import heeled
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
 from assoc_hull.analysis.stability.levers import Case
 from assoc_hull.arguments import checked, flag, place, text
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersed import Immersed, Planes
 
 __all__ = ["Flooding", "FloodingPoint", "both_sides", "drowned_at", "open_deck_limit"]
 
 _WHERE = "in a down-flooding point"
-_STEP, _STEEPEST = 5.0, 89.0
+_STEP, _STEEPEST = 5.0, 85.0
 
 
 def _three(value: object) -> tuple[float, float, float]:
@@ -117,7 +120,7 @@ def drowned_at(curve: LeverCurve, groups: Sequence[FloatArray]) -> list[float | 
 
 
 def open_deck_limit(case: Case, condition: Condition, side: int) -> float | None:
-    """Tell to which heel (degrees) the edge of an open deck stays dry; None: to 89 degrees.
+    """Tell to which heel (degrees) the edge of an open deck stays dry; None: to the end.
 
     Parameters
     ----------
@@ -130,18 +133,34 @@ def open_deck_limit(case: Case, condition: Condition, side: int) -> float | None
     if case.trim == "fixed":
         return deck_edge_angle(afloat.body, condition.upright, afloat.length, afloat.appendages)
     edge = both_sides(afloat.body.limits.deck)
+    over = attrs.evolve(case, afloat=attrs.evolve(afloat, body=_Lidded(afloat.body)))
 
-    def dry(heels: Heeled) -> FloatArray:
-        least = heels.dry(edge).min(axis=1)
+    def dry(heel: FloatArray, _: IntArray) -> FloatArray:
+        least = heeled(over, side * heel).dry(edge).min(axis=1)
         return np.where(np.isfinite(least), least, -np.inf)
 
-    at = np.append(np.arange(0.0, _STEEPEST, _STEP), _STEEPEST)
-    tried = heeled(case, side * at)
-    wet = dry(tried) <= 0.0
-    if not wet.any():
-        return None
-    last = int(wet.argmax())
-    if last == 0:
-        return 0.0
-    found = crossings(lambda h, _: dry(heeled(case, side * h)), at[[last - 1]], at[[last]])
-    return float(found[0])
+    low = 0.0
+    while low < _STEEPEST:
+        high = min(low + _STEP, _STEEPEST)
+        if dry(np.array([high]), np.zeros(1, np.int64))[0] <= 0.0:
+            return float(crossings(dry, np.array([low]), np.array([high]))[0])
+        low = high
+    return None
+
+
+@attrs.frozen
+class _Lidded:
+    """An open hull whose integrals are taken a little beyond its deck edge as well.
+
+    They are not those of a ship there, but go on smoothly: where the edge touches the water
+    is found from both sides.
+    """
+
+    body: Floats
+
+    @property
+    def limits(self) -> Limits:
+        return attrs.evolve(self.body.limits, closed=True)
+
+    def measure(self, planes: Planes) -> Immersed:
+        return self.body.measure(planes)

@@ -67,7 +67,11 @@ class Sought:
 
 
 def trimmed(
-    afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray
+    afloat: Afloat,
+    sought: Sought,
+    mean: FloatArray,
+    slope: FloatArray,
+    thorough: NDArray[np.bool_],
 ) -> tuple[FloatArray, FloatArray]:
     """Find mean draughts and trims at which buoyancy lies below gravity.
 
@@ -79,6 +83,8 @@ def trimmed(
         Volumes, centres and heels.
     mean, slope : (d,), m and 1
         First trials: mean draughts, nan where none is to be found, and tangents of trim.
+    thorough : (d,) bool
+        Where a trim is looked for in a bracket if Newton's rule does not arrive.
 
     Returns
     -------
@@ -90,6 +96,8 @@ def trimmed(
     known = np.flatnonzero(np.isfinite(mean))
     mean[known], slope[known] = _together(afloat, sought.some(known), mean[known], slope[known])
     left = known[~_balanced(afloat, sought.some(known), mean[known], slope[known])]
+    mean[left] = slope[left] = np.nan
+    left = left[thorough[left]]
     if len(left):
         rest = sought.some(left)
         mean[left], slope[left] = _one_by_one(afloat, rest)
@@ -130,7 +138,7 @@ def _together(
         part = np.minimum(1.0, _STEP / np.maximum(np.abs(turn) * of.cosine, 1e-300))
         size = np.maximum(np.abs(step), np.abs(turn) * afloat.length) / (high - low)
         slope[rows] += part * turn
-        mean[rows] = _inside(afloat, of, mean[rows] + part * step, slope[rows])
+        mean[rows] = _inside(afloat, of, mean[rows], part * step, slope[rows])
         done = (size <= _FINE) | ((size <= _SMALL) & (size >= 0.5 * last[rows]))
         last[rows] = size
         lost = ~(np.isfinite(mean[rows]) & (np.abs(slope[rows]) * of.cosine < STEEPEST))
@@ -139,12 +147,19 @@ def _together(
     return mean, slope
 
 
-def _inside(afloat: Afloat, sought: Sought, mean: FloatArray, slope: FloatArray) -> FloatArray:
-    """Keep mean draughts within what is admissible at their trims; nan where nothing is."""
+def _inside(
+    afloat: Afloat, sought: Sought, mean: FloatArray, step: FloatArray, slope: FloatArray
+) -> FloatArray:
+    """Take steps of mean draughts, half way to the end of what is admissible at the new trims.
+
+    Nan where nothing is.
+    """
     low, high = afloat.range(slope, sought.heel)
-    rim = 1e-3 * (high - low)
-    kept: FloatArray = np.where(mean <= low, low + rim, np.where(mean >= high, high - rim, mean))
-    return np.where(low < high, kept, np.nan)
+    within = (low < mean) & (mean < high)
+    old = np.where(within, mean, 0.5 * (low + high))
+    new = np.where(within, mean + step, old)
+    new = np.where(new <= low, 0.5 * (old + low), np.where(new >= high, 0.5 * (old + high), new))
+    return np.where(low < high, new, np.nan)
 
 
 def _step(

@@ -140,8 +140,10 @@ def _direct(case: Case, heel_deg: FloatArray, row: IntArray, near: Heeled | None
         mean = sinkage(case.afloat, volume, slope, heel, mean)
     if case.trim == "free":
         sought = Sought(volume, lcg, case.kg, heel)
-        mean = np.where(beyond, np.nan, mean)
-        mean, slope = trimmed(case.afloat, sought, mean, slope if known is None else known)
+        thorough = np.isfinite(mean)  # an open deck that one trim drowns another may leave dry
+        mean = np.where(beyond, np.nan, np.where(thorough, mean, case.mean[row]))
+        slope = slope if known is None else known
+        mean, slope = trimmed(case.afloat, sought, mean, slope, thorough)
     there = np.flatnonzero(np.isfinite(mean))
     found = case.afloat.measure(case.afloat.planes(mean[there], slope[there], heel[there]))
     good = np.abs(found.volume - volume[there]) <= EXACT * volume[there]
