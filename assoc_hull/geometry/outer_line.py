@@ -51,6 +51,13 @@ class OuterLine:
         return x, y
 
     @property
+    def aftmost(self) -> tuple[float, float]:
+        """Where the line is farthest aft: x and y, m; of several places that first met."""
+        places = self.point.reshape(-1, 2)
+        x, y = places[int((places[:, 0] <= places[:, 0].min() + _SPECK).argmax())].tolist()
+        return x, y
+
+    @property
     def angle(self) -> FloatArray:
         """By how much the line runs inward, (m, n), radians: pi / 2 where it runs across."""
         inward: FloatArray = np.arctan2(-self.slope[..., 1], np.abs(self.slope[..., 0]))

@@ -64,7 +64,8 @@ def bluntness(shape: Shape) -> Found:
 @parameter(
     "Rangle", name="angle of run", unit="deg", table="hull form",
     definition="between centre plane and the chord of the waterline at half the draughts, from "
-    "its after end to PMBs; without a parallel middle body, to the largest section",
+    "the aftmost place of its main piece to PMBs; without a parallel middle body, to the "
+    "largest section",
     source=TABLE_4,
 )  # fmt: skip
 def angle_of_run(shape: Shape) -> Found:
@@ -75,7 +76,7 @@ def angle_of_run(shape: Shape) -> Found:
     broad = shape.take(slices).half_breadth(curve.run, half)
     if line is None or broad is None:
         return Absent(f"{_NONE} at half the draught")
-    x, y = line.end
+    x, y = line.aftmost
     if curve.run <= x:
         return Absent("no run")
     angle = float(np.degrees(np.arctan2(broad - y, curve.run - x)))
