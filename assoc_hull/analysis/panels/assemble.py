@@ -128,7 +128,7 @@ def _sheets(
     planes = [plane] if choices.half or plane.tan_heel == 0.0 else [plane, plane.on_starboard()]
     found: list[Sheet] = []
     for i, band in enumerate(every):
-        cut = levels(band, planes, band.q_at(x), choices.fixed)
+        cut = levels(band, planes, x, choices.fixed)
         found += sheets(band, cut, plane, (i, True), length)
         if not choices.half:
             found += sheets(band, cut, plane.on_starboard(), (i, False), length)
