@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assoc_hull.analysis.stability.criteria import Criterion
+from assoc_hull.analysis.stability.cross_curves import CrossCurves
 from assoc_hull.analysis.stability.result import Stability
 from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.chart import Chart, Scale, block_of, chart_on, levels, scale_to, uprights
+from assoc_hull.plot.cross_curves import cross_curve_picture
 from assoc_hull.plot.labels import Lettered, label_lines
 from assoc_hull.plot.paper import PaperName, Pen
 from assoc_hull.plot.pens import AXIS, HEAVY, TINT
@@ -20,7 +22,7 @@ from assoc_hull.plot.sheet import Path_, Sheet, save
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["lever_picture"]
+__all__ = ["lever_picture", "plot_stability"]
 
 _GZ = Pen(0.4, "#0b3c6f", over=3.0)
 _ARM = Pen(0.28, "#0a7d55", (3.0, 1.0), 2.8)
@@ -29,6 +31,15 @@ _MARK = Pen(0.18, TINT, (2.0, 0.8), 2.4)
 _AREAS = ("#cfe0f2", "#9dbfe2")
 _COUNT = 400
 _RADIAN = float(np.degrees(1.0))
+
+
+def plot_stability(
+    found: Stability | CrossCurves, path: Path_ | None = None, *, paper: PaperName = "A3"
+) -> Figure:
+    """Draw righting levers or cross curves; see `lever_picture` and `cross_curve_picture`."""
+    if isinstance(found, CrossCurves):
+        return cross_curve_picture(found, path, paper=paper)
+    return lever_picture(found, path, paper=paper)
 
 
 def lever_picture(
