@@ -15,6 +15,7 @@ import assoc_hull.examples  # else its first import would bind this name again
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.curve_transforms import curve_transform
     from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
     from assoc_hull.analysis.form.form_parameters import form_parameters
@@ -74,6 +75,7 @@ __all__ = [
     "Tolerances",
     "UnknownNameError",
     "__version__",
+    "curve_transform",
     "examples",
     "form_parameters",
     "hydrostatic_derivatives",
@@ -88,6 +90,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "analysis.appendage": ("Appendage",),
+    "analysis.curve_transforms": ("curve_transform",),
     "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
     "analysis.form.form_parameters": ("form_parameters",),

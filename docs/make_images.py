@@ -55,12 +55,6 @@ def curves() -> Figure:
     return hydrostatic_curves(table, paper="A4")
 
 
-def series() -> Figure:
-    """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
-    areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
-    return curve_series(areas, terms=8)
-
-
 def form_sheet() -> Figure:
     """Draw the first page of the form parameters of the bulk carrier."""
     screw = Screw(height=4.9, diameter=8.8, x=7.5)
@@ -68,11 +62,17 @@ def form_sheet() -> Figure:
     return form_sheets(report)[0].figure
 
 
+def series() -> Figure:
+    """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
+    areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
+    return curve_series(areas, terms=8)
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "hydrostatic_curves": curves,
-    "curve_series": series,
     "form_sheet": form_sheet,
+    "curve_series": series,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

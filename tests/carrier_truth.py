@@ -10,16 +10,17 @@ from functools import cache
 
 import attrs
 import numpy as np
-from scipy.optimize import brentq
 
 from assoc_hull.examples import carrier_form as form
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["Sums", "Waterline", "area_of", "flotation_of", "volumes"]
+__all__ = [
+    "Sums", "Waterline", "area_of", "between", "flotation_of", "inertias", "volumes",
+]  # fmt: skip
 
-LENGTH, DRAUGHT = form.LENGTH, form.DRAUGHT
-PLACES = (7.5, 10.0, 24.0, 45.0, 60.0, 75.0, 150.0, 289.0, 300.0)
-"""Where formulas change along x, and where parts of the ship end."""
+DRAUGHT = form.DRAUGHT
+PLACES = (form.BOSS_FORE, 10.0, 24.0, 150.0, form.KEEL_FORE)
+"""Where formulas change along x."""
 
 LEVELS = (0.0, form.BILGE, 3.0, form.SHAFT - form.BOSS, form.SHAFT, form.SHAFT + form.BOSS,
           form.NOSE[1], form.CORNER, 12.0, 16.0, form.DRAUGHT)  # fmt: skip
@@ -39,11 +40,6 @@ class Waterline:
     y: FloatArray
     dx: FloatArray
 
-    def part(self, aft: float, fore: float) -> Waterline:
-        """What lies between two places, which are among `PLACES`."""
-        inside = (self.x > aft) & (self.x < fore)
-        return Waterline(self.x[inside], self.y[inside], self.dx[inside])
-
 
 def between(breaks: list[float]) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights in all intervals between sorted places."""
@@ -52,11 +48,12 @@ def between(breaks: list[float]) -> tuple[FloatArray, FloatArray]:
 
 
 @cache
-def waterline(z: float) -> Waterline:
-    """The waterline at a height."""
-    aft, fore = form.aft_end(z)[0], float(form.fore_end(z))
+def waterline(z: float, aft: float = -np.inf, fore: float = np.inf) -> Waterline:
+    """The part of the waterline at a height that lies between two places."""
+    low, high = max(aft, form.aft_end(z)[0]), min(fore, float(form.fore_end(z)))
     places = {*PLACES, float(form.aft_shoulder(z)), float(form.fore_shoulder(z))}
-    x, dx = between([aft, *sorted(each for each in places if aft < each < fore), fore])
+    inner = sorted(each for each in places if low < each < high)
+    x, dx = between([low, *inner, high] if low < high else [low, low])
     return Waterline(x, form.half_breadth(x, np.full_like(x, z)), dx)
 
 
@@ -71,7 +68,7 @@ class Sums:
 
 def flotation_of(aft: float = -np.inf, fore: float = np.inf) -> Sums:
     """The waterplane between two places; m2, m."""
-    part = waterline(DRAUGHT).part(aft, fore)
+    part = waterline(DRAUGHT, aft, fore)
     area = 2.0 * float(part.y @ part.dx)
     return Sums(area, 2.0 * float((part.x * part.y) @ part.dx) / area)
 
@@ -86,7 +83,7 @@ def inertias() -> tuple[float, float]:
 def volumes(aft: float = -np.inf, fore: float = np.inf) -> Sums:
     """The ship below the design waterline between two places; m3, m."""
     z, dz = between(list(LEVELS))
-    parts = [waterline(float(height)).part(aft, fore) for height in z]
+    parts = [waterline(height, aft, fore) for height in z.tolist()]
     area = np.array([2.0 * part.y @ part.dx for part in parts])
     moment = np.array([2.0 * (part.x * part.y) @ part.dx for part in parts])
     volume = float(area @ dz)
@@ -104,22 +101,3 @@ def area_of(x: float) -> float:
         z, dz = between([low, *sorted(each for each in levels if low < each < top), top])
         total += 2.0 * float(form.half_breadth(np.full_like(z, x), z) @ dz) if top > low else 0.0
     return total
-
-
-def parallel_body(part: float) -> tuple[float, float]:
-    """First and last place at which the section has that part of the greatest; m."""
-    least = part * area_of(150.0)
-    aft, fore = (
-        float(brentq(lambda x: area_of(x) - least, end, 150.0, xtol=1e-6)) for end in (60.0, 270.0)
-    )
-    return aft, fore
-
-
-def half_breadth(x: float) -> float:
-    """Of the design waterline at a place; m."""
-    return float(form.half_breadth(x, DRAUGHT))
-
-
-def aft_end() -> float:
-    """Of the design waterline; m."""
-    return form.aft_end(DRAUGHT)[0]

@@ -10,12 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from tests import carrier_truth
+import numpy as np
 
-__all__ = ["carrier", "ellipsoid", "wigley"]
+from assoc_hull.examples import carrier_form as form
+from tests import carrier_ends, carrier_truth
+
+__all__ = ["SCREW", "SCREW_AT", "SHAFT", "carrier", "ellipsoid", "parted", "wigley"]
 
 # Of 1 - s^2 from the end of a half length to a place: to stations 3 and 4, 5 and 10 of 20.
 AT_3, TO_4, AT_5, TO_5 = 0.51, 0.416 / 3.0, 0.75, 0.625 / 3.0
+
+SHAFT, SCREW, SCREW_AT = form.SHAFT, 9.0, 4.0
+"""Height of the carrier's shaft, diameter and place of a screw; m."""
 
 SAME_BOTH_ENDS = {"LCB": 0.0, "LCF": 50.0, "LCF-LCB": 0.0, "LWL": 100.0}
 
@@ -47,7 +53,39 @@ def wigley() -> dict[str, float]:
         "Eangle": math.degrees(math.atan(0.2)),
         "Bluntness": 25.0 * (0.04 - math.log(1.04)),
     }  # fmt: skip
-    return found | SAME_BOTH_ENDS
+    return found | SAME_BOTH_ENDS | _wigley_sections(draught)
+
+
+def _wigley_sections(draught: float) -> dict[str, float]:
+    """All half sections are parabolas with a vertical top: y = b (2 t - t^2), t = z / T."""
+    low, tip = 0.32, 0.488  # 2 m and 3.05 m, of the draught
+    ahead = 1.5 * (1.0 / 6.0 - low**2 / 2.0 + low**3 / 3.0)  # outside the chord, of the whole
+    golden = 0.5 * (math.sqrt(5.0) - 1.0)
+    breadth = {"aft": 1.3875, "aftmost": 0.95, "fore": 0.4875}
+    inner = 1.8 * (2.0 * low - low**2)
+    return {
+        "SCH": 2.0, "PI": 2.75, "BCL": inner, "B07": 1.8 * (2.0 * tip - tip**2),
+        "Tau": math.degrees(math.atan((1.8 - inner) / 4.25)),
+        "S3.A2": 2.0 / 3.0 * breadth["aft"] * draught, "S3": ahead,
+        "S3'.A2": 2.0 / 3.0 * breadth["aftmost"] * draught, "S3'": ahead,
+        "S3.A1": ahead * 2.0 / 3.0 * breadth["aft"] * draught,
+        "S3'.A1": ahead * 2.0 / 3.0 * breadth["aftmost"] * draught,
+        "Ldiag": math.hypot(5.0 / 3.0, draught), "L": golden * math.hypot(5.0 / 3.0, draught),
+        "L/Ldiag": golden, "Raft": _through_three(breadth["aft"], draught),
+        "Rfwd": _through_three(breadth["fore"], draught), "SO": 0.0, "Hap": 0.0,
+    }  # fmt: skip
+
+
+def _through_three(breadth: float, draught: float) -> float:
+    """Radius of the circle through the parabola at a quarter, a half and three quarters of T.
+
+    With sides of 5, 3 and 8 sixteenths of b across, the triangle's area is b T / 64.
+    """
+    sides = [
+        math.hypot(across * breadth / 16.0, along * draught / 4.0)
+        for across, along in ((5.0, 1.0), (3.0, 1.0), (8.0, 2.0))
+    ]
+    return math.prod(sides) * 16.0 / (breadth * draught)
 
 
 def ellipsoid() -> dict[str, float]:
@@ -85,26 +123,80 @@ def carrier() -> dict[str, float]:
 
 
 def _carrier_measures() -> dict[str, float]:
-    whole, plane = carrier_truth.volumes(), carrier_truth.flotation_of()
+    return _volumes() | _waterplanes() | _ends() | _sections()
+
+
+def _volumes() -> dict[str, float]:
+    whole = carrier_truth.volumes()
     aft, fore = carrier_truth.volumes(fore=150.0), carrier_truth.volumes(aft=150.0)
-    plane_aft, plane_fore = (
-        carrier_truth.flotation_of(fore=150.0),
-        carrier_truth.flotation_of(150.0),
-    )
-    across, along = carrier_truth.inertias()
     return {
         "V": whole.amount, "LCB": whole.x / 3.0 - 50.0, "VCB": whole.z,
-        "Aw": plane.amount, "LCF": plane.x, "I_T": across, "I_L": along,
-        "Amax": carrier_truth.area_of(150.0), "A_FP": carrier_truth.area_of(300.0),
-        "A_st3": carrier_truth.area_of(45.0), "A_st5": carrier_truth.area_of(75.0),
         "V_a": aft.amount, "V_f": fore.amount, "LCBa": aft.x, "LCBf": fore.x,
         "V_st4": carrier_truth.volumes(fore=60.0).amount,
         "V_st5": carrier_truth.volumes(fore=75.0).amount,
-        "Aw_a": plane_aft.amount, "Aw_f": plane_fore.amount,
-        "LCFa": plane_aft.x, "LCFf": plane_fore.x,
+        "V_PR": carrier_truth.volumes(aft=300.0).amount,
+    }  # fmt: skip
+
+
+def _waterplanes() -> dict[str, float]:
+    plane, (across, along) = carrier_truth.flotation_of(), carrier_truth.inertias()
+    aft, fore = carrier_truth.flotation_of(fore=150.0), carrier_truth.flotation_of(aft=150.0)
+    return {
+        "Aw": plane.amount, "LCF": plane.x, "I_T": across, "I_L": along,
+        "Aw_a": aft.amount, "Aw_f": fore.amount, "LCFa": aft.x, "LCFf": fore.x,
         "Aw_st5": carrier_truth.flotation_of(fore=75.0).amount,
-        "b_st5": carrier_truth.half_breadth(75.0),
-        "LWL": 300.0 - carrier_truth.aft_end(), "V_PR": carrier_truth.volumes(aft=300.0).amount,
+        "b_st5": float(form.half_breadth(75.0, 18.0)), "LWL": 300.0 - form.aft_end(18.0)[0],
+        "Bluntness": carrier_ends.bluntness(),
+    }  # fmt: skip
+
+
+def _sections() -> dict[str, float]:
+    area, third = (
+        carrier_truth.area_of(150.0),
+        carrier_ends.foremost(carrier_truth.area_of(150.0) / 3.0),
+    )
+    part, whole = third.diagonal()
+    second, after, aftmost = (carrier_ends.HalfSection(x) for x in (30.0, 22.5, 15.0))
+    outside, farther = after.off_chord(SHAFT), aftmost.off_chord(SHAFT)
+    return {
+        "Amax": area, "A_FP": carrier_truth.area_of(300.0), "A_st3": carrier_truth.area_of(45.0),
+        "A_st5": carrier_truth.area_of(75.0), "L": part, "Ldiag": whole, "L/Ldiag": part / whole,
+        "BCL": second.at(SHAFT), "B07": second.at(SHAFT + 0.35 * SCREW),
+        "Tau": second.inclination(SHAFT), "S3.A1": outside, "S3.A2": after.area,
+        "S3": outside / after.area, "S3'.A1": farther, "S3'.A2": aftmost.area,
+        "S3'": farther / aftmost.area, "Raft": after.radius(),
+        "Rfwd": carrier_ends.HalfSection(292.5).radius(), "BR": form.BILGE,
+    }  # fmt: skip
+
+
+def _ends() -> dict[str, float]:
+    area, lateral = carrier_truth.area_of(300.0), carrier_ends.bulb_area()
+    z = np.linspace(0.0, 18.0, 180001)
+    breadth = 2.0 * float(
+        np.where(form.fore_end(z) > 300.0, form.half_breadth(300.0, z), 0.0).max()
+    )
+    return {
+        "BL": 6.4, "BLR": 6.4 / 300.0, "BH": 7.0, "BW": breadth, "Abulb": area, "LBA": lateral,
+        "LIBA": lateral, "L_PR": 6.4, "Z_B": 7.0, "B_B": breadth, "A_BT": area, "A_BL": lateral,
+        "C_LPR": 6.4 / 300.0, "C_ZB": 7.0 / 18.0, "C_BB": breadth / 50.0,
+        "f_BL": lateral / 5400.0, "SO": 5.0, "TH": form.TRANSOM_LOW, "ATT": 0.0, "TRAR": 0.0,
+        "TRAR_paper": 0.0, "A_T": 0.0, "TRZ": 18.0 - form.TRANSOM_LOW,
+        "Hap": carrier_ends.overhang(0.0),
+        "StemA": carrier_ends.slope_at_ap(), "SCH": SHAFT, "PI": 18.0 - SHAFT - 0.5 * SCREW,
+        "PTC": 100.0 * (carrier_ends.overhang(SCREW_AT) - SHAFT - 0.5 * SCREW) / SCREW,
+        "SA": form.BOSS_FORE, "SBx": form.BOSS_AFT, "SBD": 2.0 * form.BOSS,
+    }  # fmt: skip
+
+
+def parted(run: float, entrance: float) -> dict[str, float]:
+    """Of the carrier, what depends on where her parallel body begins and ends, m from AP."""
+    area = carrier_truth.area_of(150.0)
+    aft, fore = carrier_truth.volumes(fore=run), carrier_truth.volumes(aft=entrance)
+    return {
+        "PMBs": run / 15.0, "PMBe": entrance / 15.0, "L_R": run, "L_E": 300.0 - entrance,
+        "V_R": aft.amount, "V_E": fore.amount, "CPR": aft.amount / (area * run),
+        "CPE": fore.amount / (area * (300.0 - entrance)),
+        "Rangle": carrier_ends.run_angle(run),
     }  # fmt: skip
 
 
@@ -126,4 +218,5 @@ def _coefficients(of: Mapping[str, float]) -> dict[str, float]:
         "BMT": of["I_T"] / volume, "BML": of["I_L"] / volume,
         "KMT": of["VCB"] + of["I_T"] / volume, "KML": of["VCB"] + of["I_L"] / volume,
         "LCF-LCB": of["LCF"] - 3.0 * (50.0 + of["LCB"]), "C_VPR": of["V_PR"] / volume,
+        "C_ABT": of["A_BT"] / area, "C_ABL": of["A_BL"] / area,
     }  # fmt: skip

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.chains import Chains, backward, cut, ends_of, joined, loop, straight
+from assoc_hull.geometry.chains import PlaneChains, backward, cut, ends_of, joined, loop, straight
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import unit_roots
@@ -27,7 +27,9 @@ _MEET = 1e-6
 """By this part of the range neighbours may miss each other, and a curve may run back."""
 
 
-def function_chain(curves: Sequence[Curve], axes: tuple[int, int], span: Span, name: str) -> Chains:
+def function_chain(
+    curves: Sequence[Curve], axes: tuple[int, int], span: Span, name: str
+) -> PlaneChains:
     """Give one coordinate of curves over another.
 
     Parameters
@@ -43,7 +45,7 @@ def function_chain(curves: Sequence[Curve], axes: tuple[int, int], span: Span, n
 
     Returns
     -------
-    Chains
+    PlaneChains
         One chain, its abscissa rising from end to end of the range.
 
     Raises
@@ -64,12 +66,12 @@ def function_chain(curves: Sequence[Curve], axes: tuple[int, int], span: Span, n
     _refuse_gaps(runs, _MEET * size, axis, where)
     whole = joined(runs)
     _refuse_return(whole, _MEET * size, axis, where)
-    return Chains.single(whole if span is None else _filled(whole, span))
+    return PlaneChains.single(whole if span is None else _filled(whole, span))
 
 
 def closed_chain(
     curves: Sequence[Curve], axes: tuple[int, int], mirror: int, span: Span, name: str
-) -> Chains:
+) -> PlaneChains:
     """Give curves closed with their mirror image.
 
     Parameters
@@ -87,7 +89,7 @@ def closed_chain(
 
     Returns
     -------
-    Chains
+    PlaneChains
         One closed chain, counter-clockwise, from a place in the mirror.
 
     Raises
@@ -110,14 +112,14 @@ def closed_chain(
         whole = joined(cut(whole, other, *span))
     if not len(whole):
         raise BadInputError("it does not reach into the span", where, "choose another span")
-    return Chains.single(loop(whole, mirror))
+    return PlaneChains.single(loop(whole, mirror))
 
 
 def _in_order(curves: Sequence[Curve], axes: tuple[int, int], along: int) -> list[FloatArray]:
     """Give the curves as chains, each forward along a coordinate, and one after the other."""
     found = []
     for curve in curves:
-        chain = Chains.of(curve.spline, axes).cubic
+        chain = PlaneChains.of(curve.spline, axes).cubic
         first, last = ends_of(chain)
         found.append(chain if first[along] <= last[along] else backward(chain))
     return sorted(found, key=lambda chain: float(sum(end[along] for end in ends_of(chain))))

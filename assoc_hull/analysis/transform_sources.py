@@ -21,7 +21,7 @@ from assoc_hull.geometry.chain_transforms import (
     length_of_chains,
     sine_of_chains,
 )
-from assoc_hull.geometry.chains import Chains
+from assoc_hull.geometry.chains import PlaneChains
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.transforms import (
     Series,
@@ -64,6 +64,9 @@ def of_line(
     low, high = chain.ends[0, :, 0].tolist()
     xi, v, weights = function_samples(chain)
     unit = float(np.abs(v).max()) if relative else 1.0
+    if unit == 0.0:
+        what = f"{AXES[axes[1]]} is nil all along {line.name}"
+        raise BadInputError(what, _WHERE, "choose another ordinate, or leave relative out")
     make = chebyshev_of_chains if kind == "chebyshev" else sine_of_chains
     series = make(chain, terms)[0] / unit
     rest = truncation(kind, series, xi, v / unit, weights)
@@ -92,7 +95,7 @@ def of_loop(
     return CurveTransform("fourier", line.name, *names, 0.0, length, 1.0, found, "", rest, places)
 
 
-def _around(chain: Chains) -> FloatArray:
+def _around(chain: PlaneChains) -> FloatArray:
     """Give places once around a closed chain, (q, 2), m."""
     return np.asarray(chain.at(np.linspace(0.0, 1.0, 17))).reshape(-1, 2)
 

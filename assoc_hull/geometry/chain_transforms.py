@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import positive
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.chains import Chains
+from assoc_hull.geometry.chains import PlaneChains
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.length import arc_length, length_at
 from assoc_hull.geometry.transforms import (
@@ -51,12 +51,12 @@ _ENDS = np.array([0.0, 1.0])
 _PANELS = 2  # on each cubic, where a series is compared with the curve
 
 
-def chebyshev_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> FloatArray:
+def chebyshev_of_chains(chains: PlaneChains, terms: int, tolerance: float = 1e-12) -> FloatArray:
     """Give Chebyshev coefficients of v over u.
 
     Parameters
     ----------
-    chains : Chains
+    chains : PlaneChains
         m chains along each of which u runs from xi = -1 at the beginning to 1 at the end.
     terms : int
         Number of coefficients, from c_0.
@@ -77,9 +77,9 @@ def chebyshev_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) ->
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.chain_transforms import chebyshev_of_chains
-    >>> from assoc_hull.geometry.chains import Chains
+    >>> from assoc_hull.geometry.chains import PlaneChains
     >>> cubic = np.array([[[0.0, 0.0], [10.0, 4.0], [0.0, -4.0], [0.0, 0.0]]])  # 1 - xi^2
-    >>> (chebyshev_of_chains(Chains.single(cubic), 3)[0] + 0.0).round(10).tolist()
+    >>> (chebyshev_of_chains(PlaneChains.single(cubic), 3)[0] + 0.0).round(10).tolist()
     [0.5, 0.0, -0.5]
     """
     count, allowed = checked_terms(terms), positive(tolerance, "tolerance", _WHERE)
@@ -98,7 +98,7 @@ def chebyshev_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) ->
     return settled(integrate, count * _widest(angle(_edges(chains))) / np.pi, allowed)
 
 
-def sine_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> FloatArray:
+def sine_of_chains(chains: PlaneChains, terms: int, tolerance: float = 1e-12) -> FloatArray:
     """Give half-range sine coefficients of v over u.
 
     Parameters
@@ -122,9 +122,9 @@ def sine_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> Floa
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.chain_transforms import sine_of_chains
-    >>> from assoc_hull.geometry.chains import Chains
+    >>> from assoc_hull.geometry.chains import PlaneChains
     >>> cubic = np.array([[[0.0, 0.0], [10.0, 4.0], [0.0, -4.0], [0.0, 0.0]]])  # 1 - xi^2
-    >>> round(float(sine_of_chains(Chains.single(cubic), 1)[0, 0]), 10)
+    >>> round(float(sine_of_chains(PlaneChains.single(cubic), 1)[0, 0]), 10)
     1.0320491019
     """
     count, allowed = checked_terms(terms), positive(tolerance, "tolerance", _WHERE)
@@ -141,7 +141,7 @@ def sine_of_chains(chains: Chains, terms: int, tolerance: float = 1e-12) -> Floa
     return settled(integrate, count * _widest(_edges(chains)) / 2.0, allowed)
 
 
-def function_samples(chains: Chains) -> tuple[FloatArray, FloatArray, FloatArray]:
+def function_samples(chains: PlaneChains) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Give xi, v and weights for integrals over xi at places of one chain, (q,) each."""
     nodes, weights = composite(_PANELS)
     xi, v = _function(chains, nodes)
@@ -150,7 +150,7 @@ def function_samples(chains: Chains) -> tuple[FloatArray, FloatArray, FloatArray
     return np.clip(xi, -1.0, 1.0).ravel(), v.ravel(), step.ravel()
 
 
-def _edges(chains: Chains) -> FloatArray:
+def _edges(chains: PlaneChains) -> FloatArray:
     """Give xi at both ends of every cubic, (p, 2)."""
     return _function(chains, _ENDS)[0]
 
@@ -159,7 +159,7 @@ def _widest(edges: FloatArray) -> float:
     return float(np.abs(edges[:, 1] - edges[:, 0]).max())
 
 
-def _function(chains: Chains, nodes: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _function(chains: PlaneChains, nodes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give xi and v at nodes of every cubic, (p, n) each."""
     ends = chains.ends[:, :, 0]
     if not (ends[:, 1] > ends[:, 0]).all():
@@ -170,12 +170,12 @@ def _function(chains: Chains, nodes: FloatArray) -> tuple[FloatArray, FloatArray
     return 2.0 * (place[..., 0] - begin) / wide - 1.0, place[..., 1]
 
 
-def fourier_descriptors(chains: Chains, terms: int, tolerance: float = 1e-12) -> ComplexArray:
+def fourier_descriptors(chains: PlaneChains, terms: int, tolerance: float = 1e-12) -> ComplexArray:
     """Give Fourier coefficients of closed curves over their arc length.
 
     Parameters
     ----------
-    chains : Chains
+    chains : PlaneChains
         m closed chains.
     terms : int
         Harmonics to each side.
@@ -196,9 +196,9 @@ def fourier_descriptors(chains: Chains, terms: int, tolerance: float = 1e-12) ->
     --------
     >>> import numpy as np
     >>> from assoc_hull.geometry.chain_transforms import fourier_descriptors
-    >>> from assoc_hull.geometry.chains import Chains, loop, straight
+    >>> from assoc_hull.geometry.chains import PlaneChains, loop, straight
     >>> square = loop(straight(np.array([1.0, -1]), np.array([1.0, 1])), 0)
-    >>> abs(fourier_descriptors(Chains.single(square), 1)[0]).round(4).tolist()
+    >>> abs(fourier_descriptors(PlaneChains.single(square), 1)[0]).round(4).tolist()
     [0.0, 0.0, 1.1463]
     """
     count, allowed = checked_terms(terms), positive(tolerance, "tolerance", _WHERE)
@@ -258,12 +258,12 @@ def evaluate_descriptors(descriptors: ComplexArray, fraction: ArrayLike) -> Floa
     return found
 
 
-def descriptor_truncation(chains: Chains, descriptors: ComplexArray) -> Truncation:
+def descriptor_truncation(chains: PlaneChains, descriptors: ComplexArray) -> Truncation:
     """Compare the first n harmonics of one closed chain with the curve, for every n.
 
     Parameters
     ----------
-    chains : Chains
+    chains : PlaneChains
         One closed chain.
     descriptors : (2 terms + 1,) complex, m
         Of it.
@@ -289,12 +289,12 @@ def descriptor_truncation(chains: Chains, descriptors: ComplexArray) -> Truncati
     return Truncation(rms, largest)
 
 
-def length_of_chains(chains: Chains) -> FloatArray:
+def length_of_chains(chains: PlaneChains) -> FloatArray:
     """Give the arc length of each chain, (m,), m."""
     return _lengths(chains)[0]
 
 
-def _lengths(chains: Chains) -> tuple[FloatArray, FloatArray]:
+def _lengths(chains: PlaneChains) -> tuple[FloatArray, FloatArray]:
     """Give the length of each chain, (m,), and that before each cubic, (p,)."""
     own = arc_length(_single_cubics(chains))
     running = np.concatenate([[0.0], np.cumsum(own)])
@@ -302,7 +302,7 @@ def _lengths(chains: Chains) -> tuple[FloatArray, FloatArray]:
 
 
 def _fractions(
-    chains: Chains, length: FloatArray, before: FloatArray, nodes: FloatArray
+    chains: PlaneChains, length: FloatArray, before: FloatArray, nodes: FloatArray
 ) -> FloatArray:
     """Give s / L at nodes of every cubic, (p, n)."""
     cubics = _single_cubics(chains)
@@ -312,7 +312,7 @@ def _fractions(
     return found
 
 
-def _single_cubics(chains: Chains) -> SplineBatch:
+def _single_cubics(chains: PlaneChains) -> SplineBatch:
     """Give every cubic as a curve of its own, with a parameter from 0 to 1."""
     count = len(chains.cubic)
     space = np.zeros((count, 4, 3))

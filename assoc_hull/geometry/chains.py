@@ -1,4 +1,4 @@
-"""Chains of cubics in a plane: curves put end to end, cut, mirrored and closed.
+"""PlaneChains of cubics in a plane: curves put end to end, cut, mirrored and closed.
 
 A chain is what is left of a curve when only two of its coordinates, u and v, are looked at. One
 cubic begins where the one before it ends.
@@ -17,13 +17,13 @@ from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import power
 
-__all__ = ["Chains", "backward", "cut", "ends_of", "joined", "loop", "mirrored", "straight"]
+__all__ = ["PlaneChains", "backward", "cut", "ends_of", "joined", "loop", "mirrored", "straight"]
 
 _NIL = 1e-12  # m: a shorter straight line is left out
 
 
 @attrs.frozen(eq=False)
-class Chains:
+class PlaneChains:
     """Several chains, one behind the other.
 
     Attributes

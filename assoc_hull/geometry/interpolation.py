@@ -1,4 +1,4 @@
-"""Linear interpolation along many curves at once.
+"""Linear interpolation along many curves at once; slopes of the polynomial through values.
 
 Examples
 --------
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["interpolate"]
+__all__ = ["differences", "interpolate"]
 
 
 def interpolate(
@@ -55,3 +55,32 @@ def interpolate(
     slope = (value[high] - value[low]) / step[:, None]
     blend = slope * (place - at[low])[:, None] + value[low]
     return np.where(between[:, None], blend, value[low]), told
+
+
+def differences(t: FloatArray) -> FloatArray:
+    """Give the matrix that takes values to slopes of the polynomial through them.
+
+    Parameters
+    ----------
+    t : (n,)
+        Where values are known, apart from one another.
+
+    Returns
+    -------
+    (n, n)
+        Slopes are the matrix times the values.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.array([0.0, 0.5, 1.0])
+    >>> (differences(t) @ t**2).round(12).tolist()
+    [0.0, 1.0, 2.0]
+    """
+    apart = t[:, None] - t[None]
+    np.fill_diagonal(apart, 1.0)
+    weight = 1.0 / apart.prod(axis=1)
+    matrix: FloatArray = weight[None] / weight[:, None] / apart
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix

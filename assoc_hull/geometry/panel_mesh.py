@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
-__all__ = ["PanelMesh", "PanelOrigin", "welded"]
+__all__ = ["PanelMesh", "PanelOrigin", "joined", "welded"]
 
 _WHERE = "in a panel mesh"
 _LARGEST = 1e6
@@ -307,3 +307,25 @@ def _proper(panel: IntArray) -> IntArray:
     turn = np.where(same.any(axis=1), same.argmax(axis=1) + 2, 0)
     column = (np.arange(4) + turn[:, None]) % 4
     return np.asarray(np.take_along_axis(panel, column, axis=1))
+
+
+def joined(xyz: FloatArray, panel: IntArray) -> tuple[FloatArray, IntArray]:
+    """Make vertices one that are equal, and drop what becomes of panels without area.
+
+    Vertices stay in the order in which they were first given; those that no panel has are left
+    out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.panel_mesh import joined
+    >>> xyz = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [5, 5, 5]])
+    >>> joined(xyz, np.array([[0, 1, 2, 3]]))[1].tolist()
+    [[1, 2, 0, 0]]
+    """
+    first, group = np.unique(xyz, axis=0, return_index=True, return_inverse=True)[1:]
+    corners = _proper(first[group.ravel()][panel])
+    used = np.unique(corners)
+    number = np.zeros(len(xyz), np.int64)
+    number[used] = np.arange(len(used))
+    return xyz[used], number[corners]

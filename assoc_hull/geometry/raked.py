@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.interpolation import differences
 from assoc_hull.geometry.isocurves import IsoCurves, Strips
 from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import bracketed_roots, unit_roots
@@ -213,7 +214,7 @@ def _places(parts: _Parts, t: FloatArray) -> FloatArray:
 
 def _lofted(place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bool_]) -> IsoCurves:
     """Lay cubics between places (p, n, 3) at t, with the slopes of the polynomial through all."""
-    slope = np.einsum("ij,pjk->pik", _differences(t), place)
+    slope = np.einsum("ij,pjk->pik", differences(t), place)
     step = np.diff(t)[None, :, None]
     begin, rise = place[:, :-1], np.diff(place, axis=1)
     leave, arrive = slope[:, :-1] * step, slope[:, 1:] * step
@@ -228,14 +229,3 @@ def _lofted(place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bo
     across = np.zeros_like(point)
     across[:, 0, 0] = 1.0
     return IsoCurves(start, point, across, covered)
-
-
-def _differences(t: FloatArray) -> FloatArray:
-    """Give the matrix that takes values at places to the slopes of the polynomial there."""
-    apart = t[:, None] - t[None]
-    np.fill_diagonal(apart, 1.0)
-    weight = 1.0 / apart.prod(axis=1)
-    matrix: FloatArray = weight[None] / weight[:, None] / apart
-    np.fill_diagonal(matrix, 0.0)
-    np.fill_diagonal(matrix, -matrix.sum(axis=1))
-    return matrix

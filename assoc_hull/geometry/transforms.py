@@ -56,6 +56,7 @@ _WHERE = "in a transform"
 _POINTS = 32  # nodes of a panel
 _PER_PANEL = 8  # so many half waves of the last term may lie in one
 _DOUBLINGS = 6
+_NIL = 1e-290  # below, numbers lose their digits: such a curve is nil
 _EDGE = 1e-15  # so near to an end of the range xi is at it
 
 
@@ -146,7 +147,7 @@ def settled(
         if not np.isfinite(fine).all():
             raise BadInputError("a value that is not finite", _WHERE, "give finite values")
         change = float(np.abs(fine - coarse).max(initial=0.0))
-        if change <= tolerance * size:
+        if change <= tolerance * max(size, _NIL):
             freeze(fine)
             return fine
         coarse = fine

@@ -42,13 +42,8 @@ AGAIN: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
         lambda a, xa, f, xf, length: 100.0 * (_halves(a, xa, f, xf) / length - 0.5),
     ),
     "LCF": (("Aw_a", "LCFa", "Aw_f", "LCFf"), _halves),
-    "TRZ": (("T_A", "TH"), lambda draught, bottom: draught - bottom),
     "LIBA": (("LBA",), lambda area: area),
-    "HSKEG": (("Hap",), lambda height: height),
     "BR": (("Amax", "B", "T"), _bilge),
-    "L/Ldiag": (("L", "Ldiag"), lambda part, whole: part / whole),
-    "S3": (("S3.A1", "S3.A2"), lambda part, whole: part / whole),
-    "S3'": (("S3'.A1", "S3'.A2"), lambda part, whole: part / whole),
 }
 """Needs and formula of what the catalogue measures on a hull."""
 

@@ -183,6 +183,10 @@ FLOATING: dict[str, Given] = {
         "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
     },
     "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
+    "curve_transform": {
+        "curve": "sectional areas", "kind": "chebyshev", "terms": 2, "along": None, "across": None,
+        "span": None, "relative": None, **ONE, "heel_deg": 0.0,
+    },
     "form_parameters": {
         **ONE, "screw": None, "rho": 1.0, "shell_factor": 1.0, "transom": False, "only": None,
         "further": (),

@@ -20,6 +20,7 @@ from assoc_hull.analysis.form import (
     skeg,
     stern,
     volume_coefficients,
+    waterline,
     waterplane_coefficients,
 )
 from assoc_hull.analysis.form.evaluate import check_catalogue
@@ -35,6 +36,7 @@ _MODULES = (
     proportions,
     resistance,
     parts,
+    waterline,
     bow,
     midship,
     stern,

@@ -8,11 +8,7 @@ from assoc_hull.analysis.form.value import Absent
 __all__ = ["PARAMETERS"]
 
 _MEASURES = {
-    "m": "b_st5",
     "m3": "V_PR",
-    "m4": "I_T I_L",
-    "deg": "Eangle Rangle",
-    "-": "Bluntness",
 }
 
 

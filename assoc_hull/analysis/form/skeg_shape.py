@@ -36,7 +36,7 @@ _DEEP = 0.02
 """A section of the after body whose lowest place lies deeper below its centre (in design
 draughts) is one of twin skegs."""
 
-_SHALLOW = 1e-3
+_SHALLOW = 1e-4
 """So deep a skeg (m) has ended."""
 
 _BASE = 1e-6

@@ -8,7 +8,10 @@ import numpy as np
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.geometry.between_planes import Between, between
 from assoc_hull.geometry.cross_sections import cross_section
+from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersion_roots import candidates, cuts, tilt
+from assoc_hull.geometry.immersion_tiles import from_curves, powers
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.strip_spans import Spans, spans
 
@@ -54,6 +57,15 @@ class Slices:
     def area(self, x: float) -> float:
         """Give the immersed area of the section at a place, both sides, m2."""
         return float(sections_below(self.section(x), self.shape.planes).sum())
+
+    def half_breadth(self, x: float, plane: Planes) -> float | None:
+        """Give the outermost place of a waterline at x, m; None where there is none."""
+        tiles = from_curves(self.section(x))
+        tilted = tilt(tiles, plane.tan_trim, plane.tan_heel)
+        tile, _ = candidates(tilted, plane.height)
+        met = cuts(tilted, tile, np.repeat(plane.height, len(tile)))
+        y = (tiles.coefficients[1][:, tile[met.pair]] * powers(met.u)).sum(axis=0)
+        return float(y.max()) if len(y) else None
 
     def runs_back(self, x: float) -> bool:
         """Tell whether a raked end of the surface is there that runs back somewhere."""

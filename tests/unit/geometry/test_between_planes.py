@@ -149,8 +149,9 @@ def test_a_traced_section_lies_in_its_plane_and_on_the_surface(raked: Spans) -> 
             zeta = (height - RAKED.keel(t)) / RAKED.height(t)
             t = (57.3 - RAKED.rake(t) * zeta) / RAKED.length
         tile = int(np.searchsorted(curves[:, 0], zeta, side="right")) - 1
-        cubic = Polynomial(curves[tile] - np.array([zeta, 0.0, 0.0, 0.0]))
-        u = next(r.real for r in cubic.roots() if abs(r.imag) < 1e-9 and -1e-9 < r.real < 1 + 1e-9)
+        roots = Polynomial(curves[tile] - np.array([zeta, 0.0, 0.0, 0.0])).roots()
+        real = roots.real[np.abs(roots.imag) < 1e-9]
+        u = float(real[(real > -1e-9) & (real < 1.0 + 1e-9)][0])
         assert RAKED.breadth(t) * Polynomial(RAKED.profile[0][tile])(u) == pytest.approx(
             breadth, abs=1e-7
         )

@@ -21,7 +21,7 @@ from assoc_hull.geometry.chain_transforms import (
     length_of_chains,
     sine_of_chains,
 )
-from assoc_hull.geometry.chains import Chains, backward, cut, ends_of, joined, loop, straight
+from assoc_hull.geometry.chains import PlaneChains, backward, cut, ends_of, joined, loop, straight
 from assoc_hull.geometry.curves import CurveData, FloatArray
 from assoc_hull.geometry.integrals import plane_integrals
 from assoc_hull.geometry.spline import loft
@@ -38,36 +38,36 @@ def parabolas(*pieces: tuple[float, float, float, float, float]) -> FloatArray:
     return np.array([[[p, a], [q - p, b], [0, c], [0, 0]] for p, q, a, b, c in pieces], float)
 
 
-def section() -> Chains:
+def section() -> PlaneChains:
     """A smooth section closed with its mirror image."""
-    return Chains.single(loop(Chains.of(loft(CurveData.single(HALF)), (0, 1)).cubic, 0))
+    return PlaneChains.single(loop(PlaneChains.of(loft(CurveData.single(HALF)), (0, 1)).cubic, 0))
 
 
-def turned(chain: Chains, first: int) -> Chains:
+def turned(chain: PlaneChains, first: int) -> PlaneChains:
     """The same closed curve, begun at another of its cubics."""
-    return Chains.single(np.roll(chain.cubic, -first, axis=0))
+    return PlaneChains.single(np.roll(chain.cubic, -first, axis=0))
 
 
-def changed(chain: Chains, factor: complex, shift: complex) -> Chains:
+def changed(chain: PlaneChains, factor: complex, shift: complex) -> PlaneChains:
     """The image under w -> factor w + shift."""
     u, v = chain.cubic[..., 0], chain.cubic[..., 1]
     w = (u + 1j * v) * factor
     w[:, 0] += shift
-    return Chains.single(np.stack([w.real, w.imag], axis=-1))
+    return PlaneChains.single(np.stack([w.real, w.imag], axis=-1))
 
 
 def test_a_curve_of_three_pieces_to_its_printed_digits() -> None:
     """Run, parallel body and entrance as cubics: the same numbers as from the function."""
     ship = parabolas((-1, -0.2, 0, 2, -1), (-0.2, 0.3, 1, 0, 0), (0.3, 1, 1, 0, -1))
-    assert_allclose(chebyshev_of_chains(Chains.single(ship), 7)[0], SHIP_C, atol=PRINTED)
-    assert_allclose(sine_of_chains(Chains.single(ship), 6)[0], SHIP_B, atol=PRINTED)
+    assert_allclose(chebyshev_of_chains(PlaneChains.single(ship), 7)[0], SHIP_C, atol=PRINTED)
+    assert_allclose(sine_of_chains(PlaneChains.single(ship), 6)[0], SHIP_B, atol=PRINTED)
 
 
 def test_an_upright_end_costs_no_digits() -> None:
     """v = sqrt((1 - xi) / 2), as u = 1 - 2 t^2, v = t: c_k = (2 - delta) / pi 2 / (1 - 4 k^2)."""
     k = np.arange(40)
     end = np.array([[[1.0, 0.0], [0.0, 1.0], [-2.0, 0.0], [0.0, 0.0]]])
-    found = chebyshev_of_chains(Chains.single(backward(end)), 40)[0]
+    found = chebyshev_of_chains(PlaneChains.single(backward(end)), 40)[0]
     assert_allclose(found, (2.0 - (k == 0)) / np.pi * 2.0 / (1.0 - 4.0 * k**2), atol=1e-12)
 
 
@@ -78,7 +78,7 @@ def test_a_step_is_a_piece_as_any_other() -> None:
     steps = [straight(a, b) for a, b in pairwise(places)]
     k = np.arange(1, 30)
     wanted = np.where(k % 2, 4.0 / (np.pi * k) * (-1.0) ** ((k - 1) // 2), 0.0)
-    chain = Chains.single(joined(steps))
+    chain = PlaneChains.single(joined(steps))
     assert_allclose(chebyshev_of_chains(chain, 30)[0], [1.0, *wanted], atol=1e-12)
     jump = sine(lambda xi: np.where(xi > 0.0, 2.0, 0.0), 30, [0.0])
     assert_allclose(sine_of_chains(chain, 30)[0], jump, atol=1e-12)
@@ -96,7 +96,7 @@ def test_splines_have_the_series_of_the_functions_they_are(y: FloatArray) -> Non
                       np.stack([0 * rise, 2.0 + 0 * rise], -1)], axis=1)  # fmt: skip
     wide = np.diff(x)
     function = PPoly(cubic[:, ::-1, 1].T / wide ** np.arange(3, -1, -1)[:, None], x)
-    both = Chains(np.array([0, 4, 8]), np.concatenate([cubic, 2.0 * cubic]))
+    both = PlaneChains(np.array([0, 4, 8]), np.concatenate([cubic, 2.0 * cubic]))
     inner = x[1:-1] / 5.0 - 1.0
     wanted = chebyshev(lambda xi: function(5.0 * (xi + 1.0)), 9, inner)
     assert_allclose(chebyshev_of_chains(both, 9), [wanted, 2.0 * wanted], atol=1e-11)
@@ -106,7 +106,7 @@ def test_splines_have_the_series_of_the_functions_they_are(y: FloatArray) -> Non
 
 def test_samples_integrate_over_the_abscissa() -> None:
     """The weights of a chain add up to the range, and with v to the mean height times two."""
-    xi, v, weights = function_samples(Chains.single(parabolas((0, 10, 0, 4, -4))))
+    xi, v, weights = function_samples(PlaneChains.single(parabolas((0, 10, 0, 4, -4))))
     assert weights.sum() == pytest.approx(2.0, rel=1e-13)
     assert (weights * v).sum() == pytest.approx(4.0 / 3.0, rel=1e-13)
     assert_allclose(v, 1.0 - xi**2, atol=1e-13)
@@ -114,7 +114,7 @@ def test_samples_integrate_over_the_abscissa() -> None:
 
 def test_descriptors_of_a_square_are_those_of_its_sides() -> None:
     """X_k = (8 / pi^2) sqrt(2) e^(..) / k^2 in size for k = 1, -3, 5, ..., nil otherwise."""
-    square = Chains.single(loop(straight(np.array([1.0, -1]), np.array([1.0, 1])), 0))
+    square = PlaneChains.single(loop(straight(np.array([1.0, -1]), np.array([1.0, 1])), 0))
     k = np.arange(-9, 10)
     size = np.where(k % 4 == 1, 8.0 * np.sqrt(2.0) / (np.pi * np.where(k == 0, 1, k)) ** 2, 0.0)
     assert_allclose(np.abs(fourier_descriptors(square, 9)[0]), size, atol=1e-12)
@@ -143,7 +143,7 @@ def test_the_area_inside_is_pi_times_the_sum_of_k_squares() -> None:
     ring[-1] = ring[0]
     ends = np.array([[0.0, 1, 0], [0, 1, 0]])
     spline = loft(CurveData.single(ring, end_kind=(1, 1), end_vector=ends))
-    found = fourier_descriptors(Chains.of(spline, (0, 1)), 200)[0]
+    found = fourier_descriptors(PlaneChains.of(spline, (0, 1)), 200)[0]
     k = np.arange(-200, 201)
     area = np.pi * (k * np.abs(found) ** 2).sum()
     assert area == pytest.approx(float(plane_integrals(spline).area[0]), rel=1e-8)
@@ -161,7 +161,7 @@ def test_shift_turn_scale_and_start(factor: complex, shift: complex, first: int)
     plain = fourier_descriptors(chain, 6)[0]
     found = fourier_descriptors(changed(chain, factor, shift), 6)[0]
     assert_allclose(found, factor * plain + shift * (k == 0), atol=1e-9)
-    before = Chains.single(chain.cubic[:first]) if first else None
+    before = PlaneChains.single(chain.cubic[:first]) if first else None
     share = 0.0 if before is None else length_of_chains(before)[0] / length_of_chains(chain)[0]
     moved = fourier_descriptors(turned(chain, first), 6)[0]
     assert_allclose(moved, plain * np.exp(2j * np.pi * k * share), atol=1e-10)
@@ -170,8 +170,8 @@ def test_shift_turn_scale_and_start(factor: complex, shift: complex, first: int)
 def test_a_section_is_symmetric() -> None:
     """Begun in the mirror y = 0 all X_k are imaginary; begun in the mirror v = 0 they are real."""
     assert_allclose(fourier_descriptors(section(), 9)[0].real, 0.0, atol=1e-12)
-    waterline = loop(Chains.of(loft(CurveData.single(HALF[:, [1, 0, 2]])), (0, 1)).cubic, 1)
-    assert_allclose(fourier_descriptors(Chains.single(waterline), 9)[0].imag, 0.0, atol=1e-12)
+    waterline = loop(PlaneChains.of(loft(CurveData.single(HALF[:, [1, 0, 2]])), (0, 1)).cubic, 1)
+    assert_allclose(fourier_descriptors(PlaneChains.single(waterline), 9)[0].imag, 0.0, atol=1e-12)
 
 
 def test_descriptors_come_back_to_the_curve() -> None:
@@ -180,7 +180,7 @@ def test_descriptors_come_back_to_the_curve() -> None:
     found: ComplexArray = fourier_descriptors(chain, 150)[0]
     rest = descriptor_truncation(chain, found)
     corner = chain.cubic[4, 0]
-    share = length_of_chains(Chains.single(chain.cubic[:4]))[0] / length_of_chains(chain)[0]
+    share = length_of_chains(PlaneChains.single(chain.cubic[:4]))[0] / length_of_chains(chain)[0]
     off = np.linalg.norm(evaluate_descriptors(found, [share])[0] - corner)
     assert off <= 1.05 * rest.largest[-1] < 0.03
     assert (np.diff(rest.rms) <= 1e-14).all()
@@ -192,9 +192,9 @@ def test_what_is_no_function_or_not_closed_is_refused() -> None:
     """A chain that ends behind its beginning, and one that does not come back."""
     line = straight(np.array([0.0, 0.0]), np.array([4.0, 1.0]))
     with pytest.raises(BadInputError, match="run through it forward"):
-        chebyshev_of_chains(Chains.single(backward(line)), 3)
+        chebyshev_of_chains(PlaneChains.single(backward(line)), 3)
     with pytest.raises(BadInputError, match="an open curve"):
-        fourier_descriptors(Chains.single(line), 3)
+        fourier_descriptors(PlaneChains.single(line), 3)
 
 
 def test_a_chain_is_cut_where_it_passes_the_limits() -> None:
@@ -209,11 +209,11 @@ def test_a_chain_is_cut_where_it_passes_the_limits() -> None:
 
 def test_a_loop_is_closed_and_counter_clockwise() -> None:
     """Whichever way its half runs."""
-    half = Chains.of(loft(CurveData.single(HALF)), (0, 1)).cubic
+    half = PlaneChains.of(loft(CurveData.single(HALF)), (0, 1)).cubic
     for each in (half, backward(half)):
         ring = loop(each, 0)
         first, last = ends_of(ring)
         assert_allclose(first, last, atol=1e-12)
         assert first[0] == 0.0
-        found = fourier_descriptors(Chains.single(ring), 3)[0]
+        found = fourier_descriptors(PlaneChains.single(ring), 3)[0]
         assert np.abs(found[4]) > np.abs(found[2])

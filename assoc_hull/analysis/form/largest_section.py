@@ -1,4 +1,4 @@
-"""The sectional-area curve of the surface: where it is greatest, and where it is level."""
+"""The largest section of the surface, also between stations, and how far others are as large."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.strip_spans import Spans
 
-__all__ = ["EQUAL", "SHORT", "AreaCurve", "area_curve"]
+__all__ = ["LargestSection", "largest_section"]
 
-EQUAL = 1e-4
+_EQUAL = 1e-4
 """Areas of sections of the parallel middle body differ by less, in parts of the largest."""
 
-SHORT = 0.02
+_SHORT = 0.02
 """Of Lpp: what is level over less is no parallel middle body."""
 
 _WIDE = 1e-2
 _RATIO = 0.25
-"""The top of a parabola that is level to `_WIDE` over some length is level to `EQUAL` over 1/10
+"""The top of a parabola that is level to `_WIDE` over some length is level to `_EQUAL` over 1/10
 of it; a stretch that is more than so much of it does not come from a rounded top."""
 
 _SAME = 1e-12
@@ -32,8 +32,8 @@ _ROUNDS = 7
 
 
 @attrs.frozen
-class AreaCurve:
-    """What the sectional-area curve says.
+class LargestSection:
+    """Where the sectional-area curve is greatest, and where it is level.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class AreaCurve:
         return self.x_largest if self.level is None else self.level[1]
 
 
-def area_curve(shape: Shape) -> AreaCurve:
+def largest_section(shape: Shape) -> LargestSection:
     """Look along a hull; to be asked by `Shape.take`."""
     strips = strips_of(shape)
 
@@ -79,11 +79,11 @@ def area_curve(shape: Shape) -> AreaCurve:
     largest = float(area.max())
     near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
     place = float(x[near.argmin()])
-    least = (1.0 - np.array([EQUAL, _WIDE])) * largest
+    least = (1.0 - np.array([_EQUAL, _WIDE])) * largest
     level, wide = _level(areas, x, area, least)
     length = level[1] - level[0]
-    parallel = length >= SHORT * shape.length and length >= _RATIO * (wide[1] - wide[0])
-    return AreaCurve(largest, place, level if parallel else None)
+    parallel = length >= _SHORT * shape.length and length >= _RATIO * (wide[1] - wide[0])
+    return LargestSection(largest, place, level if parallel else None)
 
 
 def _samples(strips: Spans) -> FloatArray:
