@@ -30,6 +30,9 @@ _TANGENT = Pen(0.2, "#7a3b9a", (1.5, 0.8), 2.6)
 _MARK = Pen(0.18, TINT, (2.0, 0.8), 2.4)
 _AREAS = ("#cfe0f2", "#9dbfe2")
 _COUNT = 400
+_BELOW = 0.5
+"""Of the largest lever: so far below nought the field goes at most."""
+
 _RADIAN = float(np.degrees(1.0))
 
 
@@ -70,23 +73,22 @@ def lever_picture(
     gz = side * found.curve.gz(side * heel)
     along = scale_to(float(heel[0]), float(heel[-1]), chart.left, chart.wide, 18, whole=False)
     high = max(1.05 * float(gz.max()), 0.05)
-    up = scale_to(min(float(gz.min()), 0.0), high, chart.low, chart.tall, 16)
+    low = max(float(gz.min()), -_BELOW * high) if gz.max() > 0.0 else float(gz.min())
+    up = scale_to(min(low, 0.0), high, chart.low, chart.tall, 16)
     levels(chart, up, "GZ, m")
     uprights(chart, along, f"heel to {found.side}, degrees")
     _areas(chart, found, along, up)
     chart.border()
     chart.level(float(up.at(0.0)), HEAVY, "nought")
-    levers = np.column_stack([along.at(heel), up.at(gz)])
+    levers = _within(chart, np.column_stack([along.at(heel), up.at(gz)]))
     sheet.line(levers, _GZ, "curve/gz")
     named = [
-        Lettered("GZ", levers),
-        Lettered("e", _arm(chart, found, along, up, heel)),
+        Lettered("GZ", _shown(levers)),
+        Lettered("e", _shown(_arm(chart, found, along, up, heel))),
         Lettered(f"GM {found.gm:.3f} m", _tangent(chart, found, along, up)),
     ]
-    shown = found.curve.side * found.heel_deg
-    inside = (shown >= heel[0]) & (shown <= heel[-1]) & np.isfinite(found.gz)
-    spots = np.column_stack([along.at(shown[inside]), up.at(side * found.gz[inside])])
-    sheet.dots(spots, _GZ.colour, 1.0, "heels")
+    spots = np.column_stack([along.at(side * found.heel_deg), up.at(side * found.gz)])
+    sheet.dots(_shown(_within(chart, spots)), _GZ.colour, 1.0, "heels")
     title = f"RIGHTING LEVERS   {found.trim} trim, {found.condition.upright}"
     block_of(sheet, found, title, [*_facts(found), *map(_judged, found.criteria)])
     _marks(chart, found, along, up)
@@ -101,6 +103,20 @@ def _heels(found: Stability) -> FloatArray:
     """Give heels along the curve, degrees, to the side judged."""
     known = np.sort(found.curve.side * found.curve.heels.heel_deg)
     return np.union1d(np.linspace(known[0], known[-1], _COUNT), known)
+
+
+def _within(chart: Chart, points: FloatArray) -> FloatArray:
+    """Give points with nan in the place of those outside the field, where lines break off."""
+    x, y = points.T
+    inside = (x >= chart.left - 1e-6) & (x <= chart.right + 1e-6)
+    inside &= (y >= chart.low - 1e-6) & (y <= chart.top + 1e-6)
+    return np.where(inside[:, None], points, np.nan)
+
+
+def _shown(points: FloatArray) -> FloatArray:
+    """Give the points that are none of these."""
+    found: FloatArray = points[np.isfinite(points).all(axis=1)]
+    return found
 
 
 def _areas(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
@@ -140,13 +156,13 @@ def _arm(chart: Chart, found: Stability, along: Scale, up: Scale, heel: FloatArr
     """Draw the dynamic arm, with its own scale to the right and the same nought."""
     sheet, factor, side = chart.sheet, chart.sheet.paper.factor, found.curve.side
     arm = found.curve.arm(side * heel)
-    most = max(float(arm.max()), 1e-3)
+    most = max(float(arm.max()), -0.2 * float(arm.min()), 1e-3)
     own = scale_to(0.0, most, 0.0, 1.0, 8)
     floor = float(up.at(0.0))
     unit = (chart.top - floor) / (1.02 * own.high)
     points = np.column_stack([along.at(heel), floor + unit * arm])
-    inside = points[:, 1] >= chart.low
-    sheet.line(points[inside], _ARM, "curve/arm")
+    points = _within(chart, points)
+    sheet.line(points, _ARM, "curve/arm")
     for value in own.marks.tolist():
         y = floor + unit * value
         sheet.rule((chart.right - 1.2 * factor, y), (chart.right, y), _ARM, "tick")
@@ -156,7 +172,7 @@ def _arm(chart: Chart, found: Stability, along: Scale, up: Scale, heel: FloatArr
     place = (chart.right + 7.0 * factor, chart.top + 3.9 * factor)
     sheet.take(sheet.text(place, "e, m rad", across="right", up="bottom", bold=True,
                           colour=_ARM.colour, name="label/arm"))  # fmt: skip
-    return points[inside]
+    return points
 
 
 def _marks(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
@@ -169,7 +185,7 @@ def _marks(chart: Chart, found: Stability, along: Scale, up: Scale) -> None:
         ("largest GZ", angles.largest),
     ]  # fmt: skip
     shown = sorted((heel, name) for name, heel in named if heel is not None)
-    shown = [(heel, name) for heel, name in shown if heel <= along.high]
+    shown = [(heel, name) for heel, name in shown if heel <= along.high + 1e-3]
     for heel, name in shown:
         x = float(along.at(heel))
         top = float(up.at(found.gz_max)) if name == "largest GZ" else chart.top

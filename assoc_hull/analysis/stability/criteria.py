@@ -14,7 +14,7 @@ __all__ = ["Criterion", "Judged", "intact_criteria"]
 
 _M, _MRAD, _DEG = "m", "m rad", "deg"
 _NO_POINT = "phi_f not given, 40 used"
-_WEATHER = "the weather criterion is not evaluated"
+_WEATHER = "the weather criterion needs windage and rolling"
 _ROUNDING = 1e-9
 """Degrees by which a curve may end early."""
 
