@@ -160,7 +160,7 @@ def _lever(judged: Judged) -> Criterion:
 def _angle(judged: Judged) -> Criterion:
     """Judge the heel of the largest lever."""
     code, name, least = "2.2.3", "heel of the largest GZ", 25.0
-    gz, heel = judged.curve.most()
+    gz, heel = judged.curve.largest
     if gz <= 0.0:
         return Criterion(code, name, least, _DEG, None, "GZ is nowhere above 0")
     if heel < judged.curve.end - _ROUNDING:
