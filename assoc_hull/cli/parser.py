@@ -15,6 +15,7 @@ from assoc_hull.cli import (
     hydrostatics,
     look,
     make,
+    panels,
     parameters,
     plot,
     replay,
@@ -66,7 +67,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        transform, plot, export, shell,
+        transform, panels, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -105,7 +105,8 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     order = np.lexsort((owner, rank, owner // _NODES))
     both = place[order].reshape(-1, _NODES, 4)
     own = owner[order].reshape(-1, _NODES)[:, :1] // _NODES
-    slope = both[..., 2:] * (length * rate)[own[:, 0], :, None]
+    with np.errstate(invalid="ignore"):  # endless where the waterline stands across the strip
+        slope = both[..., 2:] * (length * rate)[own[:, 0], :, None]
     # Where an arc begins or ends inside a strip the waterline stands across it.
     told = np.isfinite(slope) & (rate[own[:, 0]] > 0.0)[..., None]
     point = both[..., :2].copy()

@@ -91,20 +91,20 @@ def angle_of_run(shape: Shape) -> Found:
 
 @parameter(
     "I_T", name="transverse second moment of the waterplane", unit="m4", table="measures",
-    ittc="I_T", definition="integral of y^2 dA in plan, about its centroid", source=ITTC,
-    digits=1,
+    ittc="I_T", definition="integral of y^2 dA in the floating plane, about its centroid",
+    source=ITTC, digits=1,
 )  # fmt: skip
 def transverse_moment(shape: Shape) -> float:
-    return shape.record.i_t_proj
+    return shape.record.i_t
 
 
 @parameter(
     "I_L", name="longitudinal second moment of the waterplane", unit="m4", table="measures",
-    ittc="I_L", definition="integral of x^2 dA in plan, about its centroid", source=ITTC,
-    digits=1,
+    ittc="I_L", definition="integral of x^2 dA in the floating plane, about its centroid",
+    source=ITTC, digits=1,
 )  # fmt: skip
 def longitudinal_moment(shape: Shape) -> float:
-    return shape.record.i_l_proj
+    return shape.record.i_l
 
 
 def _bow_line(shape: Shape) -> OuterLine | None:
