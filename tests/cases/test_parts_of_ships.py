@@ -82,12 +82,14 @@ def test_a_thin_slice_is_the_integral_of_its_sections(
 
 
 @pytest.mark.parametrize("name", SHIPS)
-def test_no_station_is_larger_than_the_largest_section(
+def test_no_section_is_larger_than_the_largest_section(
     ships: dict[str, ah.Hull], name: str
 ) -> None:
-    """As drawn; nor is it much larger than the largest of them."""
+    """As drawn, or between; nor is it much larger than the largest of those drawn."""
     shape = shape_of(ships[name])
     largest, drawn = shape.take(largest_section).largest, shape.record.a_max
+    between_ = areas_at(strips_of(shape), shape.length * np.linspace(0.3, 0.7, 401), shape.planes)
+    assert between_.max() <= largest * (1.0 + 1e-12)
     assert drawn * (1.0 - 1e-9) <= largest <= 1.001 * drawn
 
 

@@ -86,12 +86,16 @@ def _along(shape: Shape, plane: Planes) -> LargestSection:
 
     x = _samples(strips)
     area = areas(x)
+    best = int(area.argmax())
+    low, high = float(x[max(best - 1, 0)]), float(x[min(best + 1, len(x) - 1)])
     for _ in range(_ROUNDS):
-        best = int(area.argmax())
-        ends = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
-        more = np.linspace(*ends, _SAMPLES)
-        x, first = np.unique(np.concatenate([x, more]), return_index=True)
-        area = np.concatenate([area, areas(more)])[first]
+        more = np.linspace(low, high, _SAMPLES)
+        found = areas(more)
+        best = int(found.argmax())
+        low, high = float(more[max(best - 1, 0)]), float(more[min(best + 1, _SAMPLES - 1)])
+        x, area = np.concatenate([x, more]), np.concatenate([area, found])
+    order = np.argsort(x, kind="stable")
+    x, area = x[order], area[order]
     largest = float(area.max())
     near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
     place = float(x[near.argmin()])
