@@ -128,7 +128,7 @@ def _sheets(
     planes = [plane] if choices.half or plane.tan_heel == 0.0 else [plane, plane.on_starboard()]
     found: list[Sheet] = []
     for i, band in enumerate(every):
-        cut = levels(band, planes, band.q_at(x), choices.fixed)
+        cut = levels(band, planes, x, choices.fixed)
         found += sheets(band, cut, plane, (i, True), length)
         if not choices.half:
             found += sheets(band, cut, plane.on_starboard(), (i, False), length)
@@ -172,12 +172,14 @@ def _finished(
     water, middle = (
         _marked(number, np.concatenate(each), len(xyz)) for each in (vertices.water, [centre])
     )
-    inside = _within(corners, middle, half)
     turned = axes.of_ship(xyz)
+    # A section that has just dipped into the water is broad and not deep: it lies in the surface.
+    water |= np.abs(turned[:, 2]) <= near
+    left_out = _within(corners, middle, half) | water[corners].all(axis=1)
     turned[water, 2] = 0.0
     if axes.turn[1, 2] == 0.0:  # upright: y is what it was
         turned[middle, 1] = 0.0
-    return _used(turned, corners[~inside])
+    return _used(turned, corners[~left_out])
 
 
 def _within(corners: IntArray, middle: NDArray[np.bool_], half: bool) -> NDArray[np.bool_]:

@@ -169,23 +169,26 @@ def _knuckles(sheet: Sheet, chain: int, knuckle_deg: float | None) -> FloatArray
 
 def _corners_on(one: Chains, corners: FloatArray, near: float) -> tuple[FloatArray, FloatArray]:
     """Find the corners that lie on an arc: their lengths along it, and the corners themselves."""
-    # The foot lies in the cell whose middle is the nearest, or next to it.
     u = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
-    count = len(one.cubic)
+    count, many = len(one.cubic), len(corners)
     sample = _place(np.repeat(one.cubic, _SAMPLES, axis=0), np.tile(u, count))
-    away = ((sample[:, None] - corners) ** 2).sum(axis=2)
-    best = away.argmin(axis=0)
-    cubic, at = best // _SAMPLES, u[best % _SAMPLES]
-    slopes = differentiate(one.cubic)[cubic]
+    away = ((sample.reshape(count, _SAMPLES, 1, 3) - corners) ** 2).sum(axis=3)
+    # On every cubic the foot lies in the cell whose middle is the nearest, or next to it.
+    at = u[away.argmin(axis=1)].ravel()
+    cubic, place = np.repeat(one.cubic, many, axis=0), np.tile(corners, (count, 1))
+    slopes = differentiate(cubic)
     low, high = np.clip(at - 2.0 * u[0], 0.0, 1.0), np.clip(at + 2.0 * u[0], 0.0, 1.0)
     for _ in range(_STEPS):
-        place, along = _place(one.cubic[cubic], at), _slope(slopes, at)
+        along = _slope(slopes, at)
         size = (along**2).sum(axis=1)
-        step = ((place - corners) * along).sum(axis=1) / np.where(size > 0.0, size, 1.0)
+        step = ((_place(cubic, at) - place) * along).sum(axis=1) / np.where(size > 0.0, size, 1.0)
         at = np.clip(at - step, low, high)
-    on = np.sqrt(((_place(one.cubic[cubic], at) - corners) ** 2).sum(axis=1)) <= near
-    lengths = one.before[cubic] + length_until(slopes, at)
-    return lengths[on], corners[on]
+    off = np.sqrt(((_place(cubic, at) - place) ** 2).sum(axis=1)).reshape(count, many)
+    best = off.argmin(axis=0)
+    on = np.flatnonzero(off[best, np.arange(many)] <= near)
+    pair = best[on] * many + on
+    lengths = one.before[best[on]] + length_until(slopes[pair], at[pair])
+    return lengths, corners[on]
 
 
 def _place(c: FloatArray, u: FloatArray) -> FloatArray:

@@ -25,7 +25,7 @@ _ONE = 1e-6
 """Changes that lie so near to one another in q are one."""
 
 _CROWDED = 0.3
-"""A level that was not asked for by its place is left out if so near to a change, in steps."""
+"""A level that was not asked for by its place is left out so near to a change or end, in steps."""
 
 Kind = tuple[tuple[bool, bool], ...]
 """Of each run of a curve: it begins where the curve does, it ends where the curve does."""
@@ -53,7 +53,7 @@ class Levels:
         return len(self.aft)
 
 
-def levels(band: Band, planes: list[Waterplane], wanted: FloatArray, fixed: bool) -> Levels:
+def levels(band: Band, planes: list[Waterplane], x: FloatArray, fixed: bool) -> Levels:
     """Choose the levels of a band.
 
     Parameters
@@ -62,12 +62,12 @@ def levels(band: Band, planes: list[Waterplane], wanted: FloatArray, fixed: bool
         The band.
     planes : list of Waterplane
         As the halves see the water; both get the same levels, so that they meet.
-    wanted : (n,)
-        Parameters q inside the band that are asked for, ascending.
+    x : (n,), m
+        Places along the ship that are asked for, ascending; those off the band do not matter.
     fixed : bool
-        Keep all of these, however near to a change they lie.
+        Keep all of these, however near to a change or an end they lie.
     """
-    q = np.concatenate([[0.0], wanted, [float(band.count)]])
+    q = np.concatenate([[0.0], band.q_at(x), [float(band.count)]])
     q = q[np.append(True, np.diff(q) > 1e-9)]
     aft, fore = q.tolist(), q.tolist()
     for _ in range(_ROUNDS):
@@ -79,7 +79,7 @@ def levels(band: Band, planes: list[Waterplane], wanted: FloatArray, fixed: bool
             aft.insert(gap + 1, low)
             fore.insert(gap + 1, high)
     found = _merged(np.array(aft), np.array(fore))
-    return found if fixed else _thinned(found, q)
+    return found if fixed else _thinned(band, found, x)
 
 
 def _merged(aft: FloatArray, fore: FloatArray) -> Levels:
@@ -119,14 +119,11 @@ def _change(band: Band, planes: list[Waterplane], low: float, high: float) -> tu
     return low, high
 
 
-def _thinned(found: Levels, wanted: FloatArray) -> Levels:
-    """Leave out levels that crowd where a change was found."""
-    step = float(np.median(np.diff(wanted))) if len(wanted) > 1 else 0.0
-    change = found.aft != found.fore
-    if not change.any():
-        return found
-    near = np.abs(found.aft[:, None] - found.aft[change]).min(axis=1) < _CROWDED * step
-    ends = np.zeros(found.count, np.bool_)
-    ends[[0, -1]] = True
-    keep = change | ends | ~near
-    return Levels(found.aft[keep], found.fore[keep])
+def _thinned(band: Band, found: Levels, x: FloatArray) -> Levels:
+    """Leave out levels that crowd where a change was found, and at the ends of the band."""
+    kept = found.aft != found.fore
+    kept[[0, -1]] = True
+    place = np.interp(found.aft, np.arange(band.count + 1.0), band.x)
+    step = np.interp(place, x, np.gradient(x)) if len(x) > 1 else 0.0
+    kept |= np.abs(place[:, None] - place[kept]).min(axis=1) >= _CROWDED * step
+    return Levels(found.aft[kept], found.fore[kept])
