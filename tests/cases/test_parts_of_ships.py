@@ -104,6 +104,19 @@ def test_the_parallel_body_of_the_carrier_lies_between_its_flats(bulk_carrier: a
     assert (found["V"].number or 0.0) - volume == pytest.approx(level, rel=1e-4)
 
 
+def test_a_trim_does_not_take_the_parallel_body_away(bulk_carrier: ah.Hull) -> None:
+    """It is told at even keel at the mean draught; what is measured below the water is not."""
+    symbols = ["PMBs", "PMBe", "L_R", "V_R", "Amax"]
+    level, trimmed = (
+        form_parameters(bulk_carrier, draughts=draughts, only=symbols)
+        for draughts in ((14.0, 14.0), (16.0, 12.0))
+    )
+    for symbol in symbols[:3]:
+        assert trimmed[symbol].number == level[symbol].number
+    for symbol in symbols[3:]:
+        assert (trimmed[symbol].number or 0.0) > (level[symbol].number or 0.0) > 0.0
+
+
 def test_series_60_has_the_parallel_body_and_entrance_of_its_plan(
     series60_60: ah.Hull, series60_70: ah.Hull
 ) -> None:

@@ -11,9 +11,10 @@ from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.slices import strips_of
 from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.strip_spans import Spans
 
-__all__ = ["LargestSection", "largest_section"]
+__all__ = ["LargestSection", "largest_section", "parallel_body"]
 
 _EQUAL = 1e-4
 """Areas of sections of the parallel middle body differ by less, in parts of the largest."""
@@ -63,11 +64,25 @@ class LargestSection:
 
 
 def largest_section(shape: Shape) -> LargestSection:
-    """Look along a hull; to be asked by `Shape.take`."""
+    """Look along a hull below its floating plane; to be asked by `Shape.take`."""
+    return _along(shape, shape.planes)
+
+
+def parallel_body(shape: Shape) -> LargestSection:
+    """Look along a hull at even keel at the mean draught; to be asked by `Shape.take`.
+
+    With a trim the sections of a parallel middle body have different areas.
+    """
+    if shape.even_keel:
+        return shape.take(largest_section)
+    return _along(shape, Planes(np.array([shape.draught]), np.zeros(1), np.zeros(1)))
+
+
+def _along(shape: Shape, plane: Planes) -> LargestSection:
     strips = strips_of(shape)
 
     def areas(x: FloatArray) -> FloatArray:
-        return areas_at(strips, x, shape.planes)
+        return areas_at(strips, x, plane)
 
     x = _samples(strips)
     area = areas(x)
