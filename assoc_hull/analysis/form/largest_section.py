@@ -10,7 +10,7 @@ import numpy as np
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.slices import strips_of
 from assoc_hull.geometry.cross_sections import areas_at
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.strip_spans import Spans
 
@@ -86,16 +86,13 @@ def _along(shape: Shape, plane: Planes) -> LargestSection:
 
     x = _samples(strips)
     area = areas(x)
-    best = int(area.argmax())
-    low, high = float(x[max(best - 1, 0)]), float(x[min(best + 1, len(x) - 1)])
     for _ in range(_ROUNDS):
-        more = np.linspace(low, high, _SAMPLES)
-        found = areas(more)
-        best = int(found.argmax())
-        low, high = float(more[max(best - 1, 0)]), float(more[min(best + 1, _SAMPLES - 1)])
-        x, area = np.concatenate([x, more]), np.concatenate([area, found])
-    order = np.argsort(x, kind="stable")
-    x, area = x[order], area[order]
+        tops = _tops(area)
+        ends = x[np.maximum(tops - 1, 0)], x[np.minimum(tops + 1, len(x) - 1)]
+        more = np.setdiff1d(np.linspace(*ends, _SAMPLES), x)
+        order = np.argsort(np.concatenate([x, more]))
+        area = np.concatenate([area, areas(more)])[order]
+        x = np.concatenate([x, more])[order]
     largest = float(area.max())
     near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
     place = float(x[near.argmin()])
@@ -120,6 +117,20 @@ def _samples(strips: Spans) -> FloatArray:
     low, high = strips.aft[~strips.flat], strips.fore[~strips.flat]
     inside = ((x[:, None] > low) & (x[:, None] < high)).any(axis=1)
     return x[~inside | np.isin(x, edge)]
+
+
+def _tops(area: FloatArray) -> IntArray:
+    """Give where areas along the ship are greatest, or nearly: also both ends of what is level.
+
+    Next to a parallel middle body the surface may rise above it by less than a line shows.
+    """
+    most = float(area.max())
+    around = np.concatenate([[-np.inf], area, [-np.inf]])
+    low = np.minimum(around[:-2], around[2:])
+    high = np.maximum(around[:-2], around[2:])
+    same = _SAME * most
+    top = (area >= (1.0 - _EQUAL) * most) & (area >= high - same) & (area > low + same)
+    return np.flatnonzero(top) if top.any() else np.array([int(area.argmax())])
 
 
 def _level(
