@@ -17,8 +17,10 @@ def wigley() -> Mapping[str, Value]:
 
 
 @pytest.mark.parametrize(
-    "symbol", ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL", "V_PR"]
-)
+    "symbol",
+    ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL", "V_PR",
+     "h_B"],
+)  # fmt: skip
 def test_without_a_bulb_there_is_a_reason(wigley: Mapping[str, Value], symbol: str) -> None:
     """Never a zero that means nothing."""
     assert wigley[symbol].number is None
