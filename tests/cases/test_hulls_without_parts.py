@@ -56,6 +56,15 @@ def test_a_single_skeg_has_no_tunnel(wigley: Mapping[str, Value], symbol: str) -
     assert "single skeg" in (wigley[symbol].reason or "")
 
 
+@pytest.mark.parametrize("symbol", ["LWL", "LCF", "KMT", "I_T", "I_L", "BMT", "BML", "KML"])
+def test_a_draught_to_the_deck_leaves_no_waterplane(symbol: str) -> None:
+    """The deck, which is closed and level, lies in the floating plane."""
+    hull = ah.examples.wigley()
+    value = ah.form_parameters(hull, draught=hull.particulars.depth, only=[symbol])[symbol]
+    assert value.number is None
+    assert (value.reason or "").endswith("no waterplane: the deck is in the water")
+
+
 def test_wigley_has_no_bilge_circle_and_a_level_bottom(wigley: Mapping[str, Value]) -> None:
     """Its midship section is a parabola; its stern stands at AP, its bottom on the base line."""
     assert wigley["BR"].number is None
