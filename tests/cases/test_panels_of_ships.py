@@ -16,6 +16,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.model.state import HullState
 from assoc_hull.sources import examples
 from tests.nets import wigley_net
+from tests.twin_skeg import twin_skeg_ship
 
 
 @attrs.frozen
@@ -68,6 +69,25 @@ def test_the_mesh_is_closed_at_any_position(
     free = whole.xyz[whole.free_edges()]
     assert len(free)
     assert (free[:, :, 2] == 0.0).all()
+
+
+@pytest.mark.parametrize("draughts", [(6.5024, 6.5024), (5.52, 6.73), (7.25, 7.74)])
+def test_lines_that_miss_the_centre_plane_leave_no_gap(
+    series60_60: Hull, draughts: tuple[float, float]
+) -> None:
+    """The foremost section begins a seventh of a millimetre off the stem: that is no opening."""
+    report = panel_report(panels(series60_60, draughts=draughts, count=800))
+    assert report.outward
+    assert report.aspect.most < 100.0
+
+
+def test_twin_skegs_are_divided_too() -> None:
+    """A tunnel between skegs, in the water and out of it, heeled as well."""
+    hull = twin_skeg_ship()
+    for draught, heel in ((18.0, 0.0), (7.0, 0.0), (12.0, 15.0)):
+        report = panel_report(panels(hull, draught=draught, heel_deg=heel, count=900))
+        assert report.outward
+        assert abs(report.volume_error or 1.0) < 0.01
 
 
 def test_half_and_full_are_one_mesh(bulk_carrier: Hull) -> None:
