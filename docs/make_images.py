@@ -26,10 +26,13 @@ from assoc_hull.analysis.form.report import form_report
 from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.stability.flooding import FloodingPoint
+from assoc_hull.analysis.stability.stability import stability
 from assoc_hull.plot import lines_plan, neighbourhood
 from assoc_hull.plot.form_sheet import form_sheets
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.panels import panel_plan
+from assoc_hull.plot.stability import lever_picture
 from assoc_hull.plot.transforms import curve_series
 from assoc_hull.sources import examples
 
@@ -64,6 +67,14 @@ def form_sheet() -> Figure:
     return form_sheets(report)[0].figure
 
 
+def levers() -> Figure:
+    """Draw the righting levers of Series 60 CB 0.70."""
+    vent = FloodingPoint("engine room vent", (30.0, 4.0, 11.5))
+    hull = examples.series60(cb=0.70)
+    found = stability(hull, weight=10_600.0, lcg=61.5, kg=6.9, trim="free", flooding=[vent])
+    return lever_picture(found, paper="A4")
+
+
 def series() -> Figure:
     """Draw the sectional-area curve of Series 60 CB 0.70 and its Chebyshev series."""
     areas = curve_transform(examples.series60(cb=0.70), "sectional areas", terms=24, draught=7.0)
@@ -79,6 +90,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,
+    "righting_levers": levers,
     "curve_series": series,
     "panels": mesh,
     "crossing": crossing,

@@ -12,7 +12,10 @@ from assoc_hull.examples import carrier_form as form
 from assoc_hull.geometry.curves import FloatArray
 from tests import carrier_truth
 
-__all__ = ["HalfSection", "bluntness", "bulb_area", "overhang", "run_angle", "slope_at_ap"]
+__all__ = [
+    "HalfSection", "bluntness", "bulb_area", "foremost", "overhang", "run_angle", "slope_at_ap",
+    "transom_below",
+]  # fmt: skip
 
 DRAUGHT = form.DRAUGHT
 
@@ -81,6 +84,13 @@ def bulb_area() -> float:
     ]
     nodes, weights = carrier_truth.between(sorted([*levels, *roots]))
     return float(np.maximum(form.fore_end(nodes) - form.LENGTH, 0.0) @ weights)
+
+
+def transom_below(draught: float) -> tuple[float, float]:
+    """Area of the transom below a waterline, and its breadth there; m2, m."""
+    z, dz = carrier_truth.between([form.TRANSOM_LOW, draught])
+    y = form.half_breadth(np.full_like(z, form.TRANSOM), z)
+    return 2.0 * float(y @ dz), 2.0 * float(form.half_breadth(form.TRANSOM, draught))
 
 
 def overhang(x: float) -> float:

@@ -15,7 +15,17 @@ import numpy as np
 from assoc_hull.examples import carrier_form as form
 from tests import carrier_ends, carrier_truth
 
-__all__ = ["SCREW", "SCREW_AT", "SHAFT", "carrier", "ellipsoid", "parted", "wigley"]
+__all__ = [
+    "SCREW",
+    "SCREW_AT",
+    "SHAFT",
+    "box",
+    "carrier",
+    "deep_carrier",
+    "ellipsoid",
+    "parted",
+    "wigley",
+]
 
 # Of 1 - s^2 from the end of a half length to a place: to stations 3 and 4, 5 and 10 of 20.
 AT_3, TO_4, AT_5, TO_5 = 0.51, 0.416 / 3.0, 0.75, 0.625 / 3.0
@@ -71,7 +81,8 @@ def _wigley_sections(draught: float) -> dict[str, float]:
         "S3.A1": ahead * 2.0 / 3.0 * breadth["aft"] * draught,
         "S3'.A1": ahead * 2.0 / 3.0 * breadth["aftmost"] * draught,
         "Ldiag": math.hypot(5.0 / 3.0, draught), "L": golden * math.hypot(5.0 / 3.0, draught),
-        "L/Ldiag": golden, "Raft": _through_three(breadth["aft"], draught),
+        "L/Ldiag": golden, "x_third": 50.0 + 50.0 * math.sqrt(2.0 / 3.0),
+        "L_R Holtrop": 100.0 / 3.0, "Raft": _through_three(breadth["aft"], draught),
         "Rfwd": _through_three(breadth["fore"], draught), "SO": 0.0, "Hap": 0.0,
     }  # fmt: skip
 
@@ -114,6 +125,37 @@ def ellipsoid() -> dict[str, float]:
         "KMT": 7.75, "KML": 160.0,
     }  # fmt: skip
     return found | SAME_BOTH_ENDS
+
+
+def box() -> dict[str, float]:
+    """100 x 20 x 12 m at 6 m, both ends flat; a screw of 3 m on a shaft at 2 m."""
+    ones = ("Cb", "Cm", "Cp", "Cpa", "Cpf", "BAR", "Cb4", "Br03", "Cpa'", "Cw", "Cwa", "Cwf",
+            "Cwa'", "Cvpa'", "Cvp", "C_IT", "C_IL", "TRAR")  # fmt: skip
+    found = {
+        "V": 12000.0, "Disp": 12300.0, "VCB": 3.0, "Aw": 2000.0, "WSA": 3200.0, "Amax": 120.0,
+        "V_a": 6000.0, "V_f": 6000.0, "LCBa": 25.0, "LCBf": 75.0, "V_st4": 2400.0,
+        "V_st5": 3000.0, "A_st3": 120.0, "A_st5": 120.0, "A_FP": 120.0, "PMBs": 0.0,
+        "PMBe": 20.0, "Aw_a": 1000.0, "Aw_f": 1000.0, "LCFa": 25.0, "LCFf": 75.0,
+        "Aw_st5": 500.0, "b_st5": 10.0, "I_T": 2e5 / 3.0, "I_L": 5e6 / 3.0, "BMT": 50.0 / 9.0,
+        "BML": 1250.0 / 9.0, "KMT": 3.0 + 50.0 / 9.0, "KML": 3.0 + 1250.0 / 9.0,
+        "Ea": 0.0, "Ef": 0.0, "Ea'": 0.0, "B'": math.sqrt(136.0), "Cb/(L/B)": 0.2,
+        "As": 0.2 * math.sqrt(0.3), "BW": 20.0, "ATT": 120.0, "A_T": 120.0, "B_tr": 20.0,
+        "TRAR_paper": 1.0 / 6.0, "TH": 0.0, "TRZ": 6.0, "SO": 0.0, "PI": 2.5, "BCL": 10.0,
+        "B07": 10.0, "Tau": 0.0, "S3.A1": 40.0 / 3.0, "S3.A2": 60.0, "S3": 2.0 / 9.0,
+        "S3'.A1": 40.0 / 3.0, "S3'.A2": 60.0, "S3'": 2.0 / 9.0,
+    }  # fmt: skip
+    return found | SAME_BOTH_ENDS | dict.fromkeys(ones, 1.0)
+
+
+def deep_carrier() -> dict[str, float]:
+    """The carrier at 20 m: her transom, which begins at 18.4 m, is wet."""
+    area, breadth = carrier_ends.transom_below(20.0)
+    greatest = carrier_truth.area_of(150.0) + 100.0
+    return {
+        "ATT": area, "A_T": area, "B_tr": breadth, "TRZ": 20.0 - form.TRANSOM_LOW,
+        "TRHL": breadth / 50.0 * 60.0, "TRAR": area / greatest,
+        "TRAR_paper": area / greatest / 20.0, "Amax": greatest, "SO": 5.0,
+    }  # fmt: skip
 
 
 def carrier() -> dict[str, float]:
@@ -161,6 +203,7 @@ def _sections() -> dict[str, float]:
     return {
         "Amax": area, "A_FP": carrier_truth.area_of(300.0), "A_st3": carrier_truth.area_of(45.0),
         "A_st5": carrier_truth.area_of(75.0), "L": part, "Ldiag": whole, "L/Ldiag": part / whole,
+        "x_third": third.x,
         "BCL": second.at(SHAFT), "B07": second.at(SHAFT + 0.35 * SCREW),
         "Tau": second.inclination(SHAFT), "S3.A1": outside, "S3.A2": after.area,
         "S3": outside / after.area, "S3'.A1": farther, "S3'.A2": aftmost.area,
@@ -218,5 +261,12 @@ def _coefficients(of: Mapping[str, float]) -> dict[str, float]:
         "BMT": of["I_T"] / volume, "BML": of["I_L"] / volume,
         "KMT": of["VCB"] + of["I_T"] / volume, "KML": of["VCB"] + of["I_L"] / volume,
         "LCF-LCB": of["LCF"] - 3.0 * (50.0 + of["LCB"]), "C_VPR": of["V_PR"] / volume,
+        "L_R Holtrop": _holtrop_run(volume / area, of["LWL"], of["LCB"]),
         "C_ABT": of["A_BT"] / area, "C_ABL": of["A_BL"] / area,
     }  # fmt: skip
+
+
+def _holtrop_run(prism: float, length: float, percent: float) -> float:
+    """Length of the run by Holtrop and Mennen (1982), of the prism's length in their terms."""
+    cp = prism / length
+    return length * (1.0 - cp) + 0.06 * prism * percent / (4.0 * cp - 1.0)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.floating_terms import add_water, appendages_of, density_of, levels
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError, OutOfRangeError
@@ -20,13 +21,10 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
     from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
 
-__all__ = ["add", "levels"]
+__all__ = ["add"]
 
-_WATERS = {"salt": 1.025, "fresh": 1.000}
 _TABLES = (".csv", ".xlsx")
 _PICTURES = ("curves", "areas", "bonjean")
-_MOST = 2000
-_DRAUGHTS = "in --table"
 
 
 def add(commands: Commands) -> None:
@@ -67,14 +65,8 @@ def _add_position(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_terms(parser: argparse.ArgumentParser) -> None:
-    water = parser.add_mutually_exclusive_group()
-    water.add_argument("--rho", type=float, metavar="R", help="density of the water, t/m3")
-    water.add_argument("--water", choices=tuple(_WATERS), help="1.025 (default) or 1.000 t/m3")
+    add_water(parser)
     parser.add_argument("--kg", type=float, metavar="Z", help="centre of gravity above base, m")
-    parser.add_argument(
-        "--shell-factor", type=float, default=1.0, metavar="F",
-        help="displacement over that of the moulded volume (default: 1)",
-    )  # fmt: skip
     parser.add_argument(
         "--transom", action="store_true", help="count the immersed transom as wetted surface"
     )
@@ -86,17 +78,9 @@ def _add_terms(parser: argparse.ArgumentParser) -> None:
         "--draught-to", choices=("moulded", "keel"), default="moulded",
         help="where the draughts given are measured from (default: the base line)",
     )  # fmt: skip
-    parser.add_argument(
-        "--appendage", action="append", default=[], metavar="NAME,VOLUME,X,Y,Z,AREA",
-        help="add one, m3, m, m2; may be given again",
-    )  # fmt: skip
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--on-error", choices=("refuse", "report"), default="refuse",
-        help="what to do where the integrals are doubtful",
-    )  # fmt: skip
     parser.add_argument(
         "--no-estimate",
         action="store_true",
@@ -157,8 +141,7 @@ def _table(hull: Hull, arguments: argparse.Namespace) -> HydrostaticTable:
     """Compute what was asked."""
     from assoc_hull.analysis.hydrostatics import hydrostatic_table
 
-    rho = _WATERS[arguments.water or "salt"] if arguments.rho is None else arguments.rho
-    appendages = tuple(map(_appendage, arguments.appendage))
+    rho, appendages = density_of(arguments), appendages_of(arguments)
     draughts, trims, moulded = _draughts(hull, arguments, rho, appendages)
     return hydrostatic_table(
         hull, draughts, trims, heel_deg=arguments.heel, rho=rho,
@@ -175,7 +158,7 @@ def _draughts(
 ) -> tuple[list[float], Sequence[float], bool]:
     """Give mean draughts and trims, and whether they are moulded whatever was asked."""
     if arguments.table is not None:
-        return levels(arguments.table), arguments.trims or (0.0,), False
+        return levels(arguments.table, "--table"), arguments.trims or (0.0,), False
     if arguments.weight is not None:
         from assoc_hull.analysis.equilibrium import immersion
 
@@ -190,48 +173,6 @@ def _draughts(
     if arguments.draught is not None:
         return [arguments.draught], (0.0,), False
     return [hull.particulars.draught], (0.0,), True
-
-
-def levels(text: str) -> list[float]:
-    """Take the draughts of a table, ``FROM:TO:STEP`` in m, both ends included.
-
-    Raises
-    ------
-    BadInputError
-        Not three numbers, or none or too many draughts.
-
-    Examples
-    --------
-    >>> from assoc_hull.cli.hydrostatics import levels
-    >>> levels("4:5:0.25")
-    [4.0, 4.25, 4.5, 4.75, 5.0]
-    """
-    try:
-        low, high, step = (float(part) for part in text.split(":"))
-    except ValueError:
-        low = high = step = math.nan
-    if not (math.isfinite(low) and math.isfinite(high) and math.isfinite(step)):
-        raise BadInputError(f"the table is {text!r}", _DRAUGHTS, "give FROM:TO:STEP, as 4:18:1")
-    if not (step > 0.0 and low <= high):
-        raise BadInputError(f"{text} does not rise", _DRAUGHTS, "give FROM below TO, STEP above 0")
-    count = math.floor((high - low) / step + 1e-9) + 1
-    if count > _MOST:
-        remedy = f"give a step of {(high - low) / _MOST:.3g} m or more"
-        raise BadInputError(f"{text} has {count} draughts", _DRAUGHTS, remedy)
-    return [round(low + step * k, 12) for k in range(count)]
-
-
-def _appendage(text: str) -> Appendage:
-    """Take an appendage, ``NAME,VOLUME,X,Y,Z,AREA``."""
-    from assoc_hull.analysis.appendage import Appendage
-
-    name, *rest = (part.strip() for part in text.split(","))
-    try:
-        volume, x, y, z, area = map(float, rest)
-    except ValueError:
-        what, remedy = f"the appendage is {text!r}", "give NAME,VOLUME,X,Y,Z,AREA in m3, m, m2"
-        raise BadInputError(what, "in --appendage", remedy) from None
-    return Appendage(name, volume, (x, y, z), area)
 
 
 def _saved(hull: Hull, table: HydrostaticTable, arguments: argparse.Namespace) -> list[str]:

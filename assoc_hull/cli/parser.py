@@ -20,6 +20,7 @@ from assoc_hull.cli import (
     plot,
     replay,
     shell,
+    stability,
     transform,
     why,
 )
@@ -67,7 +68,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        transform, panels, plot, export, shell,
+        stability, transform, panels, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

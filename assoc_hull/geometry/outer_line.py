@@ -51,6 +51,13 @@ class OuterLine:
         return x, y
 
     @property
+    def aftmost(self) -> tuple[float, float]:
+        """Where the line is farthest aft: x and y, m; of several places that first met."""
+        places = self.point.reshape(-1, 2)
+        x, y = places[int((places[:, 0] <= places[:, 0].min() + _SPECK).argmax())].tolist()
+        return x, y
+
+    @property
     def angle(self) -> FloatArray:
         """By how much the line runs inward, (m, n), radians: pi / 2 where it runs across."""
         inward: FloatArray = np.arctan2(-self.slope[..., 1], np.abs(self.slope[..., 0]))
@@ -63,6 +70,26 @@ class OuterLine:
         length = np.hypot(self.slope[..., 0], self.slope[..., 1])
         found: FloatArray = turn / np.where(length > 0.0, length, np.inf)
         return found
+
+    def entrance(self, near: float) -> float:
+        """Give the angle at the end of the line, or where it leaves the radius there; radians.
+
+        A radius is one that is shorter than `near` (m), within that distance of y = 0. The line
+        leaves it where its curvature has fallen to half of the greatest there: that is where a
+        straight line begins, and a definite place where none does.
+        """
+        angle, bend, y = (
+            each.ravel()[::-1] for each in (self.angle, self.curvature, self.point[..., 1])
+        )
+        sharp = np.where(y <= near, bend, -np.inf)
+        tightest = int(sharp.argmax())
+        half = 0.5 * float(sharp[tightest])
+        slack = np.flatnonzero(bend[tightest:] <= half)
+        if 2.0 * half * near < 1.0 or not len(slack):
+            return float(angle[0])
+        k = tightest + int(slack[0])
+        share = (bend[k - 1] - half) / (bend[k - 1] - bend[k])
+        return float(angle[k - 1] + share * (angle[k] - angle[k - 1]))
 
     def bluntness(self) -> float:
         """Integral of the square of the sine of `angle` over -y, m; a flat end has sine 1."""

@@ -23,10 +23,13 @@ from assoc_hull.geometry.strip_spans import Spans
 __all__ = ["Arcs", "waterline_arcs"]
 
 _NODES = 8
-_PIECES = 6  # of each part of a raked strip: lines bend there
+_PIECES = 12  # of each part of a raked strip: lines bend there
+_PER_PIECE = 4  # Gauss points of a strip of sections
 _LOOKS = 9  # at each strip, for where the number of places changes
 _HALVINGS = 46
 _SEVERAL = 6  # changes between two looks, at most
+_END = 1e-9  # of a strip: a number that changes so near to its end changes there
+_LEVEL = 1e-9  # m along a tile: what rises less is level
 _SLIVER = 1e-10  # parts of a strip that are shorter are left out
 _CHUNK = 256  # curves at a time
 
@@ -101,7 +104,8 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     order = np.lexsort((owner, rank, owner // _NODES))
     both = place[order].reshape(-1, _NODES, 4)
     own = owner[order].reshape(-1, _NODES)[:, :1] // _NODES
-    slope = both[..., 2:] * (length * rate)[own[:, 0], :, None]
+    with np.errstate(invalid="ignore"):  # endless where the waterline stands across the strip
+        slope = both[..., 2:] * (length * rate)[own[:, 0], :, None]
     # Where an arc begins or ends inside a strip the waterline stands across it.
     told = np.isfinite(slope) & (rate[own[:, 0]] > 0.0)[..., None]
     point = both[..., :2].copy()
@@ -131,7 +135,8 @@ class _Parts:
     strip : int
     low, high : from 0 to 1, along the strip
     starts, ends : bool
-        There the number changes.
+        There the number changes, inside the strip: two places run together. At an end of a strip
+        it may change because the plane passes through a corner, and lines go on smoothly.
     """
 
     strip: IntArray
@@ -142,8 +147,9 @@ class _Parts:
 
 
 def _pieces(parts: _Parts, body: Spans) -> _Parts:
-    """Cut the parts of raked strips into pieces."""
-    count = np.where(body.flat[parts.strip], 1, _PIECES)
+    """Cut parts of strips into pieces, more of those that are raked or want a higher order."""
+    wanted = -(-np.asarray(body.prepared.strips.order) // _PER_PIECE)
+    count = np.where(body.flat, wanted, np.maximum(wanted, _PIECES))[parts.strip]
     row = np.repeat(np.arange(len(count)), count)
     piece = np.arange(len(row)) - (np.cumsum(count) - count)[row]
     size = ((parts.high - parts.low) / count)[row]
@@ -169,7 +175,9 @@ def _parts(body: Spans, plane: Planes) -> _Parts:
     rise, fall = np.lexsort((low, from_low)), np.lexsort((high, from_high))
     low, high = low[rise], high[fall]
     wide = np.flatnonzero(high - low > _SLIVER)
-    found = _Parts(from_low[rise][wide], low[wide], high[wide], low[wide] > 0.0, high[wide] < 1.0)
+    found = _Parts(
+        from_low[rise][wide], low[wide], high[wide], low[wide] > _END, high[wide] < 1.0 - _END
+    )
     some = _count(body, plane, found.strip, 0.5 * (found.low + found.high)) > 0
     return _Parts(*(each[some] for each in attrs.astuple(found, recurse=False)))
 
@@ -230,7 +238,8 @@ def _along(coefficients: FloatArray, u: FloatArray, trim: FloatArray) -> FloatAr
     """Give x, y, dx/dv and dy/dv (k, 4) of the waterline at places of tiles (6, 4, k)."""
     both = (coefficients * powers(u)).sum(axis=1)
     up = slopes(coefficients[:3], u)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = (both[5] - trim * both[3]) / (up[2] - trim * up[0])
-        rate = both[3:5] - up[:2] * share
+    rise = up[2] - trim * up[0]
+    # No way along the waterline can be told where a curve is but a point, or level.
+    rise = np.where(np.abs(rise) > _LEVEL, rise, np.nan)
+    rate = both[3:5] - up[:2] * ((both[5] - trim * both[3]) / rise)
     return np.concatenate([both[:2], rate]).T

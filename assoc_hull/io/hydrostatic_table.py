@@ -8,22 +8,17 @@ of the record.
 
 from __future__ import annotations
 
-import csv
-import io
-import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
 
-import attrs
 import numpy as np
 
 from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
 from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.column_table import Column, columns_csv, columns_xlsx
 from assoc_hull.io.whole_file import write_whole
-from assoc_hull.io.workbook import head_on, openpyxl_module, workbook_bytes
 
 __all__ = ["TABLE_ENDINGS", "csv_text", "write_hydrostatic_table", "xlsx_bytes"]
 
@@ -31,16 +26,6 @@ TABLE_ENDINGS = (".csv", ".xlsx")
 
 _UNITS = {"heel_deg": "deg"}
 _FIRST = 2  # columns that stay in sight: the draughts
-
-
-@attrs.frozen
-class _Column:
-    """A column: its name, unit, digits after the point, and numbers (d,)."""
-
-    name: str
-    unit: str
-    digits: int
-    values: FloatArray
 
 
 def write_hydrostatic_table(table: HydrostaticTable, path: str | os.PathLike[str]) -> None:
@@ -64,19 +49,8 @@ def write_hydrostatic_table(table: HydrostaticTable, path: str | os.PathLike[str
 
 
 def csv_text(table: HydrostaticTable) -> str:
-    """Lay out a table as comma-separated text; what a position does not have is blank.
-
-    Numbers have twelve digits, which is more than is known of any of them.
-    """
-    out = io.StringIO()
-    out.writelines(f"# {title}: {words}\n" for title, words in _head(table))
-    writer = csv.writer(out, lineterminator="\n")
-    columns = list(_columns(table))
-    writer.writerow([each.name for each in columns])
-    writer.writerow([each.unit for each in columns])
-    for row in zip(*(each.values.tolist() for each in columns), strict=True):
-        writer.writerow(["" if math.isnan(value) else f"{value:.12g}" for value in row])
-    return out.getvalue()
+    """Lay out a table as comma-separated text; what a position does not have is blank."""
+    return columns_csv(_head(table), list(_columns(table)))
 
 
 def xlsx_bytes(table: HydrostaticTable) -> bytes:
@@ -87,27 +61,12 @@ def xlsx_bytes(table: HydrostaticTable) -> bytes:
     MissingExtraError
         openpyxl is not installed.
     """
-    book = openpyxl_module().Workbook()
-    sheet = book.active
-    sheet.title = "hydrostatics"
-    head_on(sheet, _head(table))
-    columns = list(_columns(table))
-    top = sheet.max_row + 1
-    sheet.append([each.name for each in columns])
-    sheet.append([each.unit for each in columns])
-    for row in zip(*(each.values.tolist() for each in columns), strict=True):
-        sheet.append([None if math.isnan(value) else value for value in row])
-    for cells, column in zip(sheet.iter_cols(min_row=top + 2), columns, strict=True):
-        for cell in cells:
-            cell.number_format = "0." + "0" * column.digits if column.digits else "0"
-    sheet.freeze_panes = sheet.cell(top + 2, _FIRST + 1)
-    return workbook_bytes(book)
+    return columns_xlsx("hydrostatics", _head(table), list(_columns(table)), _FIRST)
 
 
 def _head(table: HydrostaticTable) -> Iterator[tuple[str, str]]:
     """Give the head, what the appendages add where most of them are wet, and the notes."""
-    for title, words in table.header.lines():
-        yield title, " ".join(words.split())
+    yield from table.header.lines()
     for share in table.shares:
         most = share.percent[abs(share.percent).argmax()]
         yield "share", f"{share.appendage.name}: up to {most:.4g} % of the volume"
@@ -115,17 +74,17 @@ def _head(table: HydrostaticTable) -> Iterator[tuple[str, str]]:
         yield "note", note
 
 
-def _columns(table: HydrostaticTable) -> Iterator[_Column]:
+def _columns(table: HydrostaticTable) -> Iterator[Column]:
     """Give draughts, values, freeboard, what each appendage adds, and errors."""
     for name, values in table.draughts.items():
-        yield _Column(name, _UNITS.get(name, "m"), 4, values)
+        yield Column(name, _UNITS.get(name, "m"), 4, values)
     for name, values in table.columns.items():
-        yield _Column(name, FIELDS[name].unit, FIELDS[name].digits, values)
+        yield Column(name, FIELDS[name].unit, FIELDS[name].digits, values)
     free = np.array([each.least for each in table.freeboards])
-    yield _Column("freeboard", "m", 4, free)
+    yield Column("freeboard", "m", 4, free)
     for share in table.shares:
         name = share.appendage.name
-        yield _Column(f"volume of {name}", "m3", 3, share.volume)
-        yield _Column(f"area of {name}", "m2", 3, share.area)
+        yield Column(f"volume of {name}", "m3", 3, share.volume)
+        yield Column(f"area of {name}", "m2", 3, share.area)
     for name, values in table.errors.items():
-        yield _Column(f"error_{name}", FIELDS[name].unit, FIELDS[name].digits + 3, values)
+        yield Column(f"error_{name}", FIELDS[name].unit, FIELDS[name].digits + 3, values)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
+from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.block import frame, title_block
 from assoc_hull.plot.layout import BLOCK
@@ -15,7 +16,7 @@ from assoc_hull.plot.paper import MARGIN, Pen
 from assoc_hull.plot.pens import GRID, LINE, WATER
 from assoc_hull.plot.sheet import Sheet
 
-__all__ = ["Chart", "Scale", "block_of", "chart_on", "levels", "scale_to", "smooth"]
+__all__ = ["Chart", "Scale", "block_of", "chart_on", "levels", "scale_to", "smooth", "uprights"]
 
 _LEFT, _RIGHT, _ABOVE = 16.0, 9.0, 14.0  # of the field, for labels, mm at A3
 _STEPS = (1.0, 2.0, 2.5, 5.0)
@@ -149,6 +150,19 @@ def levels(chart: Chart, scale: Scale, title: str, draught: float | None = None)
         sheet.take(sheet.text(place, words, size=0.9, across="left", name="label/design"))
 
 
+def uprights(chart: Chart, along: Scale, title: str) -> None:
+    """Draw upright lines at the marks of the abscissa, with their values below."""
+    sheet, factor = chart.sheet, chart.sheet.paper.factor
+    for value in along.marks.tolist():
+        x = float(along.at(value))
+        sheet.rule((x, chart.low), (x, chart.top), GRID, f"upright/{value:g}")
+        place = (x, chart.low - 1.2 * factor)
+        sheet.take(sheet.text(place, along.word(value), up="top", name="label/upright"))
+    place = (chart.right, chart.low - 4.6 * factor)
+    words = sheet.text(place, title, across="right", up="top", bold=True, name="label/along")
+    sheet.take(words)
+
+
 def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
     """Give a smooth curve through points, (count + n, 2), straight where they lie level.
 
@@ -184,9 +198,16 @@ def smooth(x: FloatArray, y: FloatArray, count: int = 400) -> FloatArray:
     return np.column_stack([at, CubicHermiteSpline(x, y, slope)(at)])
 
 
-def block_of(
-    sheet: Sheet, table: HydrostaticTable, title: str, rows: Sequence[tuple[str, str]]
-) -> float:
+class Headed(Protocol):
+    """What has a head that says what its numbers hold good for."""
+
+    @property
+    def header(self) -> HydrostaticHeader:
+        """The head."""
+        ...
+
+
+def block_of(sheet: Sheet, table: Headed, title: str, rows: Sequence[tuple[str, str]]) -> float:
     """Draw the block of a chart: ship, rows, and what the numbers hold good for."""
     head, factor = table.header, sheet.paper.factor
     margin = MARGIN * factor

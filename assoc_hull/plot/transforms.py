@@ -10,7 +10,7 @@ from assoc_hull.analysis.transform_record import CurveTransform
 from assoc_hull.arguments import instance, integer
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.block import title_block
-from assoc_hull.plot.chart import Chart, Scale, chart_on, levels, scale_to
+from assoc_hull.plot.chart import Chart, Scale, chart_on, levels, scale_to, uprights
 from assoc_hull.plot.layout import BLOCK
 from assoc_hull.plot.paper import MARGIN, PaperName, Pen
 from assoc_hull.plot.pens import AXIS, GRID, TINT
@@ -95,7 +95,7 @@ def _curve(chart: Chart, found: CurveTransform, terms: int) -> None:
         found.across if found.unit != 1.0 else found.across + (", m2" if _areas(found) else ", m")
     )
     levels(chart, up, f"{title} / {found.unit:.5g}" if found.unit != 1.0 else title)
-    _uprights(chart, along, f"{found.along}, m")
+    uprights(chart, along, f"{found.along}, m")
     if low < 0.0 < high:
         chart.level(float(up.at(0.0)), AXIS, "nil")
     chart.border()
@@ -113,19 +113,6 @@ def _series(found: CurveTransform, terms: int) -> FloatArray:
     at = np.linspace(found.low, found.high, _PLACES)
     value = found.evaluate(at, terms)
     return value if value.ndim == 2 else np.column_stack([at, value])
-
-
-def _uprights(chart: Chart, along: Scale, title: str) -> None:
-    """Draw upright lines at the marks of the abscissa, with their values below."""
-    sheet, factor = chart.sheet, chart.sheet.paper.factor
-    for value in along.marks.tolist():
-        x = float(along.at(value))
-        sheet.rule((x, chart.low), (x, chart.top), GRID, f"upright/{value:g}")
-        place = (x, chart.low - 1.2 * factor)
-        sheet.take(sheet.text(place, along.word(value), up="top", name="label/upright"))
-    place = (chart.right, chart.low - 4.6 * factor)
-    words = sheet.text(place, title, across="right", up="top", bold=True, name="label/along")
-    sheet.take(words)
 
 
 def _bars(chart: Chart, found: CurveTransform, terms: int) -> None:

@@ -17,7 +17,7 @@ def wigley() -> Mapping[str, Value]:
 
 
 @pytest.mark.parametrize(
-    "symbol", ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL"]
+    "symbol", ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL", "V_PR"]
 )
 def test_without_a_bulb_there_is_a_reason(wigley: Mapping[str, Value], symbol: str) -> None:
     """Never a zero that means nothing."""

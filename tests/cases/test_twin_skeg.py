@@ -58,6 +58,11 @@ def half_area(x: float, z: float) -> float:
     return 2.0 * ship.WIDTH * (depth * (t - 2.0 / 3.0 * t**3 + 0.2 * t**5) - (top - z) * t)
 
 
+def test_she_has_all_parameters(found: Mapping[str, Value]) -> None:
+    """Every entry has a number, but the one that people choose by eye."""
+    assert [symbol for symbol, value in found.items() if value.number is None] == ["C_stern"]
+
+
 def test_her_profile_is_that_of_the_construction(found: Mapping[str, Value]) -> None:
     """TwTTL, TTLS, StemA, Hap, HSKEG, TH, TRZ, SO: the roof is a straight line."""
     assert number(found, "TwTTL") == pytest.approx(ship.FORE / STATION, abs=1e-9)

@@ -7,7 +7,9 @@ from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
 from assoc_hull.analysis.form.section_shape import section_at
 from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.slices import slices
 from assoc_hull.analysis.form.value import Absent, Found
+from assoc_hull.analysis.net.sections import CENTRE
 
 __all__ = ["PARAMETERS"]
 
@@ -45,17 +47,18 @@ def bulb_height(shape: Shape) -> Found:
 def bulb_breadth(shape: Shape) -> Found:
     section = section_at(shape, shape.length)
     half = None if section is None else section.greatest_below(shape.header.draught)
-    return 2.0 * half if half else Absent("no section at FP below the design draught")
+    if half is None or half <= CENTRE:
+        return Absent("no section at FP below the design draught")
+    return 2.0 * half
 
 
 @parameter(
     "Abulb", name="area of the section at FP", unit="m2", table="hull form",
-    definition="area of the section at FP below T, all of it, of a ship with a bulb",
-    datum="both sides", source=TABLE_4, needs=(SHAPE, "BL"),
+    definition="A_FP of a ship with a bulb: the whole section, of what stands above it, too",
+    datum="both sides", source=TABLE_4, needs=("BL", "A_FP"),
 )  # fmt: skip
-def bulb_area(shape: Shape, bulb: float) -> Found:
-    section = section_at(shape, shape.length)
-    return Absent("no section at FP") if section is None else section.area_below(shape.draught)
+def bulb_area(bulb: float, area: float) -> float:
+    return area
 
 
 @parameter(
@@ -99,9 +102,9 @@ def kracht_length(length: float) -> float:
 @parameter(
     "B_B", name="greatest breadth of the bulb at FP", unit="m", table="measures",
     definition="BW of a ship with a bulb", datum="both sides", source=KRACHT,
-    needs=("BW", "BL"),
+    needs=("BL", "BW"),
 )  # fmt: skip
-def kracht_breadth(breadth: float, length: float) -> float:
+def kracht_breadth(length: float, breadth: float) -> float:
     return breadth
 
 
@@ -119,6 +122,15 @@ def kracht_across(area: float) -> float:
 )  # fmt: skip
 def kracht_along(area: float) -> float:
     return area
+
+
+@parameter(
+    "V_PR", name="volume of the protruding part of the bulb", unit="m3", table="measures",
+    definition="V forward of FP, of a ship with a bulb", datum="both sides", source=KRACHT,
+    needs=(SHAPE, "BL"), digits=2,
+)  # fmt: skip
+def kracht_volume(shape: Shape, length: float) -> float:
+    return shape.take(slices).forward_of(shape.length).volume
 
 
 PARAMETERS = entries_in(vars())

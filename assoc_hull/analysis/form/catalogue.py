@@ -14,7 +14,6 @@ from assoc_hull.analysis.form import (
     midship,
     particulars,
     parts,
-    pending,
     proportions,
     resistance,
     skeg,
@@ -43,7 +42,6 @@ _MODULES = (
     fore_section,
     after_section,
     skeg,
-    pending,
 )
 
 CATALOGUE = Named(

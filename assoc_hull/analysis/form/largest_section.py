@@ -27,7 +27,8 @@ _RATIO = 0.25
 of it; a stretch that is more than so much of it does not come from a rounded top."""
 
 _SAME = 1e-12
-_SAMPLES = 9  # on each strip, and on each bracket
+_COARSE = 4  # parts of each strip, at whose ends it is looked at first
+_SAMPLES = 9  # on each bracket
 _ROUNDS = 7
 
 
@@ -87,12 +88,19 @@ def largest_section(shape: Shape) -> LargestSection:
 
 
 def _samples(strips: Spans) -> FloatArray:
-    """Give places along the ship from the first section to the last, ascending, m."""
+    """Give places along the ship from the first section to the last, ascending, m.
+
+    None inside of raked strips, which lie at the ends and must be traced.
+    """
     flat = strips.flat & (strips.fore > strips.aft)
+    if not flat.any():
+        return np.linspace(strips.aft.min(), strips.fore.max(), 5 * _COARSE + 1)
     edge = np.unique(np.concatenate([strips.aft[flat], strips.fore[flat]]))
-    part = np.linspace(0.0, 1.0, _SAMPLES)[:-1]
-    inner = (edge[:-1, None] + np.diff(edge)[:, None] * part).ravel()
-    return np.append(inner, edge[-1:])
+    part = np.arange(_COARSE) / _COARSE
+    x = np.append((edge[:-1, None] + np.diff(edge)[:, None] * part).ravel(), edge[-1:])
+    low, high = strips.aft[~strips.flat], strips.fore[~strips.flat]
+    inside = ((x[:, None] > low) & (x[:, None] < high)).any(axis=1)
+    return x[~inside | np.isin(x, edge)]
 
 
 def _level(

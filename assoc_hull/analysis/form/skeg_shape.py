@@ -36,8 +36,11 @@ _DEEP = 0.02
 """A section of the after body whose lowest place lies deeper below its centre (in design
 draughts) is one of twin skegs."""
 
-_SHALLOW = 1e-4
-"""So deep a skeg (m) has ended."""
+_SHALLOW = 5e-6
+"""So deep a skeg (in design draughts) has ended."""
+
+_STRAIGHT = 1e-5
+"""A lower edge that leaves its chord by less (in lengths of the chord) is straight."""
 
 _BASE = 1e-6
 """So near to the base line (m) a place is on it."""
@@ -112,6 +115,8 @@ def skeg(shape: Shape) -> Skeg | Absent:
     if isinstance(fore, Absent):
         return fore
     aft = _aft_end(shape)
+    if aft >= fore:
+        return Absent("the tunnel's top line meets the base line abaft the skeg")
     stations = _stations(shape)
     bounds = np.concatenate([[aft], stations[(stations > aft) & (stations < fore)], [fore]])
     node, weight = gauss(_POINTS)
@@ -127,12 +132,13 @@ def skeg(shape: Shape) -> Skeg | Absent:
 def _aft_end(shape: Shape) -> float:
     """Find where the skeg, followed aft from where it is deepest, has ended, m."""
     x, depth = _stations(shape), shape.take(_depths)
+    shallow = _SHALLOW * shape.header.draught
     last = int(depth.argmax())
-    while last > 0 and depth[last - 1] > _SHALLOW:
+    while last > 0 and depth[last - 1] > shallow:
         last -= 1
     if last == 0:
         return float(x[0])
-    return float(brentq(lambda at: _depth(shape, at) - _SHALLOW, x[last - 1], x[last], xtol=1e-9))
+    return float(brentq(lambda at: _depth(shape, at) - shallow, x[last - 1], x[last], xtol=1e-9))
 
 
 def _lowest(shape: Shape, x: float) -> float:
@@ -157,8 +163,8 @@ def edge_radius(side: Skeg) -> float | Absent:
     """Give the radius of the circle fitted to the lower edge, m."""
     edge = side.edge[np.isfinite(side.edge[:, 1])]
     chord = edge[-1] - edge[0]
-    off = (edge - edge[0]) @ np.array([-chord[1], chord[0]]) / float(np.hypot(*chord))
-    if float(np.abs(off).max()) <= _SHALLOW:
+    off = (edge - edge[0]) @ np.array([-chord[1], chord[0]])
+    if float(np.abs(off).max()) <= _STRAIGHT * float(chord @ chord):
         return Absent("the lower edge is straight")
     return fit_circle(edge).radius
 

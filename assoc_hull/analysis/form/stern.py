@@ -162,8 +162,8 @@ def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
 
 @parameter(
     "SA", name="fore edge of the screw's aperture", unit="m", table="hull form",
-    definition="x of the profile at the height SCH; where a boss end is drawn, where the profile "
-    "above leaves the boss; of twin skegs, where their lower edge reaches SCH",
+    definition="foremost x of the after profile at the height SCH; where a boss end is drawn, "
+    "where the profile above leaves the boss; of twin skegs, where their lower edge reaches SCH",
     datum="from AP, + forward", source=TABLE_4, needs=(SHAPE, "SCH"),
 )  # fmt: skip
 def aperture(shape: Shape, height: float) -> Found:
@@ -174,7 +174,7 @@ def aperture(shape: Shape, height: float) -> Found:
         return leaves_boss(shape, end)
     places = profile_at(shape, 2, height)
     x = [] if places is None else [each for each in places.xyz[:, 0] if each < 0.5 * shape.length]
-    return float(min(x)) if x else Absent("no profile at the height of the shaft")
+    return float(max(x)) if x else Absent("no profile at the height of the shaft")
 
 
 @parameter(

@@ -47,7 +47,7 @@ def angle_of_entrance(shape: Shape) -> Found:
         return Absent(_NONE)
     if line.end[1] > _CENTRE:
         return Absent("the waterline ends in a flat face")
-    return float(np.degrees(_entrance(line, _NOSE * shape.breadth)))
+    return float(np.degrees(line.entrance(_NOSE * shape.breadth)))
 
 
 @parameter(
@@ -64,7 +64,8 @@ def bluntness(shape: Shape) -> Found:
 @parameter(
     "Rangle", name="angle of run", unit="deg", table="hull form",
     definition="between centre plane and the chord of the waterline at half the draughts, from "
-    "its after end to PMBs; without a parallel middle body, to the largest section",
+    "the aftmost place of its main piece to PMBs; without a parallel middle body, to the "
+    "largest section",
     source=TABLE_4,
 )  # fmt: skip
 def angle_of_run(shape: Shape) -> Found:
@@ -75,7 +76,7 @@ def angle_of_run(shape: Shape) -> Found:
     broad = shape.take(slices).half_breadth(curve.run, half)
     if line is None or broad is None:
         return Absent(f"{_NONE} at half the draught")
-    x, y = line.end
+    x, y = line.aftmost
     if curve.run <= x:
         return Absent("no run")
     angle = float(np.degrees(np.arctan2(broad - y, curve.run - x)))
@@ -86,45 +87,24 @@ def angle_of_run(shape: Shape) -> Found:
 
 @parameter(
     "I_T", name="transverse second moment of the waterplane", unit="m4", table="measures",
-    ittc="I_T", definition="integral of y^2 dA in plan, about its centroid", source=ITTC,
-    digits=1,
+    ittc="I_T", definition="integral of y^2 dA in the floating plane, about its centroid",
+    source=ITTC, digits=1,
 )  # fmt: skip
 def transverse_moment(shape: Shape) -> float:
-    return shape.record.i_t_proj
+    return shape.record.i_t
 
 
 @parameter(
     "I_L", name="longitudinal second moment of the waterplane", unit="m4", table="measures",
-    ittc="I_L", definition="integral of x^2 dA in plan, about its centroid", source=ITTC,
-    digits=1,
+    ittc="I_L", definition="integral of x^2 dA in the floating plane, about its centroid",
+    source=ITTC, digits=1,
 )  # fmt: skip
 def longitudinal_moment(shape: Shape) -> float:
-    return shape.record.i_l_proj
+    return shape.record.i_l
 
 
 def _bow_line(shape: Shape) -> OuterLine | None:
     return outer_line(waterline_arcs(strips_of(shape), shape.planes), forward=True)
-
-
-def _entrance(line: OuterLine, near: float) -> float:
-    """Give the angle at the end of a line, or where it leaves the radius there; radians.
-
-    A radius is one that is shorter than `near` (m), within that distance of the centre plane.
-    """
-    angle, bend, y = (
-        each.ravel()[::-1] for each in (line.angle, line.curvature, line.point[..., 1])
-    )
-    sharp = np.where(y <= near, bend, -np.inf)
-    tightest = int(sharp.argmax())
-    if sharp[tightest] * near < 1.0:
-        return float(angle[0])
-    half = 0.5 * sharp[tightest]
-    slack = np.flatnonzero(bend[tightest:] <= half)
-    if not len(slack):
-        return float(angle[0])
-    k = tightest + int(slack[0])
-    share = (bend[k - 1] - half) / (bend[k - 1] - bend[k])
-    return float(angle[k - 1] + share * (angle[k] - angle[k - 1]))
 
 
 PARAMETERS = entries_in(vars())

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 from assoc_hull.analysis.form.literature import ITTC, TABLE_3
 from assoc_hull.analysis.form.parameter import entries_in, parameter
+from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS"]
+
+_LEAST = 1e-6
+"""Of a prism: what sections leave of it must be more, or a ratio to it is one of roundings."""
+
+
+def _against(plane: float, prismatic: float) -> Found:
+    """Give what the waterplane leaves of its rectangle by what the sections leave of a prism."""
+    if abs(1.0 - prismatic) < _LEAST:
+        return Absent("the sections leave nothing of a prism")
+    return (1.0 - plane) / (1.0 - prismatic)
 
 
 @parameter(
@@ -48,16 +59,16 @@ def waterplane_abaft_station_5(area: float, half_breadth: float, length: float) 
     "Sigma_a", name="waterplane against sections, after body", unit="-", table="hydrostatic",
     definition="(1 - Cwa) / (1 - Cpa)", source=TABLE_3, needs=("Cwa", "Cpa"),
 )  # fmt: skip
-def plane_against_sections_aft(plane: float, prismatic: float) -> float:
-    return (1.0 - plane) / (1.0 - prismatic)
+def plane_against_sections_aft(plane: float, prismatic: float) -> Found:
+    return _against(plane, prismatic)
 
 
 @parameter(
     "Sigma_f", name="waterplane against sections, fore body", unit="-", table="hydrostatic",
     definition="(1 - Cwf) / (1 - Cpf)", source=TABLE_3, needs=("Cwf", "Cpf"),
 )  # fmt: skip
-def plane_against_sections_fore(plane: float, prismatic: float) -> float:
-    return (1.0 - plane) / (1.0 - prismatic)
+def plane_against_sections_fore(plane: float, prismatic: float) -> Found:
+    return _against(plane, prismatic)
 
 
 @parameter(
@@ -65,8 +76,8 @@ def plane_against_sections_fore(plane: float, prismatic: float) -> float:
     table="hydrostatic", definition="(1 - Cwa') / (1 - Cpa')", source=TABLE_3,
     needs=("Cwa'", "Cpa'"),
 )  # fmt: skip
-def plane_against_sections_abaft_station_5(plane: float, prismatic: float) -> float:
-    return (1.0 - plane) / (1.0 - prismatic)
+def plane_against_sections_abaft_station_5(plane: float, prismatic: float) -> Found:
+    return _against(plane, prismatic)
 
 
 @parameter(

@@ -14,7 +14,7 @@ __all__ = ["Criterion", "Judged", "intact_criteria"]
 
 _M, _MRAD, _DEG = "m", "m rad", "deg"
 _NO_POINT = "phi_f not given, 40 used"
-_WEATHER = "the weather criterion is not evaluated"
+_WEATHER = "the weather criterion needs windage and rolling"
 _ROUNDING = 1e-9
 """Degrees by which a curve may end early."""
 
@@ -160,7 +160,9 @@ def _lever(judged: Judged) -> Criterion:
 def _angle(judged: Judged) -> Criterion:
     """Judge the heel of the largest lever."""
     code, name, least = "2.2.3", "heel of the largest GZ", 25.0
-    heel = judged.curve.most()[1]
+    gz, heel = judged.curve.largest
+    if gz <= 0.0:
+        return Criterion(code, name, least, _DEG, None, "GZ is nowhere above 0")
     if heel < judged.curve.end - _ROUNDING:
         return Criterion(code, name, least, _DEG, heel)
     note = f"GZ still rises at the end of the curve; {judged.end}"

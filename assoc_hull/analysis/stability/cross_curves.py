@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import attrs
 import numpy as np
@@ -72,6 +72,13 @@ class CrossCurves:
     def draught(self) -> FloatArray:
         """Mean draughts upright, m, (n,)."""
         return np.array([each.upright.draught_mean for each in self.conditions])
+
+    def lines(self) -> Iterator[tuple[str, str]]:
+        """Give head and notes as pairs of a title and words."""
+        yield from self.header.lines()
+        yield "trim", f"{self.trim} as she heels"
+        for note in self.notes:
+            yield "note", note
 
 
 def cross_curves(

@@ -34,6 +34,9 @@ _WHERE = "in an equilibrium"
 _STEPS = np.array([1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0])
 """Heels that are tried, degrees."""
 
+_SOON = 6
+"""So many of them first."""
+
 _LEAST = 1e-3
 """Degrees: beyond this an unstable ship is past upright."""
 
@@ -159,10 +162,13 @@ def _rest(case: Case, side: float, limit: float | None, *, loll: bool) -> Heeled
     at = np.append(_LEAST if loll else 0.0, _STEPS)
     if limit is not None:
         at = np.append(at[at < limit], max(limit - _RIM, at[0]))
-    tried = heeled(case, side * at)
-    levers = side * tried.gz
-    levers[0] = -np.inf  # she goes on from upright
-    rights = np.flatnonzero(levers >= 0.0)
+    for some in (at[:_SOON], at):  # most ships are at rest soon
+        tried = heeled(case, side * some)
+        levers = side * tried.gz
+        levers[0] = -np.inf  # she goes on from upright
+        rights = np.flatnonzero(levers >= 0.0)
+        if len(rights):
+            break
     if not len(rights):
         before = f"up to {at[-1]:g} deg"
         if limit is not None:

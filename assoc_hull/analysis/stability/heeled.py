@@ -17,10 +17,12 @@ from assoc_hull.analysis.stability.levers import Case, levers_of
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Immersed
 
-__all__ = ["Heeled", "heeled"]
+__all__ = ["FREE_MOST", "Heeled", "heeled"]
 
 _STEEP = 89.75
-_FREE = 85.0
+FREE_MOST = 85.0
+"""Degrees: the largest heel at free trim."""
+
 _KNOTS = np.array([89.0, 89.25, 89.5, 89.75])
 
 
@@ -132,7 +134,7 @@ def _lagrange(place: FloatArray) -> FloatArray:
 
 def _direct(case: Case, heel_deg: FloatArray, row: IntArray, near: Heeled | None) -> Heeled:
     """Float a ship at heels at which she has draughts on the centre line."""
-    beyond = (np.abs(heel_deg) > _FREE) & (case.trim == "free")
+    beyond = (np.abs(heel_deg) > FREE_MOST) & (case.trim == "free")
     heel = np.tan(np.radians(np.where(beyond, 0.0, heel_deg)))
     volume, lcg, slope = case.volume[row], case.lcg[row], case.slope[row]
     mean, known = (case.mean[row], None) if near is None else _start(heel_deg, near)

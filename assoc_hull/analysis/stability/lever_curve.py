@@ -99,8 +99,17 @@ class LeverCurve:
         """Slope upright, m."""
         return float(self._judged[2][0])
 
-    def most(self, least_deg: float = 0.0) -> tuple[float, float]:
+    @cached_property
+    def largest(self) -> tuple[float, float]:
+        """The largest lever (m), and its heel (degrees)."""
+        return self._most(0.0)
+
+    def most(self, least_deg: float) -> tuple[float, float]:
         """Give the largest lever (m) at that heel or beyond, and its heel (degrees)."""
+        return self.largest if self.largest[1] >= least_deg else self._most(least_deg)
+
+    def _most(self, least_deg: float) -> tuple[float, float]:
+        """Look for the largest lever from a heel on."""
         heel, gz, growth = (each[self._judged[0] >= least_deg] for each in self._judged)
         k = int(gz.argmax())
         low = k if growth[k] > 0.0 else k - 1

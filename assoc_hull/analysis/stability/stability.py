@@ -25,7 +25,8 @@ from assoc_hull.analysis.stability.flooding import (
 )
 from assoc_hull.analysis.stability.heeled import heeled
 from assoc_hull.analysis.stability.lever_curve import lever_curve
-from assoc_hull.analysis.stability.levers import Case, TrimRule
+from assoc_hull.analysis.stability.levers import TrimRule
+from assoc_hull.analysis.stability.notes import notes_of, why_it_ends
 from assoc_hull.analysis.stability.result import Stability, StabilityAngles
 from assoc_hull.arguments import all_of, choice, number
 from assoc_hull.errors import BadInputError
@@ -165,13 +166,14 @@ def stability_of(
     floodings = tuple(map(Flooding, points, drowned[1:]))
     first = min((each for each in drowned[1:] if each is not None), default=None)
     curve = curve.through([*drowned[:1], first])
-    why = _why(curve.end, limit)
-    gz_max, largest = curve.most()
+    why = why_it_ends(curve.end, limit)
+    at = heeled(case, heels, near=curve.heels)
+    gz_max, largest = curve.largest
     return Stability(
-        header, condition, trim, heeled(case, heels, near=curve.heels), curve,
+        header, condition, trim, at, curve,
         StabilityAngles(drowned[0] if limit is None else limit, first, largest, *curve.positive),
         curve.gm, gz_max, intact_criteria(Judged(curve, first, bool(points), why)), floodings,
-        tuple(_notes(case, limit, why)),
+        notes_of(at, case, limit),
     )  # fmt: skip
 
 
@@ -191,19 +193,3 @@ def _nodes(heels: FloatArray, side: int, end: float) -> FloatArray:
     judged = np.concatenate([steps[steps < most], [most], -steps[-steps > least], [least]])
     inside = np.clip(np.concatenate([judged, side * heels]), -end, end)
     return np.unique(side * inside)
-
-
-def _why(end: float, limit: float | None) -> str:
-    """Say why a curve ends."""
-    if limit is not None:
-        return f"GZ stops at {limit:.2f} deg, where the edge of the open deck goes under"
-    return f"GZ is computed to {end:.4g} deg"
-
-
-def _notes(case: Case, limit: float | None, why: str) -> list[str]:
-    deck = "closed" if case.afloat.body.limits.closed else "open"
-    notes = [f"the deck is {deck}" + (f": {why}" if limit is not None else "")]
-    if case.trim == "fixed":
-        notes.append("trim is fixed: levers are those of the plane with the draughts' difference")
-    notes.append("the weather criterion (2008 IS Code A 2.3) is not evaluated")
-    return notes

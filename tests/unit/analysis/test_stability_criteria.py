@@ -191,6 +191,15 @@ def test_a_lever_that_is_never_positive_has_no_range() -> None:
     assert found.passed is False
 
 
+def test_free_trim_says_where_it_ends() -> None:
+    """At 85 degrees, if more was asked; what is not there is nan."""
+    found = box(5.0, trim="free")
+    assert np.isnan(found.gz).tolist() == [False] * 9 + [True]
+    assert found.notes[-1] == "at free trim nothing is computed beyond 85 deg"
+    assert found.curve.end == 85.0
+    assert box(5.0, trim="free", most=80.0).notes[-1] != found.notes[-1]
+
+
 @pytest.mark.parametrize(
     ("asked", "error", "words"),
     [
