@@ -10,6 +10,7 @@ from assoc_hull.analysis.form.value import Absent, Found
 
 __all__ = ["PARAMETERS", "of_waterplane"]
 
+_LEWIS = "E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I"
 _SOURCE = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
 
 
@@ -93,6 +94,31 @@ def wetted_surface(shape: Shape) -> float:
 )  # fmt: skip
 def metacentre(shape: Shape) -> Found:
     return of_waterplane(shape.record.kmt)
+
+
+@parameter(
+    "TPC", name="tons per centimetre of immersion", unit="t/cm", table="hydrostatic",
+    definition="rho A_W / 100", source=_LEWIS,
+)  # fmt: skip
+def immersion(shape: Shape) -> float:
+    return shape.record.tpc
+
+
+@parameter(
+    "MTC", name="moment to trim one centimetre", unit="t m/cm", table="hydrostatic",
+    definition="rho V BM_L / (100 Lpp): no KG is given", source=_LEWIS, digits=2,
+)  # fmt: skip
+def trimming(shape: Shape) -> float:
+    return shape.record.mtc
+
+
+@parameter(
+    "DCT", name="displacement per centimetre of trim by the stern", unit="t/cm",
+    table="hydrostatic", definition="TPC (Lpp/2 - LCF) / Lpp, at a fixed draught midships",
+    datum="+ where the displacement grows", source=_LEWIS, needs=("TPC", "Lpp", "LCF"),
+)  # fmt: skip
+def trim_displacement(tons: float, length: float, flotation: float) -> float:
+    return tons * (0.5 * length - flotation) / length
 
 
 PARAMETERS = entries_in(vars())
