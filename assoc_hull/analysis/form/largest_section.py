@@ -8,7 +8,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import strips_of
 from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.strip_spans import Spans
@@ -64,7 +63,7 @@ class LargestSection:
 
 def largest_section(shape: Shape) -> LargestSection:
     """Look along a hull; to be asked by `Shape.take`."""
-    strips = strips_of(shape)
+    strips = shape.body.spans
 
     def areas(x: FloatArray) -> FloatArray:
         return areas_at(strips, x, shape.planes)
