@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.form.form_parameters import form_parameters
     from assoc_hull.analysis.form.screw import Screw
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
+    from assoc_hull.analysis.panels.build import panels
+    from assoc_hull.analysis.stability.cross_curves import cross_curves
+    from assoc_hull.analysis.stability.equilibrium import equilibrium
+    from assoc_hull.analysis.stability.flooding import FloodingPoint
+    from assoc_hull.analysis.stability.stability import stability
     from assoc_hull.errors import (
         AssocHullError,
         BadInputError,
@@ -55,6 +60,7 @@ __all__ = [
     "Curve",
     "Ends",
     "FileBusyError",
+    "FloodingPoint",
     "ForeignPointError",
     "FreedomError",
     "Group",
@@ -75,7 +81,9 @@ __all__ = [
     "Tolerances",
     "UnknownNameError",
     "__version__",
+    "cross_curves",
     "curve_transform",
+    "equilibrium",
     "examples",
     "form_parameters",
     "hydrostatic_derivatives",
@@ -83,7 +91,9 @@ __all__ = [
     "hydrostatics",
     "immersion",
     "open",
+    "panels",
     "read",
+    "stability",
 ]
 
 __version__ = "0.1.0"
@@ -96,6 +106,11 @@ _HOMES = {
     "analysis.form.form_parameters": ("form_parameters",),
     "analysis.form.screw": ("Screw",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
+    "analysis.panels.build": ("panels",),
+    "analysis.stability.cross_curves": ("cross_curves",),
+    "analysis.stability.equilibrium": ("equilibrium",),
+    "analysis.stability.flooding": ("FloodingPoint",),
+    "analysis.stability.stability": ("stability",),
     "errors": (
         "AssocHullError",
         "BadInputError",

@@ -62,7 +62,7 @@ def curves() -> Figure:
 
 def form_sheet() -> Figure:
     """Draw the first page of the form parameters of the bulk carrier."""
-    screw = Screw(height=4.9, diameter=8.8, x=7.5)
+    screw = Screw(height=5.0, diameter=8.6, x=5.2)
     report = form_report(examples.bulk_carrier_207k(), screw=screw, date="2026-01-31")
     return form_sheets(report)[0].figure
 

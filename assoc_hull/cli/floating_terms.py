@@ -1,4 +1,4 @@
-"""What commands ask that float a hull: water, appendages, numbers from and to."""
+"""What commands ask that float a hull: draughts, water, appendages, numbers from and to."""
 
 from __future__ import annotations
 
@@ -11,10 +11,22 @@ from assoc_hull.errors import BadInputError
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
 
-__all__ = ["add_water", "appendages_of", "density_of", "levels"]
+__all__ = ["add_draughts", "add_water", "appendages_of", "density_of", "levels"]
 
 _WATERS = {"salt": 1.025, "fresh": 1.000}
 _MOST = 2000
+
+
+def add_draughts(parser: argparse.ArgumentParser) -> argparse._MutuallyExclusiveGroup:
+    """Add the draughts, of which one may be given, and give their group for more of the kind."""
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
+        "--draught", type=float, metavar="T", help="at even keel, m (default: design)"
+    )
+    group.add_argument(
+        "--draughts", type=float, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
+    )
+    return group
 
 
 def add_water(parser: argparse.ArgumentParser) -> None:

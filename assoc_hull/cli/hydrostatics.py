@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
-from assoc_hull.cli.floating_terms import add_water, appendages_of, density_of, levels
+from assoc_hull.cli.floating_terms import add_draughts, add_water, appendages_of, density_of, levels
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError, OutOfRangeError
@@ -46,13 +46,7 @@ def add(commands: Commands) -> None:
 
 
 def _add_position(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument(
-        "--draught", type=float, metavar="T", help="at even keel, m (default: design)"
-    )
-    group.add_argument(
-        "--draughts", type=float, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
-    )
+    group = add_draughts(parser)
     group.add_argument("--table", metavar="FROM:TO:STEP", help="mean draughts of a table, m")
     group.add_argument(
         "--weight", type=float, metavar="W", help="find the draughts that carry it, t"

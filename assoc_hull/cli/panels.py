@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
+from assoc_hull.cli.floating_terms import add_draughts
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.hull import Hull
@@ -44,13 +45,7 @@ def add(commands: Commands) -> None:
 
 
 def _add_position(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument(
-        "--draught", type=float, metavar="T", help="at even keel, m (default: design)"
-    )
-    group.add_argument(
-        "--draughts", type=float, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
-    )
+    add_draughts(parser)
     parser.add_argument("--heel", type=float, default=0.0, metavar="DEG", help="+ starboard down")
     parser.add_argument(
         "--origin", type=float, metavar="X", help="x of the origin from AP, m (default: midship)"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_hull, add_json
-from assoc_hull.cli.floating_terms import add_water, appendages_of, density_of, levels
+from assoc_hull.cli.floating_terms import add_draughts, add_water, appendages_of, density_of, levels
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
 from assoc_hull.errors import BadInputError
@@ -51,13 +51,7 @@ def _add_condition(parser: argparse.ArgumentParser) -> None:
     kind.add_argument(
         "--rest", action="store_true", help="find draughts and heel at which she rests instead"
     )
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument(
-        "--draught", type=float, metavar="T", help="at even keel, m (default: design)"
-    )
-    group.add_argument(
-        "--draughts", type=float, nargs=2, metavar=("TA", "TF"), help="at the perpendiculars, m"
-    )
+    group = add_draughts(parser)
     group.add_argument("--weight", type=float, metavar="W", help="all of it, t")
     parser.add_argument("--lcg", type=float, metavar="X", help="with --weight: from AP, m")
     parser.add_argument(

@@ -10,8 +10,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.interpolation import differences
-from assoc_hull.geometry.quadrature import lobatto
 from assoc_hull.geometry.waterlines import Arcs
 
 __all__ = ["OuterLine", "outer_line"]
@@ -63,33 +61,27 @@ class OuterLine:
         inward: FloatArray = np.arctan2(-self.slope[..., 1], np.abs(self.slope[..., 0]))
         return inward
 
-    @property
-    def curvature(self) -> FloatArray:
-        """How fast it turns inward, (m, n), 1/m."""
-        turn = self.angle @ differences(lobatto(len(self.weight))[0]).T
-        length = np.hypot(self.slope[..., 0], self.slope[..., 1])
-        found: FloatArray = turn / np.where(length > 0.0, length, np.inf)
-        return found
-
-    def entrance(self, near: float) -> float:
+    def entrance(self, near: float, step: float) -> float:
         """Give the angle at the end of the line, or where it leaves the radius there; radians.
 
-        A radius is one that is shorter than `near` (m), within that distance of y = 0. The line
-        leaves it where its curvature has fallen to half of the greatest there: that is where a
-        straight line begins, and a definite place where none does.
+        The line is rounded there if, within `near` (m) of y = 0, it turns over a length of `step`
+        (m) as much as a circle of radius `near` or more. It has left the radius at the end of the
+        first such length, seen from the end of the line, over which it turns by no more than half
+        of the most. So short waves of the curvature do not count, and behind a circle the angle is
+        that of the tangent there.
         """
-        angle, bend, y = (
-            each.ravel()[::-1] for each in (self.angle, self.curvature, self.point[..., 1])
-        )
-        sharp = np.where(y <= near, bend, -np.inf)
-        tightest = int(sharp.argmax())
-        half = 0.5 * float(sharp[tightest])
-        slack = np.flatnonzero(bend[tightest:] <= half)
-        if 2.0 * half * near < 1.0 or not len(slack):
+        angle = np.unwrap(self.angle.ravel()[::-1])
+        place = self.point.reshape(-1, 2)[::-1]
+        along = np.append(0.0, np.cumsum(np.hypot(*np.diff(place, axis=0).T)))
+        behind = np.interp(along + step, along, angle)
+        turn = np.where(along + step <= along[-1], angle - behind, 0.0)
+        most = int(np.where(place[:, 1] <= near, turn, -np.inf).argmax())
+        slack = np.flatnonzero(turn[most:] <= 0.5 * turn[most])
+        if turn[most] * near < step or not len(slack):
             return float(angle[0])
-        k = tightest + int(slack[0])
-        share = (bend[k - 1] - half) / (bend[k - 1] - bend[k])
-        return float(angle[k - 1] + share * (angle[k] - angle[k - 1]))
+        k = most + int(slack[0])
+        share = (turn[k - 1] - 0.5 * turn[most]) / (turn[k - 1] - turn[k])
+        return float(behind[k - 1] + share * (behind[k] - behind[k - 1]))
 
     def bluntness(self) -> float:
         """Integral of the square of the sine of `angle` over -y, m; a flat end has sine 1."""

@@ -12,6 +12,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.arguments import checked, flag, word
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
@@ -56,6 +57,24 @@ class PanelOrigin:
         freeze(self.centre)
 
 
+def _numbers(values: object) -> FloatArray:
+    """Take places, as an array of its own; one nan where they are no numbers."""
+    try:
+        return np.array(values, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return np.full((1, 3), np.nan)
+
+
+def _corners(values: object) -> IntArray:
+    """Take whole numbers, as an array of its own; none where they are not whole."""
+    try:
+        found = np.asarray(values)
+        whole = found.dtype.kind in "iu" or not found.size
+        return np.array(found, np.int64) if whole else np.zeros(0, np.int64)
+    except (TypeError, ValueError, OverflowError):
+        return np.zeros(0, np.int64)
+
+
 @attrs.frozen(eq=False)
 class PanelMesh:
     """Panels over shared vertices.
@@ -89,11 +108,11 @@ class PanelMesh:
     (1, 20.0, 2)
     """
 
-    xyz: FloatArray
-    panel: IntArray
-    mirror_x: bool = False
-    mirror_y: bool = False
-    title: str = ""
+    xyz: FloatArray = attrs.field(converter=_numbers)
+    panel: IntArray = attrs.field(converter=_corners)
+    mirror_x: bool = attrs.field(default=False, validator=checked(flag, _WHERE))
+    mirror_y: bool = attrs.field(default=False, validator=checked(flag, _WHERE))
+    title: str = attrs.field(default="", validator=checked(word, _WHERE))
     origin: PanelOrigin | None = attrs.field(default=None, repr=False)
 
     def __attrs_post_init__(self) -> None:

@@ -28,7 +28,8 @@ _PER_PIECE = 4  # Gauss points of a strip of sections
 _LOOKS = 9  # at each strip, for where the number of places changes
 _HALVINGS = 46
 _SEVERAL = 6  # changes between two looks, at most
-_END = 1e-9  # of a strip: a number that changes so near to its end changes there
+_BESIDE = 1e-4  # of a strip: so far from a place at which the number changes it is looked again
+_STEEP = 10.0  # where two places run together, lines stand that many times steeper than beside
 _LEVEL = 1e-9  # m along a tile: what rises less is level
 _SLIVER = 1e-10  # parts of a strip that are shorter are left out
 _CHUNK = 256  # curves at a time
@@ -135,8 +136,7 @@ class _Parts:
     strip : int
     low, high : from 0 to 1, along the strip
     starts, ends : bool
-        There the number changes, inside the strip: two places run together. At an end of a strip
-        it may change because the plane passes through a corner, and lines go on smoothly.
+        There lines stand across the strip, as where two places run together.
     """
 
     strip: IntArray
@@ -175,11 +175,28 @@ def _parts(body: Spans, plane: Planes) -> _Parts:
     rise, fall = np.lexsort((low, from_low)), np.lexsort((high, from_high))
     low, high = low[rise], high[fall]
     wide = np.flatnonzero(high - low > _SLIVER)
-    found = _Parts(
-        from_low[rise][wide], low[wide], high[wide], low[wide] > _END, high[wide] < 1.0 - _END
-    )
-    some = _count(body, plane, found.strip, 0.5 * (found.low + found.high)) > 0
-    return _Parts(*(each[some] for each in attrs.astuple(found, recurse=False)))
+    strip, low, high = from_low[rise][wide], low[wide], high[wide]
+    some = np.flatnonzero(_count(body, plane, strip, 0.5 * (low + high)) > 0)
+    strip, low, high = strip[some], low[some], high[some]
+    inner = 0.5 * (low + high)
+    starts = (low > 0.0) & _across(body, plane, strip, low, inner)
+    ends = (high < 1.0) & _across(body, plane, strip, high, inner)
+    return _Parts(strip, low, high, starts, ends)
+
+
+def _across(
+    body: Spans, plane: Planes, strip: IntArray, v: FloatArray, inner: FloatArray
+) -> NDArray[np.bool_]:
+    """Tell whether lines stand across the strip at one end v of its parts."""
+    beside = v + np.clip(inner - v, -_BESIDE, _BESIDE)
+    fast = []
+    for at in (v, beside):
+        owner, place = _cut(body, plane, strip, at)
+        rate, most = np.abs(place[:, 2:]).max(axis=1, initial=0.0), np.zeros(len(v))
+        np.maximum.at(most, owner, np.where(np.isfinite(rate), rate, np.inf))
+        fast.append(most)
+    steep: NDArray[np.bool_] = fast[0] > _STEEP * fast[1]
+    return steep
 
 
 def _changes(

@@ -20,8 +20,6 @@ from types import MappingProxyType
 
 import attrs
 
-from assoc_hull.arguments import choice, file_path
-from assoc_hull.errors import BadInputError
 from assoc_hull.io.britfair import dumps_britfair
 from assoc_hull.io.delftship import dumps_delftship
 from assoc_hull.io.delftship_offsets import dumps_delftship_offsets
@@ -32,7 +30,7 @@ from assoc_hull.io.line_points import lines_as_points
 from assoc_hull.io.offset_out import csv_text, offsets_of
 from assoc_hull.io.offset_xlsx import xlsx_bytes
 from assoc_hull.io.section_text import sections_of
-from assoc_hull.io.whole_file import write_whole
+from assoc_hull.io.whole_file import form_by_ending, write_whole
 from assoc_hull.model.state import HullState
 
 __all__ = ["ENDINGS", "FORMS", "Form", "export", "form_of"]
@@ -130,16 +128,7 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     >>> form_of("hull.GF"), form_of("sections.dat", "britfair")
     ('gf', 'britfair')
     """
-    name = os.path.basename(file_path(path, "in export")).lower()
-    if form is not None:
-        return choice(form, "format", tuple(FORMS), "in export")
-    found = next((each for ending, each in ENDINGS.items() if name.endswith(ending)), None)
-    if found is None:
-        raise BadInputError(
-            "the ending of the name tells no form", f"at {os.fspath(path)}",
-            f"end it in {', '.join(ENDINGS)}, or choose the format: {', '.join(FORMS)}",
-        )  # fmt: skip
-    return found
+    return form_by_ending(path, form, tuple(FORMS), ENDINGS, "in export")
 
 
 def export(state: HullState, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:

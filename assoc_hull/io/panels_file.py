@@ -32,7 +32,7 @@ from assoc_hull.io.panels_hams import dumps_pnl, is_pnl, loads_pnl
 from assoc_hull.io.panels_nemoh import dumps_mar, is_mar, loads_mar
 from assoc_hull.io.panels_stl import dumps_stl, dumps_stl_text, is_stl, loads_stl
 from assoc_hull.io.panels_wamit import dumps_gdf, is_gdf, loads_gdf
-from assoc_hull.io.whole_file import write_whole
+from assoc_hull.io.whole_file import form_by_ending, write_whole
 
 __all__ = ["PANEL_FORMS", "panel_bytes", "panel_form_of", "read_panels", "write_panels"]
 
@@ -58,17 +58,8 @@ def panel_form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     >>> panel_form_of("HullMesh.pnl"), panel_form_of("mesh.dat", "nemoh")
     ('hams', 'nemoh')
     """
-    name = os.path.basename(file_path(path, "in panels")).lower()
-    if form is not None:
-        return choice(form, "format", tuple(PANEL_FORMS), "in panels")
-    for known, ending in PANEL_FORMS.items():
-        if ending and name.endswith(ending):
-            return known
-    endings = ", ".join(each for each in PANEL_FORMS.values() if each)
-    raise BadInputError(
-        "the ending of the name tells no form", f"at {os.fspath(path)}",
-        f"end it in {endings}, or choose the format: {', '.join(PANEL_FORMS)}",
-    )  # fmt: skip
+    endings = {ending: name for name, ending in PANEL_FORMS.items() if ending}
+    return form_by_ending(path, form, tuple(PANEL_FORMS), endings, "in panels")
 
 
 def panel_bytes(mesh: PanelMesh, form: str) -> bytes:

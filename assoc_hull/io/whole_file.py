@@ -17,12 +17,14 @@ import contextlib
 import os
 import stat
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.hull_file_connect import is_hull_file
 
-__all__ = ["mode_for", "require_no_hull_file", "take_place", "write_whole"]
+__all__ = ["form_by_ending", "mode_for", "require_no_hull_file", "take_place", "write_whole"]
 
 
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
@@ -125,3 +127,48 @@ def take_place(name: str, target: Path) -> None:
             os.fsync(folder)
         finally:
             os.close(folder)
+
+
+def form_by_ending(
+    path: str | os.PathLike[str],
+    form: str | None,
+    forms: Sequence[str],
+    endings: Mapping[str, str],
+    where: str,
+) -> str:
+    """Tell in which form a file is to be written: the one asked for, else by its ending.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    form : str or None
+        What was asked for.
+    forms : sequence of str
+        All forms.
+    endings : mapping of str to str
+        Endings of files, and the form that each means.
+    where : str
+        For the error.
+
+    Raises
+    ------
+    BadInputError
+        Neither says one.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.whole_file import form_by_ending
+    >>> form_by_ending("a.TXT", None, ("text", "table"), {".txt": "text"}, "in lines")
+    'text'
+    """
+    name = os.path.basename(file_path(path, where)).lower()
+    if form is not None:
+        return choice(form, "format", tuple(forms), where)
+    found = next((each for ending, each in endings.items() if name.endswith(ending)), None)
+    if found is None:
+        raise BadInputError(
+            "the ending of the name tells no form", f"at {os.fspath(path)}",
+            f"end it in {', '.join(endings)}, or choose the format: {', '.join(forms)}",
+        )  # fmt: skip
+    return found

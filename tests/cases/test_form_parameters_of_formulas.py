@@ -97,8 +97,6 @@ def test_a_form_parameter_is_what_the_formula_says(
     """The net's value is that of the formula; its lines alone set it apart."""
     ship, hull = SHIPS[name], ships[name]
     found = ah.form_parameters(hull, draught=ship.draught, screw=ship.screw)[symbol]
-    if found.reason is not None and "not measured yet" in found.reason:
-        pytest.skip("pending")
     wanted = truth(name)[symbol]
     off = allowed(name, symbol, wanted, hull.state.particulars.length)
     assert found.number == pytest.approx(wanted, rel=0.0, abs=off)
@@ -146,8 +144,8 @@ def test_a_box_has_no_fineness_to_compare(ships: dict[str, ah.Hull], symbol: str
     assert found.reason
 
 
-def test_sixty_entries_are_checked() -> None:
+def test_nearly_all_entries_are_checked() -> None:
     """Entries of the catalogue, not cases: those of several ships count once."""
     checked = {symbol for _, symbol in CASES} | set(PARTED)
     assert checked <= set(CATALOGUE)
-    assert len(checked) >= 60
+    assert len(checked) >= 130

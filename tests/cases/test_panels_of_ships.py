@@ -10,12 +10,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.panels.build import panels
+from assoc_hull.analysis.panels.points import section_points
 from assoc_hull.analysis.panels.quality import panel_report
 from assoc_hull.errors import AssocHullError
 from assoc_hull.hull import Hull
 from assoc_hull.model.state import HullState
 from assoc_hull.sources import examples
 from tests.nets import wigley_net
+from tests.twin_skeg import twin_skeg_ship
 
 
 @attrs.frozen
@@ -70,6 +72,25 @@ def test_the_mesh_is_closed_at_any_position(
     assert (free[:, :, 2] == 0.0).all()
 
 
+@pytest.mark.parametrize("draughts", [(6.5024, 6.5024), (5.52, 6.73), (7.25, 7.74)])
+def test_lines_that_miss_the_centre_plane_leave_no_gap(
+    series60_60: Hull, draughts: tuple[float, float]
+) -> None:
+    """The foremost section begins a seventh of a millimetre off the stem: that is no opening."""
+    report = panel_report(panels(series60_60, draughts=draughts, count=800))
+    assert report.outward
+    assert report.aspect.most < 100.0
+
+
+def test_twin_skegs_are_divided_too() -> None:
+    """A tunnel between skegs, in the water and out of it, heeled as well."""
+    hull = twin_skeg_ship()
+    for draught, heel in ((18.0, 0.0), (7.0, 0.0), (12.0, 15.0)):
+        report = panel_report(panels(hull, draught=draught, heel_deg=heel, count=900))
+        assert report.outward
+        assert abs(report.volume_error or 1.0) < 0.01
+
+
 def test_half_and_full_are_one_mesh(bulk_carrier: Hull) -> None:
     """The half with its image has the panels of the full mesh, corner by corner."""
     half = panels(bulk_carrier, count=600)
@@ -119,6 +140,31 @@ def test_stations_stand_where_they_are_given(ships: dict[str, Hull]) -> None:
     mesh = panels(ships["wigley"], stations=wanted, points=6, origin=0.0)
     assert_allclose(np.unique(np.round(mesh.xyz[:, 0], 9)), [0.0, *wanted, 100.0], atol=1e-9)
     assert mesh.count == 6 * 5
+
+
+def test_points_of_the_midship_section_are_those_of_flat_arc_and_side(bulk_carrier: Hull) -> None:
+    """B 50 m, T 18 m, bilge radius 2.4 m, within the net's own error of a millimetre."""
+    found = section_points(bulk_carrier, [120.0, 150.0], points=21)
+    flat, turn = 25.0 - 2.4, 2.4 * 0.5 * np.pi
+    s = (flat + turn + 18.0 - 2.4) * np.arange(21) / 20.0
+    angle = np.clip((s - flat) / 2.4, 0.0, 0.5 * np.pi)
+    y = np.minimum(s, flat) + 2.4 * np.sin(angle)
+    z = 2.4 - 2.4 * np.cos(angle) + np.maximum(s - flat - turn, 0.0)
+    for section in found:
+        assert_allclose(section[:, 1:], np.column_stack([y, z]), atol=1e-3)
+
+
+def test_all_pieces_of_a_section_are_one_length(bulk_carrier: Hull) -> None:
+    """At x = 302 m a bulb lies below the overhanging stem; a dry section has no points."""
+    deep, dry = section_points(bulk_carrier, [302.0, 400.0], points=30, draught=23.0)
+    assert np.isnan(dry).all()
+    assert_allclose(deep[:, 0], 302.0, atol=1e-9)
+    assert (deep[0, 1], deep[0, 2] < 3.0) == (0.0, True)
+    assert deep[-1, 2] == pytest.approx(23.0, abs=1e-9)
+    gap = np.diff(deep[:, 2])
+    assert gap.max() > 5.0  # from the top of the bulb to the stem
+    step = np.sqrt((np.diff(deep, axis=0) ** 2).sum(axis=1))
+    assert np.sort(step)[-2] < 1.05 * np.median(step)
 
 
 def test_an_open_transom_is_told(bulk_carrier: Hull) -> None:

@@ -82,12 +82,14 @@ def test_a_thin_slice_is_the_integral_of_its_sections(
 
 
 @pytest.mark.parametrize("name", SHIPS)
-def test_no_station_is_larger_than_the_largest_section(
+def test_no_section_is_larger_than_the_largest_section(
     ships: dict[str, ah.Hull], name: str
 ) -> None:
-    """As drawn; nor is it much larger than the largest of them."""
+    """As drawn, or between; nor is it much larger than the largest of those drawn."""
     shape = shape_of(ships[name])
     largest, drawn = shape.take(largest_section).largest, shape.record.a_max
+    between_ = areas_at(shape.body.spans, shape.length * np.linspace(0.3, 0.7, 401), shape.planes)
+    assert between_.max() <= largest * (1.0 + 1e-12)
     assert drawn * (1.0 - 1e-9) <= largest <= 1.001 * drawn
 
 
@@ -102,6 +104,19 @@ def test_the_parallel_body_of_the_carrier_lies_between_its_flats(bulk_carrier: a
     volume = (found["V_R"].number or 0.0) + (found["V_E"].number or 0.0)
     level = shape_of(bulk_carrier).take(largest_section).largest * (end - begin)
     assert (found["V"].number or 0.0) - volume == pytest.approx(level, rel=1e-4)
+
+
+def test_a_trim_does_not_take_the_parallel_body_away(bulk_carrier: ah.Hull) -> None:
+    """It is told at even keel at the mean draught; what is measured below the water is not."""
+    symbols = ["PMBs", "PMBe", "L_R", "V_R", "Amax"]
+    level, trimmed = (
+        form_parameters(bulk_carrier, draughts=draughts, only=symbols)
+        for draughts in ((14.0, 14.0), (16.0, 12.0))
+    )
+    for symbol in symbols[:3]:
+        assert trimmed[symbol].number == level[symbol].number
+    for symbol in symbols[3:]:
+        assert (trimmed[symbol].number or 0.0) > (level[symbol].number or 0.0) > 0.0
 
 
 def test_series_60_has_the_parallel_body_and_entrance_of_its_plan(

@@ -145,6 +145,7 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "Appendage": (
         ah.Appendage, {"name": "a", "volume": 1.0, "centroid": PLACE, "area": 1.0},
     ),
+    "FloodingPoint": (ah.FloodingPoint, {"name": "a", "place": PLACE, "both_sides": True}),
     "Screw": (
         ah.Screw,
         {
@@ -183,6 +184,24 @@ FLOATING: dict[str, Given] = {
         "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
     },
     "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
+    "panels": {
+        **ONE, "heel_deg": 0.0, "count": None, "stations": 7, "points": 5, "spacing": "arc",
+        "side": None, "knuckle_deg": None, "transom": True, "origin": None, "on_error": "refuse",
+    },
+    "stability": {
+        "kg": 4.0, "weight": None, **ONE, "lcg": None, "tcg": 0.0, "trim": "fixed",
+        "heels": (0.0,), "flooding": (), "rho": 1.0, "shell_factor": 1.0, "appendages": (),
+        "on_error": "refuse", "date": None,
+    },
+    "cross_curves": {
+        "weights": None, "draughts": (4.0,), "heels": (10.0,), "trim_by_stern": 0.0,
+        "trim": "fixed", "rho": 1.0, "shell_factor": 1.0, "kg": None, "appendages": (),
+        "on_error": "refuse", "date": None,
+    },
+    "equilibrium": {
+        "weight": 500.0, "lcg": 50.0, "kg": 2.0, "tcg": 0.0, "rho": 1.0, "shell_factor": 1.0,
+        "appendages": (), "on_error": "refuse",
+    },
     "curve_transform": {
         "curve": "sectional areas", "kind": "chebyshev", "terms": 2, "along": None, "across": None,
         "span": None, "relative": None, **ONE, "heel_deg": 0.0,

@@ -9,10 +9,11 @@ import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.geometry.cross_sections import areas_at
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.strip_spans import Spans
 
-__all__ = ["LargestSection", "largest_section"]
+__all__ = ["LargestSection", "largest_section", "parallel_body"]
 
 _EQUAL = 1e-4
 """Areas of sections of the parallel middle body differ by less, in parts of the largest."""
@@ -62,20 +63,35 @@ class LargestSection:
 
 
 def largest_section(shape: Shape) -> LargestSection:
-    """Look along a hull; to be asked by `Shape.take`."""
+    """Look along a hull below its floating plane; to be asked by `Shape.take`."""
+    return _along(shape, shape.planes)
+
+
+def parallel_body(shape: Shape) -> LargestSection:
+    """Look along a hull at even keel at the mean draught; to be asked by `Shape.take`.
+
+    With a trim the sections of a parallel middle body have different areas.
+    """
+    if shape.even_keel:
+        return shape.take(largest_section)
+    return _along(shape, Planes(np.array([shape.draught]), np.zeros(1), np.zeros(1)))
+
+
+def _along(shape: Shape, plane: Planes) -> LargestSection:
     strips = shape.body.spans
 
     def areas(x: FloatArray) -> FloatArray:
-        return areas_at(strips, x, shape.planes)
+        return areas_at(strips, x, plane)
 
     x = _samples(strips)
     area = areas(x)
     for _ in range(_ROUNDS):
-        best = int(area.argmax())
-        ends = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
-        more = np.linspace(*ends, _SAMPLES)
-        x, first = np.unique(np.concatenate([x, more]), return_index=True)
-        area = np.concatenate([area, areas(more)])[first]
+        tops = _tops(area)
+        ends = x[np.maximum(tops - 1, 0)], x[np.minimum(tops + 1, len(x) - 1)]
+        more = np.setdiff1d(np.linspace(*ends, _SAMPLES), x)
+        order = np.argsort(np.concatenate([x, more]))
+        area = np.concatenate([area, areas(more)])[order]
+        x = np.concatenate([x, more])[order]
     largest = float(area.max())
     near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
     place = float(x[near.argmin()])
@@ -100,6 +116,20 @@ def _samples(strips: Spans) -> FloatArray:
     low, high = strips.aft[~strips.flat], strips.fore[~strips.flat]
     inside = ((x[:, None] > low) & (x[:, None] < high)).any(axis=1)
     return x[~inside | np.isin(x, edge)]
+
+
+def _tops(area: FloatArray) -> IntArray:
+    """Give where areas along the ship are greatest, or nearly: also both ends of what is level.
+
+    Next to a parallel middle body the surface may rise above it by less than a line shows.
+    """
+    most = float(area.max())
+    around = np.concatenate([[-np.inf], area, [-np.inf]])
+    low = np.minimum(around[:-2], around[2:])
+    high = np.maximum(around[:-2], around[2:])
+    same = _SAME * most
+    top = (area >= (1.0 - _EQUAL) * most) & (area >= high - same) & (area > low + same)
+    return np.flatnonzero(top) if top.any() else np.array([int(area.argmax())])
 
 
 def _level(

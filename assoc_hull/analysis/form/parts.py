@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.largest_section import LargestSection, largest_section
+from assoc_hull.analysis.form.largest_section import (
+    LargestSection,
+    largest_section,
+    parallel_body,
+)
 from assoc_hull.analysis.form.literature import TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.shape import Shape
@@ -116,23 +120,24 @@ def section_at_fore_perpendicular(shape: Shape) -> Found:
 
 @parameter(
     "PMBs", name="beginning of the parallel middle body", unit="st", table="hull form",
-    definition="first place with A(x) >= (1 - 1e-4) Amax; there is a parallel middle body if "
-    "these reach over 2 % of Lpp or more, and over a quarter or more of the places with "
-    "A(x) >= 0.99 Amax (a rounded top has a tenth)",
+    definition="first place with A(x) >= (1 - 1e-4) Amax, at even keel at the mean draught; "
+    "there is a parallel middle body if these reach over 2 % of Lpp or more, and over a quarter "
+    "or more of the places with A(x) >= 0.99 Amax (a rounded top has a tenth)",
     datum="stations: 0 at AP, 20 at FP", source=TABLE_4,
 )  # fmt: skip
 def parallel_from(shape: Shape) -> Found:
-    level = shape.take(largest_section).level
+    level = shape.take(parallel_body).level
     return Absent(_NO_BODY) if level is None else shape.station_of(level[0])
 
 
 @parameter(
     "PMBe", name="end of the parallel middle body", unit="st", table="hull form",
-    definition="last place with A(x) >= (1 - 1e-4) Amax; see PMBs",
+    definition="last place with A(x) >= (1 - 1e-4) Amax, at even keel at the mean draught; "
+    "see PMBs",
     datum="stations: 0 at AP, 20 at FP", source=TABLE_4,
 )  # fmt: skip
 def parallel_to(shape: Shape) -> Found:
-    level = shape.take(largest_section).level
+    level = shape.take(parallel_body).level
     return Absent(_NO_BODY) if level is None else shape.station_of(level[1])
 
 
@@ -142,7 +147,7 @@ def parallel_to(shape: Shape) -> Found:
     source=TABLE_3, digits=3,
 )  # fmt: skip
 def run(shape: Shape) -> Found:
-    curve = shape.take(largest_section)
+    curve = shape.take(parallel_body)
     return _parted(curve, curve.run, _part_of(curve.run, "run"))
 
 
@@ -152,7 +157,7 @@ def run(shape: Shape) -> Found:
     source=TABLE_3, digits=3,
 )  # fmt: skip
 def entrance(shape: Shape) -> Found:
-    curve = shape.take(largest_section)
+    curve = shape.take(parallel_body)
     length = shape.length - curve.entrance
     return _parted(curve, length, _part_of(length, "entrance"))
 
@@ -162,7 +167,7 @@ def entrance(shape: Shape) -> Found:
     definition="V aft of where L_R ends, with the overhang", source=TABLE_3, digits=2,
 )  # fmt: skip
 def volume_of_run(shape: Shape) -> Found:
-    curve = shape.take(largest_section)
+    curve = shape.take(parallel_body)
     missing = _part_of(curve.run, "run")
     return missing or _parted(curve, shape.take(slices).aft_of(curve.run).volume)
 
@@ -172,7 +177,7 @@ def volume_of_run(shape: Shape) -> Found:
     definition="V forward of where L_E begins, with the bulb", source=TABLE_3, digits=2,
 )  # fmt: skip
 def volume_of_entrance(shape: Shape) -> Found:
-    curve = shape.take(largest_section)
+    curve = shape.take(parallel_body)
     missing = _part_of(shape.length - curve.entrance, "entrance")
     return missing or _parted(curve, shape.take(slices).forward_of(curve.entrance).volume)
 

@@ -15,7 +15,7 @@ from assoc_hull.analysis.form.stern_profile import (
     leaves_boss,
     transom,
 )
-from assoc_hull.analysis.form.value import Absent, Found
+from assoc_hull.analysis.form.value import Absent, Found, Warned
 from assoc_hull.analysis.net.sections import CENTRE, areas_of_ends
 from assoc_hull.geometry.places import across
 
@@ -122,10 +122,14 @@ def stern_slope(shape: Shape) -> Found:
 
 @parameter(
     "SCH", name="height of the shaft's centre", unit="m", table="hull form",
-    definition="at the screw, as given", datum="from the base line, up", source=TABLE_4,
+    definition="at the screw, as given; else of the circle through the boss end that is drawn",
+    datum="from the base line, up", source=TABLE_4,
 )  # fmt: skip
 def shaft_height(shape: Shape) -> Found:
-    return _NO_SCREW if shape.screw is None else shape.screw.height
+    if shape.screw is not None:
+        return shape.screw.height
+    end = shape.take(boss)
+    return Absent("no screw given, no boss end drawn") if end is None else end.height
 
 
 @parameter(
@@ -157,7 +161,10 @@ def tip_clearance(shape: Shape, height: float, diameter: float) -> Found:
     above = height_above(shape, shape.screw.x, 0.5 * shape.screw.spacing, height)
     if isinstance(above, Absent):
         return above
-    return 100.0 * (above - height - 0.5 * diameter) / diameter
+    clearance = 100.0 * (above - height - 0.5 * diameter) / diameter
+    if clearance < 0.0:
+        return Warned(clearance, "the tip of the screw lies within the hull")
+    return clearance
 
 
 @parameter(

@@ -50,12 +50,13 @@ class Boss:
         Of its aft face.
     top : float, m
         z of its upper side.
-    diameter : float, m
-        Of the circle through its edge.
+    height, diameter : float, m
+        Centre above the base line, and size, of the circle through its edge.
     """
 
     x: float
     top: float
+    height: float
     diameter: float
 
 
@@ -68,8 +69,9 @@ def boss(shape: Shape) -> Boss | None:
         if net.x[i] != aft and np.abs(one.xyz[[0, -1], 1]).max() <= CENTRE:
             places = sample(one)[1][:, 1:]
             both = np.concatenate([places, places * [-1.0, 1.0]])
-            diameter = 2.0 * fit_circle(both).radius
-            return Boss(float(net.x[i]), float(one.xyz[[0, -1], 2].max()), diameter)
+            edge_of = fit_circle(both)
+            top = float(one.xyz[[0, -1], 2].max())
+            return Boss(float(net.x[i]), top, float(edge_of.centre[1]), 2.0 * edge_of.radius)
     return None
 
 

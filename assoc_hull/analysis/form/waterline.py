@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.analysis.form.largest_section import largest_section
+from assoc_hull.analysis.form.largest_section import parallel_body
 from assoc_hull.analysis.form.literature import ITTC, TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.shape import Shape
@@ -18,6 +18,9 @@ __all__ = ["PARAMETERS"]
 
 _NOSE = 0.1
 """Of B: a stem is round if its radius is less, within so much of the centre plane."""
+
+_STEP = 0.01
+"""Of B: over so much of its length it is told how fast a waterline turns."""
 
 _CENTRE = 1e-3
 """m: so near to the centre plane a waterline ends on it."""
@@ -37,8 +40,9 @@ def half_breadth_at_5(shape: Shape) -> Found:
 @parameter(
     "Eangle", name="half angle of entrance", unit="deg", table="hydrostatic", ittc="i_E",
     definition="between centre plane and waterline at the stem; where the waterline is rounded "
-    "at the stem (within 0.1 B it has a radius below 0.1 B), where its curvature has fallen to "
-    "half of the greatest there: the tangent where it leaves the radius",
+    "there (within 0.1 B of the centre plane it turns by 0.1 rad or more over 0.01 B of its "
+    "length), at the end of the first 0.01 B over which it turns by half of the most or less: "
+    "the tangent where it leaves the radius",
     source=TABLE_3,
 )  # fmt: skip
 def angle_of_entrance(shape: Shape) -> Found:
@@ -47,7 +51,7 @@ def angle_of_entrance(shape: Shape) -> Found:
         return Absent(_NONE)
     if line.end[1] > _CENTRE:
         return Absent("the waterline ends in a flat face")
-    return float(np.degrees(line.entrance(_NOSE * shape.breadth)))
+    return float(np.degrees(line.entrance(_NOSE * shape.breadth, _STEP * shape.breadth)))
 
 
 @parameter(
@@ -72,7 +76,7 @@ def angle_of_run(shape: Shape) -> Found:
     planes = shape.planes
     half = Planes(0.5 * planes.height, 0.5 * planes.tan_trim, planes.tan_heel.copy())
     line = outer_line(waterline_arcs(shape.body.spans, half), forward=False)
-    curve = shape.take(largest_section)
+    curve = shape.take(parallel_body)
     broad = shape.take(slices).half_breadth(curve.run, half)
     if line is None or broad is None:
         return Absent(f"{_NONE} at half the draught")

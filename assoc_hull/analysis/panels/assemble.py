@@ -22,8 +22,9 @@ __all__ = ["Axes", "Choices", "assemble", "axes_of"]
 _WELD = 1e-7
 """Vertices so near to one another, in lengths of the ship, are one."""
 
-_CENTRE = 1e-4
-"""Ends of arcs so near to the centre plane (m) lie on it, as lines of the net do."""
+_CENTRE = 1e-5
+"""Vertices so near to the centre plane, in lengths of the ship, lie on it: a millimetre or so, by
+which ends of drawn lines may miss it."""
 
 
 @attrs.frozen
@@ -87,20 +88,16 @@ def axes_of(plane: Waterplane, x: float) -> Axes:
 
 @attrs.define(eq=False)
 class _Vertices:
-    """Vertices in the making; `water` lie in the water surface, `centre` on the centre plane."""
+    """Vertices in the making; those of `water` lie in the water surface."""
 
     places: list[FloatArray] = attrs.field(factory=list)
     water: list[NDArray[np.bool_]] = attrs.field(factory=list)
-    centre: list[NDArray[np.bool_]] = attrs.field(factory=list)
     count: int = 0
 
-    def add(
-        self, places: FloatArray, water: NDArray[np.bool_], centre: NDArray[np.bool_]
-    ) -> IntArray:
+    def add(self, places: FloatArray, water: NDArray[np.bool_]) -> IntArray:
         """Add vertices; give their numbers."""
         self.places.append(places)
         self.water.append(water)
-        self.centre.append(centre)
         self.count += len(places)
         return np.arange(self.count - len(places), self.count)
 
@@ -115,10 +112,10 @@ def assemble(
     for sheet, points in zip(found, divided.points, strict=True):
         panel += _fill(sheet, points, vertices)
     if choices.ends:
-        panel += _close(found, divided, plane, _WELD * length, vertices)
+        panel += _close(found, divided, plane, _CENTRE * length, vertices)
     if not panel:
         return np.zeros((0, 3)), np.zeros((0, 4), np.int64)
-    return _finished(vertices, np.concatenate(panel), axes, _WELD * length, choices.half)
+    return _finished(vertices, np.concatenate(panel), axes, length, choices.half)
 
 
 def _sheets(
@@ -139,10 +136,9 @@ def _fill(sheet: Sheet, points: list[FloatArray], vertices: _Vertices) -> list[I
     """Put panels between the levels of a sheet."""
     rows = []
     for places, afloat in zip(points, sheet.afloat, strict=True):
-        water, centre = np.zeros((2, len(places)), np.bool_)
+        water = np.zeros(len(places), np.bool_)
         water[[0, -1]] = afloat if len(places) > 1 else afloat.any()
-        centre[[0, -1]] = np.abs(places[[0, -1], 1]) <= _CENTRE
-        rows.append(vertices.add(places, water, centre))
+        rows.append(vertices.add(places, water))
     found = [between(aft, fore) for aft, fore in itertools.pairwise(rows)]
     return found if sheet.port else [each[:, ::-1] for each in found]
 
@@ -152,26 +148,22 @@ def _close(
 ) -> list[IntArray]:
     """Put panels over open ends."""
     closed = []
-    for cap in caps(found, divided, plane, 10.0 * centre):
+    for cap in caps(found, divided, plane, centre):
         shape = cap.water.shape
-        places = cap.grid.reshape(-1, 3)
-        number = vertices.add(places, cap.water.ravel(), np.abs(places[:, 1]) <= centre)
+        number = vertices.add(cap.grid.reshape(-1, 3), cap.water.ravel())
         panel = grid_panels(number.reshape(shape))
         closed.append(panel[:, ::-1] if cap.turned else panel)
     return closed
 
 
 def _finished(
-    vertices: _Vertices, panel: IntArray, axes: Axes, near: float, half: bool
+    vertices: _Vertices, panel: IntArray, axes: Axes, length: float, half: bool
 ) -> tuple[FloatArray, IntArray]:
     """Weld the vertices, put them on water surface and centre plane, drop panels within it."""
-    places = np.concatenate(vertices.places)
-    centre = np.concatenate(vertices.centre) | (np.abs(places[:, 1]) <= near)
-    places[centre, 1] = 0.0
+    places, near = np.concatenate(vertices.places), _WELD * length
+    places[np.abs(places[:, 1]) <= _CENTRE * length, 1] = 0.0
     xyz, corners, number = welded(places, panel, near)
-    water, middle = (
-        _marked(number, np.concatenate(each), len(xyz)) for each in (vertices.water, [centre])
-    )
+    water, middle = _marked(number, np.concatenate(vertices.water), len(xyz)), xyz[:, 1] == 0.0
     turned = axes.of_ship(xyz)
     # A section that has just dipped into the water is broad and not deep: it lies in the surface.
     water |= np.abs(turned[:, 2]) <= near

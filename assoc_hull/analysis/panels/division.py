@@ -241,7 +241,7 @@ def _claim(sheet: Sheet, pieces: list[Piece], arc: Arc, total: int, near: float)
     left = total - sum(pieces[each].parts for each in known if each is not None)
     if free:
         # What is not straight in the centre plane would vanish if it were parted once only.
-        least = np.where(np.abs(arc.middles[free, 1]) > near, 2, 1)
+        least = np.where(np.abs(arc.middles[free, 1]) > 10.0 * near, 2, 1)
         share = iter(shares(np.diff(arc.cut)[free], left, least).tolist())
     for j, each in enumerate(known):
         if each is None:

@@ -186,3 +186,42 @@ def test_no_damage_leads_to_anything_but_a_mesh_or_a_reason(
             continue
         assert np.isfinite(mesh.xyz).all()
         panel_report(mesh)
+
+
+SQUARE = [[0.0, 1, -2], [5, 1, -2], [5, 1, 0], [0, 1, 0]]
+
+
+@pytest.mark.parametrize(
+    ("xyz", "panel", "told"),
+    [
+        (SQUARE, [[0, 1, 2, 4]], "corner that is none of the 4"),
+        (SQUARE, [[0, 1, 2, -1]], "corner that is none of the 4"),
+        (SQUARE, [[0, 1, 1, 2]], "names a corner twice"),
+        (SQUARE, [[0, 1, 2, 0]], "names a corner twice"),
+        (SQUARE, [[0.5, 1, 2, 3]], "have shape"),
+        (SQUARE, [], "have shape"),
+        (SQUARE, "abcd", "have shape"),
+        ("abcd", [[0, 1, 2, 2]], "not finite"),
+        ([[0, 1]], [[0, 1, 2, 2]], "have shape"),
+        ([[np.inf, 0, 0], *SQUARE], [[0, 1, 2, 3]], "vertex 1 is not finite"),
+        ([[1e7, 0, 0], *SQUARE], [[0, 1, 2, 3]], "farther than"),
+    ],
+)
+def test_what_is_no_mesh_is_refused(xyz: object, panel: object, told: str) -> None:
+    """Numbers of corners, shapes and places are looked at when a mesh is made."""
+    with pytest.raises(BadInputError, match=told):
+        PanelMesh(xyz, panel)
+
+
+def test_a_mesh_is_frozen_and_its_own() -> None:
+    """What is handed in stays as it was, and writable; the mesh does not."""
+    xyz, panel = np.array(SQUARE), np.array([[3, 2, 1, 0]])
+    mesh = PanelMesh(xyz, panel)
+    xyz[0], panel[0, 0] = 9.0, 2
+    assert mesh.xyz[0].tolist() == [0.0, 1.0, -2.0]
+    assert mesh.panel[0].tolist() == [3, 2, 1, 0]
+    for values in (mesh.xyz, mesh.panel):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 1
+    with pytest.raises(BadInputError, match="mirror_y"):
+        PanelMesh(SQUARE, [[3, 2, 1, 0]], mirror_y=1)  # type: ignore[arg-type]
