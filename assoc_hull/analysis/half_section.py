@@ -8,6 +8,7 @@ from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.geometry.cross_sections import cross_section
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.paths import stretch
 from assoc_hull.geometry.segments import power
 
 __all__ = ["half_section"]
@@ -84,8 +85,8 @@ def _end(body: Flotation, x: float) -> list[FloatArray]:
 def _upward(cubic: FloatArray) -> FloatArray:
     if cubic[0, 0, 2] <= cubic[-1].sum(axis=0)[2]:
         return cubic
-    c0, c1, c2, c3 = (cubic[::-1, i] for i in range(4))
-    return np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
+    one = np.ones(len(cubic))
+    return stretch(cubic[::-1], one, 0.0 * one)
 
 
 def _between(body: Flotation, x: float) -> list[FloatArray]:
