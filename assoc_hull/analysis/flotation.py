@@ -28,6 +28,7 @@ from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersed_sections import sections_and_moments_below
 from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.geometry.strip_spans import Spans, spans
 from assoc_hull.model.index import Objects
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
@@ -73,6 +74,11 @@ class Flotation:
     def prepared(self) -> Prepared:
         """The surface with its integrals."""
         return prepare(self.strips)
+
+    @cached_property
+    def spans(self) -> Spans:
+        """How far its strips reach along the ship."""
+        return spans(self.prepared)
 
     @cached_property
     def sections(self) -> Sections:

@@ -1,19 +1,15 @@
-"""Half sections anywhere along a hull: as drawn, or cut from the surface through its lines.
-
-Between two stations most curves of the surface lie in planes across the ship already. Where it
-ends on a raked stem or stern, or a piece begins, they do not; there the surface is cut.
-"""
+"""Half sections anywhere along a hull: as drawn, or cut from the surface through its lines."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from assoc_hull.analysis.flotation import Flotation
-from assoc_hull.analysis.net.slabs import planes as stands
+from assoc_hull.geometry.cross_sections import cross_section
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.paths import stretch
 from assoc_hull.geometry.segments import power
-from assoc_hull.geometry.surface_cut import cut_across
 
 __all__ = ["half_section"]
 
@@ -47,17 +43,17 @@ def half_section(body: Flotation, x: float) -> SplineBatch | None:
     5.0
     """
     pieces = _drawn(body, x) or _end(body, x) or _between(body, x)
-    return SplineBatch.join([as_spline(each) for each in pieces]) if pieces else None
+    return SplineBatch.join([_spline(each) for each in pieces]) if pieces else None
 
 
-def as_spline(cubic: FloatArray) -> SplineBatch:
+def _spline(cubic: FloatArray) -> SplineBatch:
     """Take cubics one behind the other, (s, 4, 3), as a spline; its knots are their chords."""
     first, last = cubic[:, 0], cubic[-1:].sum(axis=1)
     xyz = np.concatenate([first, last])
     chord = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
     whole = chord > 0.0
     if not whole.all():
-        return as_spline(cubic[whole])
+        return _spline(cubic[whole])
     leave = cubic[:, 1] / chord[:, None]
     arrive = (cubic[:, 1] + 2.0 * cubic[:, 2] + 3.0 * cubic[:, 3]) / chord[:, None]
     knot = np.concatenate([[0.0], np.cumsum(chord)])
@@ -89,33 +85,20 @@ def _end(body: Flotation, x: float) -> list[FloatArray]:
 def _upward(cubic: FloatArray) -> FloatArray:
     if cubic[0, 0, 2] <= cubic[-1].sum(axis=0)[2]:
         return cubic
-    c0, c1, c2, c3 = (cubic[::-1, i] for i in range(4))
-    return np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
+    one = np.ones(len(cubic))
+    return stretch(cubic[::-1], one, 0.0 * one)
 
 
 def _between(body: Flotation, x: float) -> list[FloatArray]:
-    """Cut the surface between two stations, or beyond the last ones."""
-    slab = int(np.searchsorted(stands(body.net), x))
-    chosen = np.array([i for i, f in enumerate(body.layout.frames) if f.slab == slab], np.int64)
-    flat = body.layout.cells.plane[chosen]
-    found = [piece for i in chosen[~flat].tolist() for piece in cut_across(body.strips, i, x)]
-    for i in chosen[flat].tolist():
-        aft, fore = _rails(body, i)
-        if aft < x < fore:
-            curves = body.strips.curves(np.array([i]), np.array([(x - aft) / (fore - aft)]))
-            found += _pieces(curves, np.array([0]))
-    return found
-
-
-def _rails(body: Flotation, strip: int) -> tuple[float, float]:
-    """Give between which x a strip reaches whose rails stand across the ship."""
-    curves = body.strips.curves(np.array([strip, strip]), np.array([0.0, 1.0]))
-    aft, fore = curves.point[curves.start[:2], 0, 0].tolist()
-    return aft, fore
+    """Give the pieces of the surface's section between two stations, or beyond the last ones."""
+    found = cross_section(body.spans, x)
+    return _pieces(found, np.arange(found.count))
 
 
 def _pieces(curves: IsoCurves, chosen: IntArray) -> list[FloatArray]:
-    """Give the cubics of curves, without their decks."""
+    """Give the cubics of curves, without their decks; a curve that is but a point has none."""
+    long = ~curves.deck & (np.abs(curves.point[:, 1:]).max(axis=(1, 2), initial=0.0) > 0.0)
     bounds = curves.start[:-1], curves.start[1:]
     spans = [slice(int(bounds[0][i]), int(bounds[1][i])) for i in chosen.tolist()]
-    return [curves.point[span][~curves.deck[span]] for span in spans]
+    pieces = [curves.point[span][long[span]] for span in spans]
+    return [piece for piece in pieces if len(piece)]

@@ -23,7 +23,7 @@ from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.roots import unit_roots
 
-__all__ = ["area_along", "beside", "joined", "one_way"]
+__all__ = ["area_along", "beside", "one_way", "runs"]
 
 _GAP = 1e-9
 """Cubics whose ends lie farther apart (m) do not join."""
@@ -41,7 +41,7 @@ def beside(cubic: FloatArray, normal: FloatArray, offset: float) -> FloatArray:
     Parameters
     ----------
     cubic : (s, 4, 3), m
-        Cubics in power form, the parameter from 0 to 1.
+        Cubics in power form, the parameter from 0 to 1; (s, 4, 2) in a plane.
     normal : (3,)
         Of the plane, of any length.
     offset : float
@@ -72,7 +72,7 @@ def one_way(cubic: FloatArray, axis: int) -> FloatArray:
     return stretch(cubic[segment], edge[segment, part], edge[segment, part + 1])
 
 
-def joined(cubic: FloatArray) -> list[FloatArray]:
+def runs(cubic: FloatArray) -> list[FloatArray]:
     """Part cubics into runs, each of which goes on without a gap."""
     if not len(cubic):
         return []

@@ -11,10 +11,10 @@ from typing import Self
 import attrs
 import numpy as np
 
+from assoc_hull.geometry.beside import beside, runs
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.paths import stretch
 from assoc_hull.geometry.polynomials import differentiate, horner
-from assoc_hull.geometry.roots import unit_roots
 from assoc_hull.geometry.segments import power
 
 __all__ = ["PlaneChains", "backward", "cut", "ends_of", "joined", "loop", "mirrored", "straight"]
@@ -82,8 +82,7 @@ class PlaneChains:
 
 
 def _at(cubic: FloatArray, t: FloatArray) -> FloatArray:
-    places = np.broadcast_to(t, (len(cubic), len(t)))
-    return np.stack([horner(cubic[:, :, axis], places) for axis in range(2)], axis=-1)
+    return horner(cubic, np.broadcast_to(t, (len(cubic), len(t))))
 
 
 def straight(begin: FloatArray, end: FloatArray) -> FloatArray:
@@ -160,22 +159,8 @@ def cut(chain: FloatArray, axis: int, low: float, high: float) -> list[FloatArra
     >>> cut(line, 1, 0.5, 1.0)[0].sum(axis=1).tolist()
     [[2.0, 1.0]]
     """
-    end = np.ones((len(chain), 1))
-    places = [0.0 * end, end]
-    for limit in (low, high):
-        height = chain[:, :, axis].copy()
-        height[:, 0] -= limit
-        places.append(unit_roots(height))
-    edge = np.sort(np.concatenate(places, axis=1), axis=1)
-    middle = horner(chain[:, :, axis], 0.5 * (edge[:, 1:] + edge[:, :-1]))
-    kept = (edge[:, 1:] > edge[:, :-1]) & (middle >= low) & (middle <= high)
-    row, column = np.nonzero(kept)
-    pieces = stretch(chain[row], edge[row, column], edge[row, column + 1])
-    gap = np.flatnonzero((row[1:] != row[:-1]) | (column[1:] != column[:-1] + 1))
-    apart = [
-        k + 1 for k in gap.tolist() if np.abs(pieces[k].sum(axis=0) - pieces[k + 1, 0]).max() > 1e-9
-    ]
-    return [part for part in np.split(pieces, apart) if len(part)]
+    normal = np.eye(2)[axis]
+    return runs(beside(beside(chain, -normal, -low), normal, high))
 
 
 def loop(half: FloatArray, axis: int) -> FloatArray:

@@ -22,6 +22,9 @@ __all__ = ["LEVEL", "Prepared", "prepare"]
 LEVEL = 1e-9
 """Of a strip's depth: so much is no slope."""
 
+_POINT = 1e-9
+"""m: a strip that is not higher is but a point, such as a part right at the end of a ship."""
+
 _MORE = 6  # points of the rule where something happens, beyond those where nothing does
 
 
@@ -70,11 +73,11 @@ class Prepared:
 
     @cached_property
     def depth(self) -> FloatArray:
-        """Height of each strip, m, (strips,); 1 where it has none."""
+        """Height of each strip, m, (strips,); 1 where it is but a point."""
         low, high = self.upright.low, self.upright.high
         begin = self.tiles.start[np.searchsorted(self.strip, np.arange(self.strips.count))]
         depth = np.maximum.reduceat(high, begin) - np.minimum.reduceat(low, begin)
-        return np.where(depth > 0.0, depth, 1.0)
+        return np.where(depth > _POINT, depth, 1.0)
 
     @cached_property
     def ends(self) -> tuple[IntArray, Tiles]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.dual import is_plain, real
 
-__all__ = ["differentiate", "horner", "varied_roots"]
+__all__ = ["differentiate", "hermite", "horner", "varied_roots"]
 
 
 def differentiate(coefficients: FloatArray) -> FloatArray:
@@ -40,6 +40,34 @@ def differentiate(coefficients: FloatArray) -> FloatArray:
     slopes: FloatArray = coefficients[:, 1:] * factors.reshape(-1, *(1,) * (coefficients.ndim - 2))
     freeze(slopes)
     return slopes
+
+
+def hermite(
+    begin: FloatArray, end: FloatArray, leave: FloatArray, arrive: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Give cubics from 0 to 1 by values and slopes at both ends.
+
+    Parameters
+    ----------
+    begin, end : any shape
+        Values at 0 and 1.
+    leave, arrive : the same shape
+        Derivatives there.
+
+    Returns
+    -------
+    four arrays of that shape
+        The coefficients of 1, u, u^2 and u^3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polynomials import hermite
+    >>> [float(each[0]) for each in hermite(*np.array([[0.0], [1.0], [0.0], [0.0]]))]
+    [0.0, 0.0, 3.0, -2.0]
+    """
+    rise = end - begin
+    return begin, leave, 3.0 * rise - 2.0 * leave - arrive, leave + arrive - 2.0 * rise
 
 
 def horner(coefficients: FloatArray, u: FloatArray) -> FloatArray:

@@ -12,10 +12,11 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import Legendre
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["bunched", "gauss", "lobatto"]
+__all__ = ["bunched", "gauss", "lobatto", "root_walk"]
 
 
 @lru_cache
@@ -95,6 +96,36 @@ def bunched(count: int) -> tuple[FloatArray, FloatArray]:
     """
     t, weights = gauss(count)
     return _frozen(np.sin(0.5 * np.pi * t) ** 2, 0.5 * np.pi * np.sin(np.pi * t) * weights)
+
+
+def root_walk(
+    t: FloatArray, starts: NDArray[np.bool_], ends: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray]:
+    """Walk parts from 0 to 1, slowly towards an end from which something goes as a root.
+
+    Parameters
+    ----------
+    t : (n,)
+        Places from 0 to 1.
+    starts, ends : (p,) bool
+        It does so from the beginning of a part, from its end.
+
+    Returns
+    -------
+    (p, n), (p, n)
+        How far along the parts t leads, and the derivative.
+
+    Examples
+    --------
+    >>> root_walk(np.array([0.0, 0.5, 1.0]), np.array([True]), np.array([False]))[0].tolist()
+    [[0.0, 0.25, 1.0]]
+    """
+    first, last = starts[:, None], ends[:, None]
+    walked = np.where(last, t * t * (3.0 - 2.0 * t), t * t)
+    walked = np.where(first, walked, np.where(last, t * (2.0 - t), t))
+    rate = np.where(last, 6.0 * t * (1.0 - t), 2.0 * t)
+    rate = np.where(first, rate, np.where(last, 2.0 - 2.0 * t, 1.0))
+    return walked, rate
 
 
 def _frozen(nodes: FloatArray, weights: FloatArray) -> tuple[FloatArray, FloatArray]:

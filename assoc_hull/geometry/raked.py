@@ -17,7 +17,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.interpolation import differences
 from assoc_hull.geometry.isocurves import IsoCurves, Strips
-from assoc_hull.geometry.polynomials import differentiate, horner
+from assoc_hull.geometry.polynomials import differentiate, hermite, horner
+from assoc_hull.geometry.quadrature import root_walk
 from assoc_hull.geometry.roots import bracketed_roots, unit_roots
 
 __all__ = ["Raked", "raked"]
@@ -100,8 +101,9 @@ class Raked:
         fore[:, 0] -= x
         parts = _parts(aft, fore)
         t = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _NODES))
-        tile, u = np.repeat(parts.tile, _NODES), _places(parts, t).ravel()
-        place = self._points(tile, u, x).reshape(-1, _NODES, 3)
+        walked, _ = root_walk(t, parts.starts, parts.ends)
+        u = parts.begin[:, None] + (parts.finish - parts.begin)[:, None] * walked
+        place = self._points(np.repeat(parts.tile, _NODES), u.ravel(), x).reshape(-1, _NODES, 3)
         return _lofted(place, parts, t, self.deck)
 
     def _points(self, tile: IntArray, u: FloatArray, x: float) -> FloatArray:
@@ -117,11 +119,7 @@ class Raked:
             for given in (self.point, self.across)
             for row in (low, low + 1)
         )
-        rise = end - begin
-        leave, arrive = leave * step, arrive * step
-        cubic = np.stack(
-            [begin, leave, 3.0 * rise - 2.0 * leave - arrive, leave + arrive - 2 * rise]
-        )
+        cubic = np.stack(hermite(begin, end, leave * step, arrive * step))
         s = _inside(cubic[:, :, 0] - np.array([[x], [0], [0], [0]]))[:, None]
         found: FloatArray = ((cubic[3] * s + cubic[2]) * s + cubic[1]) * s + cubic[0]
         found[:, 0] = x
@@ -203,22 +201,11 @@ def _parts(aft: FloatArray, fore: FloatArray) -> _Parts:
     return _Parts(tile[rows], begin[rows], finish[rows], leaves[rows, 0], leaves[rows, 2])
 
 
-def _places(parts: _Parts, t: FloatArray) -> FloatArray:
-    """Give places on tiles, (p, n), closer together where the section may go as a root."""
-    starts, ends = parts.starts[:, None], parts.ends[:, None]
-    from_rail = np.where(ends, t * t * (3.0 - 2.0 * t), t * t)
-    walked = np.where(starts, from_rail, np.where(ends, t * (2.0 - t), t))
-    places: FloatArray = parts.begin[:, None] + (parts.finish - parts.begin)[:, None] * walked
-    return places
-
-
 def _lofted(place: FloatArray, parts: _Parts, t: FloatArray, deck: NDArray[np.bool_]) -> IsoCurves:
     """Lay cubics between places (p, n, 3) at t, with the slopes of the polynomial through all."""
     slope = np.einsum("ij,pjk->pik", differences(t), place)
     step = np.diff(t)[None, :, None]
-    begin, rise = place[:, :-1], np.diff(place, axis=1)
-    leave, arrive = slope[:, :-1] * step, slope[:, 1:] * step
-    cubic = [begin, leave, 3.0 * rise - 2.0 * leave - arrive, leave + arrive - 2.0 * rise]
+    cubic = hermite(place[:, :-1], place[:, 1:], slope[:, :-1] * step, slope[:, 1:] * step)
     point = np.stack(cubic, axis=2).reshape(-1, 4, 3)
     point[:, 1:, 0] = 0.0
     up = parts.tile + parts.begin

@@ -17,7 +17,7 @@ from assoc_hull.geometry.immersion_extents import slopes
 from assoc_hull.geometry.immersion_roots import candidates, cuts, tilt
 from assoc_hull.geometry.immersion_tiles import from_curves, powers
 from assoc_hull.geometry.interpolation import differences
-from assoc_hull.geometry.quadrature import lobatto
+from assoc_hull.geometry.quadrature import lobatto, root_walk
 from assoc_hull.geometry.strip_spans import Spans
 
 __all__ = ["Arcs", "waterline_arcs"]
@@ -93,7 +93,7 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     """
     parts = _pieces(_parts(body, plane), body)
     t, weight = lobatto(_NODES)
-    walked, rate = _walk(parts, t)
+    walked, rate = root_walk(t, parts.starts, parts.ends)
     low, length = parts.low[:, None], (parts.high - parts.low)[:, None]
     v = np.clip(low + length * walked, low, parts.high[:, None])
     owner, place = _cut(body, plane, np.repeat(parts.strip, _NODES), v.ravel())
@@ -112,19 +112,6 @@ def waterline_arcs(body: Spans, plane: Planes) -> Arcs:
     point = both[..., :2].copy()
     slope = np.where(told, slope, np.einsum("ij,kjc->kic", differences(t), point))
     return Arcs(point, slope, weight.copy())
-
-
-def _walk(parts: _Parts, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give how far along parts places t lie, and the derivative; (p, n) each.
-
-    Closer together where arcs begin or end, as there they go as a root.
-    """
-    starts, ends = parts.starts[:, None], parts.ends[:, None]
-    walked = np.where(ends, t * t * (3.0 - 2.0 * t), t * t)
-    walked = np.where(starts, walked, np.where(ends, t * (2.0 - t), t))
-    rate = np.where(ends, 6.0 * t * (1.0 - t), 2.0 * t)
-    rate = np.where(starts, rate, np.where(ends, 2.0 - 2.0 * t, 1.0))
-    return walked, rate
 
 
 @attrs.frozen(eq=False)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 import assoc_hull as ah
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.largest_section import largest_section
-from assoc_hull.analysis.form.slices import Slices, slices, strips_of
+from assoc_hull.analysis.form.slices import Slices, slices
 from assoc_hull.geometry.between_planes import between
 from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.quadrature import gauss
@@ -73,7 +73,7 @@ def test_a_thin_slice_is_the_integral_of_its_sections(
     Not where a strip ends in the slice: there the area may jump.
     """
     shape = parts(ships[name], position).shape
-    aft, strips, (node, weight) = place * shape.length, strips_of(shape), gauss(6)
+    aft, strips, (node, weight) = place * shape.length, shape.body.spans, gauss(6)
     ends = np.concatenate([strips.aft, strips.fore])
     assume(not ((ends > aft) & (ends < aft + 0.02)).any())
     slice_ = between(strips, aft, aft + 0.02, shape.planes).volume
@@ -88,7 +88,7 @@ def test_no_section_is_larger_than_the_largest_section(
     """As drawn, or between; nor is it much larger than the largest of those drawn."""
     shape = shape_of(ships[name])
     largest, drawn = shape.take(largest_section).largest, shape.record.a_max
-    between_ = areas_at(strips_of(shape), shape.length * np.linspace(0.3, 0.7, 401), shape.planes)
+    between_ = areas_at(shape.body.spans, shape.length * np.linspace(0.3, 0.7, 401), shape.planes)
     assert between_.max() <= largest * (1.0 + 1e-12)
     assert drawn * (1.0 - 1e-9) <= largest <= 1.001 * drawn
 
@@ -171,6 +171,6 @@ def test_the_section_of_a_bulb_at_fp_is_found_between_stations(bulk_carrier: ah.
     """No station stands at FP: it lies between those at 297 and 300.6 m, both larger and less."""
     area = form_parameters(bulk_carrier, only=["A_FP"])["A_FP"].number or 0.0
     shape = shape_of(bulk_carrier)
-    aft, fore = areas_at(strips_of(shape), np.array([297.0, 300.6]), shape.planes).tolist()
+    aft, fore = areas_at(shape.body.spans, np.array([297.0, 300.6]), shape.planes).tolist()
     assert fore < area < aft
     assert area == pytest.approx(115.92, abs=0.01)

@@ -8,7 +8,6 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import strips_of
 from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Planes
@@ -79,7 +78,7 @@ def parallel_body(shape: Shape) -> LargestSection:
 
 
 def _along(shape: Shape, plane: Planes) -> LargestSection:
-    strips = strips_of(shape)
+    strips = shape.body.spans
 
     def areas(x: FloatArray) -> FloatArray:
         return areas_at(strips, x, plane)

@@ -6,7 +6,7 @@ import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent
-from assoc_hull.geometry.beside import area_along, beside, joined
+from assoc_hull.geometry.beside import area_along, beside, runs
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.places import Places, across, turning_places
 from assoc_hull.geometry.segments import power
@@ -115,7 +115,7 @@ def area_before_fp(shape: Shape, height: float, tan_trim: float) -> float:
         cubic[:, :, 2] -= tan_trim * cubic[:, :, 0]
         cubic[:, 0, 0] -= shape.length
         before = beside(cubic, np.array([-1.0, 0.0, 0.0]), 0.0)
-        for run in joined(beside(before, np.array([0.0, 0.0, 1.0]), height)):
+        for run in runs(beside(before, np.array([0.0, 0.0, 1.0]), height)):
             rises = run[-1].sum(axis=0)[2] >= run[0, 0, 2]
             total += (1.0 if rises else -1.0) * area_along(run, (0, 2))
     return total

@@ -13,11 +13,8 @@ from assoc_hull.geometry.immersed_sections import sections_and_moments_below, se
 from assoc_hull.geometry.immersion_roots import candidates, cuts, tilt
 from assoc_hull.geometry.immersion_tiles import from_curves, powers
 from assoc_hull.geometry.isocurves import IsoCurves
-from assoc_hull.geometry.strip_spans import Spans, spans
 
-__all__ = ["Slices", "slices", "strips_of"]
-
-_KEPT = "spans"
+__all__ = ["Slices", "slices"]
 
 
 @attrs.frozen(eq=False)
@@ -44,14 +41,14 @@ class Slices:
 
     def _part(self, aft: float, fore: float) -> Between:
         if (aft, fore) not in self._between:
-            found = between(strips_of(self.shape), aft, fore, self.shape.planes)
+            found = between(self.shape.body.spans, aft, fore, self.shape.planes)
             self._between[aft, fore] = found
         return self._between[aft, fore]
 
     def section(self, x: float) -> IsoCurves:
         """Give the section at a place, port side."""
         if x not in self._sections:
-            self._sections[x] = cross_section(strips_of(self.shape), x)
+            self._sections[x] = cross_section(self.shape.body.spans, x)
         return self._sections[x]
 
     def area(self, x: float) -> float:
@@ -74,7 +71,7 @@ class Slices:
 
     def runs_back(self, x: float) -> bool:
         """Tell whether a raked end of the surface is there that runs back somewhere."""
-        strips = strips_of(self.shape)
+        strips = self.shape.body.spans
         met = np.flatnonzero((strips.aft < x) & (strips.fore > x) & ~strips.flat)
         return not all(strips.raked[strip].forward for strip in met.tolist())
 
@@ -82,12 +79,3 @@ class Slices:
 def slices(shape: Shape) -> Slices:
     """Give the parts of a hull; to be asked by `Shape.take`."""
     return Slices(shape)
-
-
-def strips_of(shape: Shape) -> Spans:
-    """Give the strips of the surface and where they lie, whatever the draught."""
-    kept = shape.body.kept
-    found: Spans | None = kept.get(_KEPT)
-    if found is None:
-        found = kept[_KEPT] = spans(shape.body.prepared)
-    return found

@@ -9,7 +9,7 @@ from assoc_hull.analysis.form.largest_section import parallel_body
 from assoc_hull.analysis.form.literature import ITTC, TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.analysis.form.slices import slices, strips_of
+from assoc_hull.analysis.form.slices import slices
 from assoc_hull.analysis.form.value import Absent, Found, Warned
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.outer_line import OuterLine, outer_line
@@ -76,7 +76,7 @@ def bluntness(shape: Shape) -> Found:
 def angle_of_run(shape: Shape) -> Found:
     planes = shape.planes
     half = Planes(0.5 * planes.height, 0.5 * planes.tan_trim, planes.tan_heel.copy())
-    line = outer_line(waterline_arcs(strips_of(shape), half), forward=False)
+    line = outer_line(waterline_arcs(shape.body.spans, half), forward=False)
     curve = shape.take(parallel_body)
     broad = shape.take(slices).half_breadth(curve.run, half)
     if line is None or broad is None:
@@ -109,7 +109,7 @@ def longitudinal_moment(shape: Shape) -> Found:
 
 
 def _bow_line(shape: Shape) -> OuterLine | None:
-    return outer_line(waterline_arcs(strips_of(shape), shape.planes), forward=True)
+    return outer_line(waterline_arcs(shape.body.spans, shape.planes), forward=True)
 
 
 PARAMETERS = entries_in(vars())

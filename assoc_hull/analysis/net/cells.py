@@ -19,6 +19,7 @@ from assoc_hull.geometry.coons import Cells
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
+from assoc_hull.geometry.polynomials import hermite
 from assoc_hull.geometry.tile_sums import nil
 
 __all__ = ["Layout", "blends", "lay_out"]
@@ -206,8 +207,7 @@ def blends(
     sharp[np.flatnonzero(knuckle)] = True
     leave = np.where(sharp[:-1, None], step, leave)
     arrive = np.where(sharp[1:, None], step, arrive)
-    cubic = [below, leave, 3.0 * step - 2.0 * leave - arrive, leave + arrive - 2.0 * step]
-    return first, np.stack(cubic, axis=1)
+    return first, np.stack(hermite(below, above, leave, arrive), axis=1)
 
 
 def _slopes(height: FloatArray) -> FloatArray:

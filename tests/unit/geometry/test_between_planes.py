@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
@@ -78,6 +78,7 @@ def test_the_part_of_wigleys_hull_aft_of_any_place_is_the_polynomial(
     assert close(between(exact_wigley, -np.inf, x, at(DRAUGHT)), wigley_aft_of(x), 1e-12)
 
 
+@example(x=3.0705343726637063e-12)
 @given(x=st.floats(0.0, LENGTH))
 def test_the_volume_of_the_ellipsoid_aft_of_any_place_is_half_a_cap(
     exact_ellipsoid: Spans, x: float
@@ -162,3 +163,12 @@ def test_a_traced_section_lies_in_its_plane_and_on_the_surface(raked: Spans) -> 
         assert RAKED.breadth(t) * Polynomial(RAKED.profile[0][tile])(u) == pytest.approx(
             breadth, abs=1e-7
         )
+
+
+def test_a_section_of_wigley_has_its_offsets(exact_wigley: Spans) -> None:
+    """Every place of it is on the formula; above the draught the side is upright."""
+    found = cross_section(exact_wigley, 30.0)
+    _, y, z = found.point[~found.deck].sum(axis=1).T
+    up = np.minimum(z, DRAUGHT)
+    exact = 5.0 * (1.0 - 0.16) * (1.0 - ((up - DRAUGHT) / DRAUGHT) ** 2)
+    assert y == pytest.approx(exact, abs=1e-11)

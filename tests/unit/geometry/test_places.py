@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.beside import area_along, beside, joined, one_way
+from assoc_hull.geometry.beside import area_along, beside, one_way, runs
 from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
 from assoc_hull.geometry.places import across, places_on, turning_places
 from assoc_hull.geometry.segments import power
@@ -61,11 +61,11 @@ def test_a_curve_turns_where_its_derivative_is_nil() -> None:
 
 def test_what_is_beside_a_plane_is_kept_exactly() -> None:
     """Below z = 3/4 lie two parts of the parabola, each half a metre long."""
-    low = joined(beside(power(parabola()), UP, 0.75))
+    low = runs(beside(power(parabola()), UP, 0.75))
     assert [float(np.ptp([part[0, 0, 0], part[-1].sum(axis=0)[0]])) for part in low] == (
         pytest.approx([0.5, 0.5], abs=1e-12)
     )
-    assert joined(beside(power(parabola()), UP, -1.0)) == []
+    assert runs(beside(power(parabola()), UP, -1.0)) == []
 
 
 @pytest.mark.parametrize(
