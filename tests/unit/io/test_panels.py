@@ -57,7 +57,7 @@ def test_numbers_of_many_vertices_stand_apart(form: str, tmp_path: Path) -> None
     row = np.stack([x, np.ones(len(x)), -np.ones(len(x))], axis=1)
     last = len(x) - 2
     panel = [[last + len(x), last, last + 1, last + 1 + len(x)]]
-    wide = PanelMesh(np.concatenate([row, row + [0.0, 0.0, 1.0]]), np.array(panel))
+    wide = PanelMesh(np.concatenate([row, row + np.array([0.0, 0.0, 1.0])]), np.array(panel))
     write_panels(wide, tmp_path / "wide", form)
     again = read_panels(tmp_path / "wide")
     assert again.count == 1
