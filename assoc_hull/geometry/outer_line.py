@@ -83,6 +83,16 @@ class OuterLine:
         share = (turn[k - 1] - 0.5 * turn[most]) / (turn[k - 1] - turn[k])
         return float(behind[k - 1] + share * (behind[k] - behind[k - 1]))
 
+    def angle_beside(self, half_breadth: float) -> float:
+        """Give the angle where the line, seen from its end, is first so far out (m); radians."""
+        angle = np.unwrap(self.angle.ravel()[::-1])
+        y = self.point[..., 1].ravel()[::-1]
+        k = int((y >= half_breadth).argmax())
+        if k == 0:
+            return float(angle[0])
+        share = (half_breadth - y[k - 1]) / (y[k] - y[k - 1])
+        return float(angle[k - 1] + share * (angle[k] - angle[k - 1]))
+
     def bluntness(self) -> float:
         """Integral of the square of the sine of `angle` over -y, m; a flat end has sine 1."""
         dx, dy = self.slope[..., 0], self.slope[..., 1]

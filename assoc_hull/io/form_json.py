@@ -80,6 +80,7 @@ def form_document(report: FormReport) -> dict[str, Any]:
         "schema": SCHEMA,
         "header": {name: getattr(report.header, name) for name in HEADER_FIELDS},
         "position": attrs.asdict(report.position),
+        "even_keel": report.position.trim_by_stern == 0.0,
         "screw": None if report.screw is None else attrs.asdict(report.screw),
         "doubts": list(report.doubts),
         "values": {symbol: attrs.asdict(value) for symbol, value in report.values.items()},

@@ -131,11 +131,12 @@ def form_schema() -> Schema:
     --------
     >>> from assoc_hull.io.form_schema import form_schema
     >>> form_schema()["required"]
-    ['format', 'schema', 'header', 'position', 'screw', 'doubts', 'values']
+    ['format', 'schema', 'header', 'position', 'even_keel', 'screw', 'doubts', 'values']
     """
     parts = {
         "header": _HEADER,
         "position": _POSITION,
+        "even_keel": _told("T_A and T_F are equal; if not, T is their mean", TRUTH.schema),
         "screw": _told("null: not given", {"anyOf": [_NOTHING, _SCREW]}),
         "doubts": _told("what makes the integrals doubtful", listed(NAME).schema),
         "values": _told("by symbol", {"type": "object", "additionalProperties": _VALUE}),

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
+import numpy as np
+
 from assoc_hull.analysis.form.parameter import SHAPE, Parameter
 from assoc_hull.analysis.form.value import Absent, Found, Value, Warned
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.arguments import shown
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 
 __all__ = ["check_catalogue", "evaluate"]
 
@@ -139,7 +142,13 @@ def _as_value(entry: Parameter, found: Found) -> Value:
     if isinstance(found, Absent):
         return Value(None, entry.unit, entry.symbol, reason=found.reason)
     warning = found.warning if isinstance(found, Warned) else None
-    number = float(found.number if isinstance(found, Warned) else found)
+    given: object = found.number if isinstance(found, Warned) else found
+    if isinstance(given, bool) or not isinstance(given, float | int | np.floating | np.integer):
+        raise WrongTypeError(
+            f"{entry.symbol!r} gives {shown(given)}", _WHERE,
+            "let the entry give a number, Absent or Warned",
+        )  # fmt: skip
+    number = float(given)
     if not math.isfinite(number):
         why = f"the definition gives no finite number ({number:g}) here"
         return Value(None, entry.unit, entry.symbol, reason=why)

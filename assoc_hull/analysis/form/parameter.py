@@ -8,11 +8,12 @@ written once and serves a measured hull as well as printed values of a ship.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Literal
+from typing import Literal, get_args
 
 import attrs
 
 from assoc_hull.analysis.form.value import Found
+from assoc_hull.arguments import choice
 
 __all__ = ["SHAPE", "Parameter", "Table", "entries_in", "parameter"]
 
@@ -82,6 +83,11 @@ def parameter(
 ) -> Callable[[Callable[..., Found]], Parameter]:
     """Make an entry of a function; the attributes of `Parameter` say what to give.
 
+    Raises
+    ------
+    BadInputError
+        A table that is none of the catalogue's.
+
     Examples
     --------
     >>> from assoc_hull.analysis.form.parameter import parameter
@@ -92,6 +98,7 @@ def parameter(
     >>> length_over_breadth.compute(254.0, 46.0) > 5.5
     True
     """
+    choice(table, "table", get_args(Table), "in an entry of the catalogue")
 
     def entry(compute: Callable[..., Found]) -> Parameter:
         return Parameter(

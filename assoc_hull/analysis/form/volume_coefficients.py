@@ -9,8 +9,12 @@ import math
 
 from assoc_hull.analysis.form.literature import TABLE_3
 from assoc_hull.analysis.form.parameter import entries_in, parameter
+from assoc_hull.analysis.form.value import Found, Warned
 
 __all__ = ["PARAMETERS"]
+
+_ROUNDING = 1e-6
+"""By so much a coefficient may pass 1: a box has one of 1."""
 
 
 @parameter(
@@ -25,8 +29,11 @@ def block(volume: float, length: float, breadth: float, draught: float) -> float
     "Cm", name="coefficient of the greatest section", unit="-", table="hydrostatic", ittc="C_X",
     definition="Amax / (B T)", source=TABLE_3, needs=("Amax", "B", "T"),
 )  # fmt: skip
-def greatest_section(area: float, breadth: float, draught: float) -> float:
-    return area / (breadth * draught)
+def greatest_section(area: float, breadth: float, draught: float) -> Found:
+    found = area / (breadth * draught)
+    if found > 1.0 + _ROUNDING:
+        return Warned(found, "above 1, as the largest section lies deeper than the mean draught")
+    return found
 
 
 @parameter(

@@ -23,6 +23,10 @@ _NOSE = 0.1
 _STEP = 0.01
 """Of B: over so much of its length it is told how fast a waterline turns."""
 
+_BESIDE, _MUCH = 0.02, 3.0
+"""Of B: if there, beside the stem, the angle is another by more than so many degrees, it is no
+property of the bow but of the place where it is read."""
+
 _CENTRE = 1e-3
 """m: so near to the centre plane a waterline ends on it."""
 
@@ -52,7 +56,15 @@ def angle_of_entrance(shape: Shape) -> Found:
         return Absent(_NONE)
     if line.end[1] > _CENTRE:
         return Absent("the waterline ends in a flat face")
-    return float(np.degrees(line.entrance(_NOSE * shape.breadth, _STEP * shape.breadth)))
+    stem = float(np.degrees(line.entrance(_NOSE * shape.breadth, _STEP * shape.breadth)))
+    beside = float(np.degrees(line.angle_beside(_BESIDE * shape.breadth)))
+    if abs(stem - beside) > _MUCH:
+        return Warned(
+            stem,
+            f"a blunt bow, where the angle hangs on the place: at {_BESIDE:g} B from the centre "
+            f"plane it is {beside:.1f} deg",
+        )
+    return stem
 
 
 @parameter(
