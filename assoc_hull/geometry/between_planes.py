@@ -117,7 +117,8 @@ def between(body: Spans, aft: float, fore: float, plane: Planes) -> Between:
     >>> round(part.volume)  # half of 4/9 L B T
     1389
     """
-    inside = (body.fore > aft) & (body.aft < fore) & (body.fore > body.aft)
+    inside = (body.fore - body.near > aft) & (body.aft + body.near < fore)
+    inside &= body.fore > body.aft
     whole = inside & (body.aft >= aft) & (body.fore <= fore)
     level = np.flatnonzero(inside & (whole | body.flat))
     begin, finish, strips = np.zeros(len(level)), np.ones(len(level)), body.prepared.strips

@@ -48,6 +48,12 @@ class Spans:
         freeze(self.aft, self.fore, self.flat)
 
     @cached_property
+    def near(self) -> FloatArray:
+        """So near to one another places on a strip cannot be told apart, (n,), m."""
+        found: FloatArray = _CLOSE * np.maximum(np.abs(self.aft), np.abs(self.fore))
+        return found
+
+    @cached_property
     def raked(self) -> dict[int, Raked]:
         """The strips that are not flat and lie between two places."""
         rest = np.flatnonzero(~self.flat & (self.fore > self.aft + _FLAT))
@@ -83,7 +89,7 @@ def level_at(body: Spans, strip: IntArray, x: FloatArray | float) -> FloatArray:
         curves = strips.curves(strip, v)
         first = curves.start[:-1]
         over = curves.point[first, 0, 0] - x
-        if (np.abs(over) <= _CLOSE * np.maximum(np.abs(begin), np.abs(end))).all():
+        if (np.abs(over) <= body.near[strip]).all():
             break
         low, high = np.where(over < 0.0, v, low), np.where(over > 0.0, v, high)
         with np.errstate(divide="ignore", invalid="ignore"):

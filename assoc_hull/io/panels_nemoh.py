@@ -44,9 +44,10 @@ def dumps_mar(mesh: PanelMesh) -> str:
     lines = [f"{2:6d}{int(mesh.mirror_y):6d}"]
     places = shown_rows(np.vstack([mesh.xyz, np.zeros(3)]))
     numbers = [*range(1, len(mesh.xyz) + 1), 0]
-    lines += [f"{number:6d}{place}" for number, place in zip(numbers, places, strict=True)]
+    wide = max(6, len(str(len(mesh.xyz))) + 1)  # so that numbers never run together
+    lines += [f"{number:{wide}d}{place}" for number, place in zip(numbers, places, strict=True)]
     panels = [*(mesh.panel + 1).tolist(), [0, 0, 0, 0]]
-    lines += ["".join(f"{corner:6d}" for corner in panel) for panel in panels]
+    lines += ["".join(f"{corner:{wide}d}" for corner in panel) for panel in panels]
     return "\n".join(lines) + "\n"
 
 

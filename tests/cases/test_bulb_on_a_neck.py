@@ -19,7 +19,9 @@ from tests.cases.bulb import breadth_at, bulb_hull, contour, fullness, gradient
 FP, DRAUGHT = 94.0, 7.0
 """FP is taken where the neck begins, so that the bulb stands before it."""
 
-WANTED = ("BL", "BH", "BW", "Abulb", "LBA", "LIBA", "V_PR", "L_PR", "Z_B", "B_B", "A_BT", "A_BL")
+WANTED = (
+    "BL", "BH", "BW", "Abulb", "LBA", "LIBA", "V_PR", "L_PR", "Z_B", "B_B", "A_BT", "A_BL", "h_B",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -57,11 +59,14 @@ def test_the_tip_is_that_of_the_function(found: Mapping[str, Value]) -> None:
 
 
 def test_the_section_at_fp_is_that_of_the_function(found: Mapping[str, Value]) -> None:
-    """BW, B_B, Abulb, A_BT; a station stands there."""
+    """BW, B_B, Abulb, A_BT, h_B; a station stands there."""
     z = np.linspace(0.0, DRAUGHT, 200_001)
     y = np.maximum(breadth_at(0.0 * z + FP, z), 0.0)
     assert number(found, "BW") == pytest.approx(2.0 * y.max(), abs=2e-3)
     assert number(found, "Abulb") == pytest.approx(2.0 * np.trapezoid(y, z), rel=1e-3)
+    assert number(found, "h_B") == pytest.approx(
+        np.trapezoid(y * z, z) / np.trapezoid(y, z), rel=1e-3
+    )
     assert (number(found, "B_B"), number(found, "A_BT")) == (
         found["BW"].number,
         found["Abulb"].number,

@@ -17,8 +17,10 @@ def wigley() -> Mapping[str, Value]:
 
 
 @pytest.mark.parametrize(
-    "symbol", ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL", "V_PR"]
-)
+    "symbol",
+    ["BL", "BH", "Abulb", "LBA", "LIBA", "Z_B", "L_PR", "B_B", "A_BT", "A_BL", "V_PR",
+     "h_B"],
+)  # fmt: skip
 def test_without_a_bulb_there_is_a_reason(wigley: Mapping[str, Value], symbol: str) -> None:
     """Never a zero that means nothing."""
     assert wigley[symbol].number is None
@@ -52,6 +54,15 @@ def test_a_single_skeg_has_no_tunnel(wigley: Mapping[str, Value], symbol: str) -
     """Nothing hangs below the centre line."""
     assert wigley[symbol].number is None
     assert "single skeg" in (wigley[symbol].reason or "")
+
+
+@pytest.mark.parametrize("symbol", ["LWL", "LCF", "KMT", "I_T", "I_L", "BMT", "BML", "KML"])
+def test_a_draught_to_the_deck_leaves_no_waterplane(symbol: str) -> None:
+    """The deck, which is closed and level, lies in the floating plane."""
+    hull = ah.examples.wigley()
+    value = ah.form_parameters(hull, draught=hull.particulars.depth, only=[symbol])[symbol]
+    assert value.number is None
+    assert (value.reason or "").endswith("no waterplane: the deck is in the water")
 
 
 def test_wigley_has_no_bilge_circle_and_a_level_bottom(wigley: Mapping[str, Value]) -> None:

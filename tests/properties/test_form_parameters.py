@@ -20,7 +20,7 @@ from tests.mapped import scaled, turned
 from tests.twin_skeg import twin_skeg_ship
 
 NAMES = ("Wigley", "Series 60 CB .60", "Series 60 CB .70", "207k", "twin skegs")
-POWERS = {"m": 1, "m2": 2, "m3": 3, "m4": 4, "t": 3, "1/m": -1}
+POWERS = {"m": 1, "m2": 2, "m3": 3, "m4": 4, "t": 3, "1/m": -1, "t/cm": 2, "t m/cm": 3}
 """By which power of length a value grows; every other unit is of an angle or a ratio."""
 
 RATIOS = {"-", "deg", "st", "% Lpp", "% B", "% D"}

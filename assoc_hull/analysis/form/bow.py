@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form.literature import KRACHT, TABLE_3, TABLE_4
+from assoc_hull.analysis.form.literature import HOLTROP, KRACHT, TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import SHAPE, entries_in, parameter
 from assoc_hull.analysis.form.profile import area_before_fp, bulb_tip
 from assoc_hull.analysis.form.section_shape import section_at
@@ -80,7 +80,7 @@ def immersed_lateral_area(shape: Shape, bulb: float) -> float:
     return area_before_fp(shape, shape.position.draught_aft, rise)
 
 
-# Kracht's measures.
+# Measures of Kracht and Holtrop.
 
 
 @parameter(
@@ -131,6 +131,15 @@ def kracht_along(area: float) -> float:
 )  # fmt: skip
 def kracht_volume(shape: Shape, length: float) -> float:
     return shape.take(slices).forward_of(shape.length).volume
+
+
+@parameter(
+    "h_B", name="Holtrop's height of the bulb's section", unit="m", table="bulb and resistance",
+    definition="z of the centre of A_BT", datum="from the base line, up", source=HOLTROP,
+    needs=(SHAPE, "A_BT"),
+)  # fmt: skip
+def holtrop_height(shape: Shape, area: float) -> float:
+    return shape.take(slices).centre(shape.length)
 
 
 PARAMETERS = entries_in(vars())

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import math
+
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent, Found
 
-__all__ = ["PARAMETERS"]
+__all__ = ["PARAMETERS", "of_waterplane"]
 
+_LEWIS = "E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I"
 _SOURCE = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008, Table 3"
+
+
+def of_waterplane(number: float | None) -> Found:
+    """Give a number of the record that it lacks, or has as nan, where there is no waterplane."""
+    if number is None or math.isnan(number):
+        return Absent("no waterplane: the deck is in the water")
+    return number
 
 
 @parameter(
@@ -49,8 +59,8 @@ def buoyancy_above(shape: Shape) -> float:
     definition="from the aftmost to the foremost place of the waterline, transom included",
     datum="along x", source=_SOURCE, digits=3,
 )  # fmt: skip
-def waterline_length(shape: Shape) -> float:
-    return shape.record.lwl
+def waterline_length(shape: Shape) -> Found:
+    return of_waterplane(shape.record.lwl)
 
 
 @parameter(
@@ -65,8 +75,8 @@ def waterplane_area(shape: Shape) -> float:
     "LCF", name="centre of flotation", unit="m", table="hydrostatic", ittc="X_F",
     definition="integral of x dA / A_W", datum="from AP, + forward", source=_SOURCE,
 )  # fmt: skip
-def flotation_ahead(shape: Shape) -> float:
-    return shape.record.lcf
+def flotation_ahead(shape: Shape) -> Found:
+    return of_waterplane(shape.record.lcf)
 
 
 @parameter(
@@ -83,8 +93,32 @@ def wetted_surface(shape: Shape) -> float:
     definition="KB + I_T / V", datum="from the base line, up", source=_SOURCE,
 )  # fmt: skip
 def metacentre(shape: Shape) -> Found:
-    found = shape.record.kmt
-    return Absent("none when heeled") if found is None else found
+    return of_waterplane(shape.record.kmt)
+
+
+@parameter(
+    "TPC", name="tons per centimetre of immersion", unit="t/cm", table="hydrostatic",
+    definition="rho A_W / 100", source=_LEWIS,
+)  # fmt: skip
+def immersion(shape: Shape) -> float:
+    return shape.record.tpc
+
+
+@parameter(
+    "MTC", name="moment to trim one centimetre", unit="t m/cm", table="hydrostatic",
+    definition="rho V BM_L / (100 Lpp): no KG is given", source=_LEWIS, digits=2,
+)  # fmt: skip
+def trimming(shape: Shape) -> float:
+    return shape.record.mtc
+
+
+@parameter(
+    "DCT", name="displacement per centimetre of trim by the stern", unit="t/cm",
+    table="hydrostatic", definition="TPC (Lpp/2 - LCF) / Lpp, at a fixed draught midships",
+    datum="+ where the displacement grows", source=_LEWIS, needs=("TPC", "Lpp", "LCF"),
+)  # fmt: skip
+def trim_displacement(tons: float, length: float, flotation: float) -> float:
+    return tons * (0.5 * length - flotation) / length
 
 
 PARAMETERS = entries_in(vars())

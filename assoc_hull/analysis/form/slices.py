@@ -9,7 +9,7 @@ from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.geometry.between_planes import Between, between
 from assoc_hull.geometry.cross_sections import cross_section
 from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersed_sections import sections_below
+from assoc_hull.geometry.immersed_sections import sections_and_moments_below, sections_below
 from assoc_hull.geometry.immersion_roots import candidates, cuts, tilt
 from assoc_hull.geometry.immersion_tiles import from_curves, powers
 from assoc_hull.geometry.isocurves import IsoCurves
@@ -54,6 +54,11 @@ class Slices:
     def area(self, x: float) -> float:
         """Give the immersed area of the section at a place, both sides, m2."""
         return float(sections_below(self.section(x), self.shape.planes).sum())
+
+    def centre(self, x: float) -> float:
+        """Give the height of the centre of the immersed section at a place, m."""
+        area, moment = sections_and_moments_below(self.section(x), self.shape.planes)
+        return float(moment.sum() / area.sum())
 
     def half_breadth(self, x: float, plane: Planes) -> float | None:
         """Give the outermost place of a waterline at x, m; None where there is none."""

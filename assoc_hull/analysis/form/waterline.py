@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from assoc_hull.analysis.form.floating import of_waterplane
 from assoc_hull.analysis.form.largest_section import parallel_body
 from assoc_hull.analysis.form.literature import ITTC, TABLE_3, TABLE_4
 from assoc_hull.analysis.form.parameter import entries_in, parameter
@@ -94,8 +95,8 @@ def angle_of_run(shape: Shape) -> Found:
     ittc="I_T", definition="integral of y^2 dA in the floating plane, about its centroid",
     source=ITTC, digits=1,
 )  # fmt: skip
-def transverse_moment(shape: Shape) -> float:
-    return shape.record.i_t
+def transverse_moment(shape: Shape) -> Found:
+    return of_waterplane(shape.record.i_t)
 
 
 @parameter(
@@ -103,8 +104,8 @@ def transverse_moment(shape: Shape) -> float:
     ittc="I_L", definition="integral of x^2 dA in the floating plane, about its centroid",
     source=ITTC, digits=1,
 )  # fmt: skip
-def longitudinal_moment(shape: Shape) -> float:
-    return shape.record.i_l
+def longitudinal_moment(shape: Shape) -> Found:
+    return of_waterplane(shape.record.i_l)
 
 
 def _bow_line(shape: Shape) -> OuterLine | None:

@@ -92,6 +92,13 @@ def test_the_volume_of_the_ellipsoid_aft_of_any_place_is_half_a_cap(
     assert found == pytest.approx(wanted, abs=1e-9 * 5026.5)
 
 
+@pytest.mark.parametrize("x", [5e-324, 1e-15, 8e-11, 1.1e-10, 1e-8])
+def test_next_to_nothing_lies_aft_of_a_place_at_the_end(exact_ellipsoid: Spans, x: float) -> None:
+    """No error there: the strip that the plane leaves is too short to have a height."""
+    found = between(exact_ellipsoid, -np.inf, x, at(6.0))
+    assert abs(found.volume) < 1e-12
+
+
 @pytest.mark.parametrize("x", [0.5, 33.0, 50.0, 99.0])
 def test_sections_of_the_ellipsoid_are_half_ellipses(exact_ellipsoid: Spans, x: float) -> None:
     """Below the height of the centre, between the curves of the rule too; to 1e-9."""

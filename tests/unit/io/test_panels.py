@@ -50,6 +50,20 @@ def test_a_mesh_comes_back_to_the_last_digit_written(
     assert (once_more.panel == again.panel).all()
 
 
+@pytest.mark.parametrize("form", ["nemoh", "hams"])
+def test_numbers_of_many_vertices_stand_apart(form: str, tmp_path: Path) -> None:
+    """A file names vertices by numbers of six digits as well, with room between them."""
+    x = np.arange(50_002.0)
+    row = np.stack([x, np.ones(len(x)), -np.ones(len(x))], axis=1)
+    last = len(x) - 2
+    panel = [[last + len(x), last, last + 1, last + 1 + len(x)]]
+    wide = PanelMesh(np.concatenate([row, row + np.array([0.0, 0.0, 1.0])]), np.array(panel))
+    write_panels(wide, tmp_path / "wide", form)
+    again = read_panels(tmp_path / "wide")
+    assert again.count == 1
+    assert again.area == pytest.approx(1.0, abs=1e-9)
+
+
 def _from_least(corner: np.ndarray) -> np.ndarray:
     """Corners of panels in an order that does not depend on the first one."""
     key = corner[:, :, 0] * 1e8 + corner[:, :, 1] * 1e3 + corner[:, :, 2]
