@@ -148,7 +148,7 @@ def _raked(strip: Raked, aft: float, fore: float, plane: Planes) -> Between:
     x, weight = (edge[:-1, None] + length * node).ravel(), (length * share).ravel()
     total = np.zeros(13)
     for place, each in zip(x.tolist(), weight.tolist(), strict=True):
-        tiles = from_curves(strip.section(place))
+        tiles = from_curves(strip.section(place, quick=True))
         level = np.repeat(plane.height, tiles.curves)
         columns = curve_by_curve(tiles, level, plane.tan_trim, np.zeros(1))
         total += 2.0 * each * columns.sum(axis=1)

@@ -3,8 +3,9 @@
 Such a strip lies at an end of the ship, between a section and a stem, or where a piece of a
 section ends. A plane across the ship meets its curves at many places, not at one v. So the
 strip is taken at many v, with points and derivatives there; between two of them cubics along v
-have the surface to some 1e-8 of its length. For a place u up a tile the v at which the surface
-stands in the plane is then the root of one cubic, and a section is lofted from such points.
+have the surface nearly. For a place u up a tile the v at which the surface stands in the plane
+is then nearly the root of one cubic; a step of Newton's rule on the surface itself leads on, and
+a section is lofted from such points.
 """
 
 from __future__ import annotations
@@ -42,6 +43,10 @@ class Raked:
 
     Attributes
     ----------
+    strips : Strips
+        The body.
+    strip : int
+        Which of its strips.
     v : (m,)
         The places, from 0 to 1.
     point, across : (m, t, 4, 3), m
@@ -50,6 +55,8 @@ class Raked:
         The tile is closed deck.
     """
 
+    strips: Strips
+    strip: int
     v: FloatArray
     point: FloatArray
     across: FloatArray
@@ -91,8 +98,10 @@ class Raked:
         every = np.sort(np.concatenate(found))
         return every[np.diff(every, prepend=-np.inf) > _NEAR]
 
-    def section(self, x: float) -> IsoCurves:
+    def section(self, x: float, *, quick: bool = False) -> IsoCurves:
         """Give the section at a place inside the strip, piece by piece from keel to deck.
+
+        A quick one is as good as the cubics along v, which is enough for one of many in a sum.
 
         What it has of `across` is that of a strip of sections that runs forward by 1 m.
         """
@@ -103,10 +112,12 @@ class Raked:
         t = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _NODES))
         walked, _ = root_walk(t, parts.starts, parts.ends)
         u = parts.begin[:, None] + (parts.finish - parts.begin)[:, None] * walked
-        place = self._points(np.repeat(parts.tile, _NODES), u.ravel(), x).reshape(-1, _NODES, 3)
+        place = self._points(np.repeat(parts.tile, _NODES), u.ravel(), x, quick).reshape(
+            -1, _NODES, 3
+        )
         return _lofted(place, parts, t, self.deck)
 
-    def _points(self, tile: IntArray, u: FloatArray, x: float) -> FloatArray:
+    def _points(self, tile: IntArray, u: FloatArray, x: float, quick: bool) -> FloatArray:
         """Give the points (k, 3) at places up the strip that stand at x."""
         powers = u[:, None] ** np.arange(4)
         over = np.einsum("mkp,kp->mk", self.point[..., 0][:, tile], powers) - x
@@ -121,7 +132,25 @@ class Raked:
         )
         cubic = np.stack(hermite(begin, end, leave * step, arrive * step))
         s = _inside(cubic[:, :, 0] - np.array([[x], [0], [0], [0]]))[:, None]
+        if not quick:
+            return self._refined(tile, u, self.v[low] + (s * step)[:, 0], step[:, 0], x)
         found: FloatArray = ((cubic[3] * s + cubic[2]) * s + cubic[1]) * s + cubic[0]
+        found[:, 0] = x
+        return found
+
+    def _refined(
+        self, tile: IntArray, u: FloatArray, v: FloatArray, most: FloatArray, x: float
+    ) -> FloatArray:
+        """Give the points (k, 3) a step of Newton's rule from v, no longer than `most`."""
+        curves = self.strips.curves(np.full(len(v), self.strip), v)
+        row = curves.start[:-1] + tile
+        point, across = (
+            horner(each[row], u[:, None])[:, 0] for each in (curves.point, curves.across)
+        )
+        rising = across[:, 0] > 0.0
+        step = (x - point[:, 0]) / np.where(rising, across[:, 0], np.inf)
+        step = np.clip(v + np.clip(step, -most, most), 0.0, 1.0) - v
+        found: FloatArray = point + step[:, None] * across
         found[:, 0] = x
         return found
 
@@ -161,7 +190,7 @@ def raked(strips: Strips, strip: int) -> Raked:
     point, across = (
         each.reshape(_CURVES, tiles, 4, 3).copy() for each in (curves.point, curves.across)
     )
-    return Raked(v, point, across, curves.deck[:tiles].copy())
+    return Raked(strips, strip, v, point, across, curves.deck[:tiles].copy())
 
 
 def _at_changes(x: FloatArray, over: FloatArray) -> FloatArray:

@@ -8,8 +8,10 @@ from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.between_planes import Between, between
 from assoc_hull.geometry.cross_sections import areas_at, cross_section
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersion import immersed, prepare
+from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.strip_spans import Spans, spans
 from tests.exact_hulls import FormStrips, box, ellipsoid, wigley
@@ -143,12 +145,15 @@ def test_the_volume_between_two_places_is_the_integral_of_the_sections_there(
     assert sections.sum() == pytest.approx(between(raked, 41.0, 44.0, plane).volume, rel=1e-7)
 
 
-def test_a_traced_section_lies_in_its_plane_and_on_the_surface(raked: Spans) -> None:
-    """Every place on it is one of the formula, to 1e-7 m."""
+@pytest.mark.parametrize(("part", "within"), [(0.0, 1e-10), (0.5, 1e-7)])
+def test_a_traced_section_lies_in_its_plane_and_on_the_surface(
+    raked: Spans, part: float, within: float
+) -> None:
+    """Every place on it is one of the formula: where its cubics meet, and in their middles."""
     found = cross_section(raked, 57.3)
     assert (found.point[:, 0, 0] == 57.3).all()
     assert not found.point[:, 1:, 0].any()
-    y, z = (found.point[:, :, axis] @ np.array([1.0, 0.5, 0.25, 0.125]) for axis in (1, 2))
+    y, z = (found.point[:, :, axis] @ part ** np.arange(4) for axis in (1, 2))
     side = ~found.deck
     curves = RAKED.profile[1][:-1]
     for breadth, height in zip(y[side][::7], z[side][::7], strict=True):
@@ -161,7 +166,7 @@ def test_a_traced_section_lies_in_its_plane_and_on_the_surface(raked: Spans) -> 
         real = roots.real[np.abs(roots.imag) < 1e-9]
         u = float(real[(real > -1e-9) & (real < 1.0 + 1e-9)][0])
         assert RAKED.breadth(t) * Polynomial(RAKED.profile[0][tile])(u) == pytest.approx(
-            breadth, abs=1e-7
+            breadth, abs=within
         )
 
 
@@ -172,3 +177,24 @@ def test_a_section_of_wigley_has_its_offsets(exact_wigley: Spans) -> None:
     up = np.minimum(z, DRAUGHT)
     exact = 5.0 * (1.0 - 0.16) * (1.0 - ((up - DRAUGHT) / DRAUGHT) ** 2)
     assert y == pytest.approx(exact, abs=1e-11)
+
+
+class Uneven:
+    """The body of raked strips, v running unevenly: beyond 0.4 it grows faster and faster."""
+
+    count, order = RAKED.count, RAKED.order
+
+    def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
+        """As of the body."""
+        more = np.maximum(v - 0.4, 0.0)
+        found = RAKED.curves(strip, (v + more * more) / 1.36)
+        rate = np.repeat((1.0 + 2.0 * more) / 1.36, np.diff(found.start))[:, None, None]
+        return IsoCurves(found.start, found.point, rate * found.across, found.deck)
+
+
+def test_a_traced_section_does_not_depend_on_how_v_runs(raked: Spans) -> None:
+    """Lines along ships bend anew at every point of theirs; what is traced keeps to them."""
+    uneven = spans(prepare(Uneven()))
+    for x in (52.5, 54.0, 57.3):
+        one, other = (cross_section(body, x).point for body in (raked, uneven))
+        np.testing.assert_allclose(one[:, 0], other[:, 0], rtol=0.0, atol=1e-11)
