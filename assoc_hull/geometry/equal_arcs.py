@@ -198,7 +198,7 @@ def shares(lengths: FloatArray, total: int, least: IntArray | int = 1) -> IntArr
     """
     size = np.maximum(np.asarray(lengths, np.float64), 0.0)
     whole = float(size.sum())
-    wish = size * (total / whole) if whole > 0.0 else np.full(len(size), total / len(size))
+    wish = size * total / whole if whole > 0.0 else np.full(len(size), total / len(size))
     floor = np.broadcast_to(np.asarray(least, np.int64), size.shape)
     found = np.maximum(np.floor(wish).astype(np.int64), floor)
     # Pieces that were given more than their wish have no remainder left.

@@ -25,7 +25,7 @@ def why_it_ends(end: float, limit: float | None) -> str:
     return f"GZ is computed to {end:.4g} deg"
 
 
-def notes_of(at: Heeled, case: Case, limit: float | None) -> tuple[str, ...]:
+def notes_of(at: Heeled, case: Case, limit: float | None, side: int) -> tuple[str, ...]:
     """Say whether the deck is open, what is not evaluated, and which heels have no lever.
 
     Parameters
@@ -36,13 +36,24 @@ def notes_of(at: Heeled, case: Case, limit: float | None) -> tuple[str, ...]:
         The ship.
     limit : float or None, degrees
         As for `why_it_ends`.
+    side : int
+        To which side the ship is judged: 1 starboard, -1 port.
     """
     deck = "closed" if case.afloat.body.limits.closed else "open"
     notes = [f"the deck is {deck}" + (f": {why_it_ends(0.0, limit)}" if limit is not None else "")]
     if case.trim == "fixed":
         notes.append("trim is fixed: levers are those of the plane with the draughts' difference")
     notes.append("the weather criterion (2008 IS Code A 2.3) is not evaluated")
-    return (*notes, *_missing(at, case, limit))
+    return (*notes, *_other_side(at, side), *_missing(at, case, limit))
+
+
+def _other_side(at: Heeled, side: int) -> list[str]:
+    """Tell that all heels of the table are to the side on which the ship is not judged."""
+    towards = side * at.heel_deg
+    if (towards > 0.0).any() or not (towards < 0.0).any():
+        return []
+    judged, sign = ("starboard", "positive") if side > 0 else ("port", "negative")
+    return [f"she is judged heeling to {judged}: for levers to that side ask for {sign} heels"]
 
 
 def _missing(at: Heeled, case: Case, limit: float | None) -> list[str]:

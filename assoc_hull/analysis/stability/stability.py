@@ -173,7 +173,7 @@ def stability_of(
         header, condition, trim, at, curve,
         StabilityAngles(drowned[0] if limit is None else limit, first, largest, *curve.positive),
         curve.gm, gz_max, intact_criteria(Judged(curve, first, bool(points), why)), floodings,
-        notes_of(at, case, limit),
+        notes_of(at, case, limit, side),
     )  # fmt: skip
 
 

@@ -78,6 +78,13 @@ def test_a_hull_has_cross_curves(wigley: ah.Hull) -> None:
     assert not one.kn.flags.writeable
 
 
+def test_trim_by_the_stern_is_draught_aft_less_draught_forward(wigley: ah.Hull) -> None:
+    """About the mean draughts that are given."""
+    found = cross_curves(wigley, draughts=[5.0, 6.0], trim_by_stern=0.4, heels=[10.0])
+    at = [(each.upright.draught_aft, each.upright.draught_fore) for each in found.conditions]
+    np.testing.assert_allclose(at, [(5.2, 4.8), (6.2, 5.8)], atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("given", "error"),
     [

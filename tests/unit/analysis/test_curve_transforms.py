@@ -246,6 +246,18 @@ def test_nothing_is_taken_amiss(wigley: Hull, name: str, value: object) -> None:
             curve_transform(wigley, **each)
 
 
+def test_a_heeled_ship_is_wet_as_far_to_either_side(bulk_carrier: Hull) -> None:
+    """At 35 degrees a corner of the transom, at x = -5, is wet, which upright is dry."""
+    body, length = flotation(bulk_carrier.state), bulk_carrier.particulars.length
+    reach = [
+        wet_reach(body, planes_of([FloatingPosition(18.2, 18.2, heel)], length))
+        for heel in (0.0, 35.0, -35.0)
+    ]
+    assert reach[1] == reach[2]
+    assert reach[1][0] == pytest.approx(-5.0, abs=1e-9)
+    assert reach[0][0] > -4.9
+
+
 def test_a_part_that_begins_between_stations_does_so(bulk_carrier: Hull) -> None:
     """The skeg of the bulk carrier begins upright at x = 6: aft of it a section has none of it.
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import attrs
 import numpy as np
 import pytest
 
 from assoc_hull.analysis.stability.condition import Asked
+from assoc_hull.analysis.stability.criteria import Criterion
 from assoc_hull.analysis.stability.flooding import FloodingPoint
 from assoc_hull.analysis.stability.levers import TrimRule
 from assoc_hull.analysis.stability.result import Stability
@@ -182,6 +184,29 @@ def test_a_ship_is_judged_to_the_side_to_which_gravity_heels_her() -> None:
     start = port.angles.equilibrium
     assert start == pytest.approx(starboard.angles.equilibrium, abs=1e-8)
     assert start == pytest.approx(np.degrees(0.2 / port.gm), rel=5e-3)
+
+
+def test_draughts_tell_where_gravity_is() -> None:
+    """Trimmed by given draughts, a ship that is free to trim keeps them upright, however high G."""
+    header = head(100.0, BREADTH, DRAUGHT, kg=4.0, deck="closed")
+    asked = Asked(draughts=(6.5, 5.5), kg=4.0)
+    found = stability_of(box_body(True), header, asked, "free", np.array([0.0, 10.0]))
+    at = [found.columns[name][0] for name in ("draught_aft", "draught_fore")]
+    assert at == pytest.approx([6.5, 5.5], abs=1e-6)
+
+
+def test_a_table_of_the_other_side_is_told() -> None:
+    """Heels to starboard of a ship that lists to port, and those alone."""
+    told = [any("judged heeling to port" in note for note in box(5.0, tcg=t).notes)
+            for t in (0.2, 0.0, -0.2)]  # fmt: skip
+    assert told == [True, False, False]
+
+
+def test_just_what_is_required_is_enough() -> None:
+    """The least that the code allows passes, with no margin."""
+    least = Criterion("2.2.4", "initial metacentric height", 0.15, "m", 0.15)
+    assert (least.passed, least.margin) == (True, 0.0)
+    assert least.passed != attrs.evolve(least, value=0.15 - 1e-12).passed
 
 
 def test_a_lever_that_is_never_positive_has_no_range() -> None:

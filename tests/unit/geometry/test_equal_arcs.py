@@ -1,7 +1,7 @@
 """Points at equal lengths along chains of cubics, and shares of whole parts."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -111,6 +111,7 @@ def test_a_chain_without_length_gives_its_place() -> None:
     assert Chains(np.array([0, 1]), cubic).equal(3).tolist() == [[[1.0, 2.0, 3.0]] * 3]
 
 
+@example([5e-324], 1, 1)
 @given(st.lists(st.floats(0.0, 1e3), min_size=1, max_size=9), st.integers(1, 60), st.integers(1, 3))
 def test_shares_are_whole_and_fair(lengths: list[float], total: int, least: int) -> None:
     """They add up, nobody goes without, and nobody is off his due by a part or more."""

@@ -64,6 +64,13 @@ def test_numbers_of_many_vertices_stand_apart(form: str, tmp_path: Path) -> None
     assert again.area == pytest.approx(1.0, abs=1e-9)
 
 
+def test_the_highest_frequency_is_that_of_the_shortest_wave(mesh: PanelMesh) -> None:
+    """In deep water a wave is 2 pi g / omega^2 long; the shortest is six diagonals."""
+    report = panel_report(mesh)
+    wave = 2.0 * np.pi * 9.80665 / report.highest_frequency**2
+    assert wave == pytest.approx(6.0 * report.diagonal, rel=1e-12)
+
+
 def _from_least(corner: np.ndarray) -> np.ndarray:
     """Corners of panels in an order that does not depend on the first one."""
     key = corner[:, :, 0] * 1e8 + corner[:, :, 1] * 1e3 + corner[:, :, 2]

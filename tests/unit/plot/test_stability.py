@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.stability.condition import Asked
@@ -19,7 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.cross_curves import cross_curve_picture
 from assoc_hull.plot.paper import PAPERS
-from assoc_hull.plot.stability import lever_picture, plot_stability
+from assoc_hull.plot.stability import _AREAS, lever_picture, plot_stability
 from tests.floating_bodies import box_body, head
 
 Lines = Callable[[Figure, str], list[FloatArray]]
@@ -69,6 +71,23 @@ def test_levers_and_arms_are_drawn_where_they_are(
     (arm,) = lines_of(figure, "curve/arm$")
     at = np.interp(dots[:, 0], arm[:, 0], arm[:, 1]) - nought[0, 1]
     assert_allclose(at / at[3], found.columns["arm"] / found.columns["arm"][3], atol=1e-6)
+
+
+def test_areas_are_tinted_to_where_water_comes_in(
+    ships: dict[str, Stability], lines_of: Lines
+) -> None:
+    """The hatch goes under before 30 degrees: what lies beyond does not count, and is bare."""
+    found = ships["passes"]
+    assert (found.angles.flooding or 90.0) < 30.0
+    figure = lever_picture(found)
+    (mark,) = lines_of(figure, "mark/down-flooding$")
+    tints = [to_hex(each).upper() for each in _AREAS]
+    tinted = [
+        np.asarray(each.get_xy())[:, 0].max()
+        for each in figure.findobj(Polygon)
+        if to_hex(each.get_facecolor()).upper() in tints
+    ]
+    assert tinted == pytest.approx([mark[0, 0]], abs=1e-6)
 
 
 def test_the_tangent_reaches_gm_at_one_radian(ships: dict[str, Stability], lines_of: Lines) -> None:
