@@ -122,3 +122,8 @@ def test_shares_are_whole_and_fair(lengths: list[float], total: int, least: int)
     due = size * total / size.sum() if size.sum() > 0.0 else np.full(len(size), total / len(size))
     if (due >= least).all():
         assert (np.abs(found - due) < 1.0).all()
+
+
+def test_what_rounding_leaves_goes_to_the_largest_remainder() -> None:
+    """2.6, 1.3 and 1.1 of five are 3, 1 and 1."""
+    assert shares(np.array([2.6, 1.3, 1.1]), 5).tolist() == [3, 1, 1]

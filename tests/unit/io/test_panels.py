@@ -71,6 +71,15 @@ def test_the_highest_frequency_is_that_of_the_shortest_wave(mesh: PanelMesh) -> 
     assert wave == pytest.approx(6.0 * report.diagonal, rel=1e-12)
 
 
+def test_a_panel_with_one_dry_corner_keeps_the_rest() -> None:
+    """What is left has five corners: a quadrilateral and a triangle."""
+    side = np.array([[0.0, 1, -2], [4, 1, -2], [4, 1, 2], [0, 1, -1]])
+    left = below_water(PanelMesh(side, np.array([[3, 2, 1, 0]])))
+    # The trapezium less the triangle above z = 0, 2 m high and 8 / 3 m long.
+    assert left.area == pytest.approx(10.0 - 0.5 * 2.0 * 8.0 / 3.0, abs=1e-12)
+    assert (left.count, int(left.triangle.sum())) == (2, 1)
+
+
 def _from_least(corner: np.ndarray) -> np.ndarray:
     """Corners of panels in an order that does not depend on the first one."""
     key = corner[:, :, 0] * 1e8 + corner[:, :, 1] * 1e3 + corner[:, :, 2]
