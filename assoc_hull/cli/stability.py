@@ -59,7 +59,7 @@ def _add_condition(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--kg", type=float, metavar="Z", help="centre of gravity above base, m")
     parser.add_argument(
-        "--trim", choices=("fixed", "free"), default="fixed",
+        "--trim", choices=("fixed", "free"),
         help="as she heels: that of upright (default), or that of equilibrium",
     )  # fmt: skip
     parser.add_argument(
@@ -106,12 +106,12 @@ def _check(arguments: argparse.Namespace) -> None:
         raise BadInputError("--kg is not given", _CALL, "give the centre of gravity, or --cross")
     wrong: dict[str, Any] = {}
     if arguments.cross:
-        names = ("draught", "draughts", "weight", "lcg", "tcg")
+        names: tuple[str, ...] = ("draught", "draughts", "weight", "lcg", "tcg")
         wrong = {name: getattr(arguments, name) for name in names} | {
             "flooding": arguments.flooding or None
         }
     elif arguments.rest:
-        names = ("draught", "draughts", "heels", "out", "plot")
+        names = ("draught", "draughts", "heels", "trim", "out", "plot")
         wrong = {name: getattr(arguments, name) for name in names} | {
             "flooding": arguments.flooding or None
         }
@@ -132,7 +132,7 @@ def _terms(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _table(arguments: argparse.Namespace) -> dict[str, Any]:
     """Give what both tables need."""
-    found = _terms(arguments) | {"trim": arguments.trim, "kg": arguments.kg}
+    found = _terms(arguments) | {"trim": arguments.trim or "fixed", "kg": arguments.kg}
     found["date"] = datetime.date.today().isoformat()
     if arguments.heels is not None:
         found["heels"] = levels(arguments.heels, "--heels", "heels")

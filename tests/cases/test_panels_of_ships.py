@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from assoc_hull.analysis.panels.build import panels
 from assoc_hull.analysis.panels.points import section_points
 from assoc_hull.analysis.panels.quality import panel_report
-from assoc_hull.errors import AssocHullError
+from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.hull import Hull
 from assoc_hull.model.state import HullState
 from assoc_hull.sources import examples
@@ -204,3 +204,12 @@ def test_what_cannot_be_is_refused(
     """With the name of the argument, before anything is divided."""
     with pytest.raises(AssocHullError, match=told):
         panels(ships["wigley"], **words)
+
+
+@pytest.mark.parametrize("stations", [[-300.0, -200.0], [-500.0, 50.0, 80.0], [20.0, 400.0]])
+def test_stations_off_the_wet_hull_are_refused_with_its_extent(
+    ships: dict[str, Hull], stations: list[float]
+) -> None:
+    """None is left out in silence, and a deeper draught is no remedy."""
+    with pytest.raises(OutOfRangeError, match=r"meets no wet hull, in panels; give one from"):
+        panels(ships["wigley"], stations=stations)

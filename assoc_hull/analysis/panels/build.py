@@ -16,7 +16,7 @@ from assoc_hull.analysis.panels.assemble import Axes, Choices, assemble, axes_of
 from assoc_hull.analysis.panels.bands import Band, Waterplane, bands
 from assoc_hull.analysis.panels.stations import columns_and_rows, extent, spaced
 from assoc_hull.arguments import choice, flag, integer, number, numbers, positive, shown
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.panel_mesh import PanelMesh, PanelOrigin
@@ -28,6 +28,9 @@ Side = Literal["half", "full"]
 
 _WHERE = "in panels"
 _POINTS, _MOST, _MOST_POINTS = 20, 200_000, 2_000
+_OFF = 1e-6
+"""m: a station so far beyond the end of what is wet stands at its end."""
+
 _LEAST = 8
 _HEADER: dict[str, object] = {
     "rho": 1.025, "shell_factor": 1.0, "appendages": (), "fingerprint": ""
@@ -96,7 +99,8 @@ def panels(
     Raises
     ------
     OutOfRangeError
-        A position in which the hull does not float, with the range.
+        A position in which the hull does not float, or a station beyond what is wet of it, with
+        the range.
     BadInputError
         A number that cannot be used; half of a heeled hull; a doubtful hull.
 
@@ -176,7 +180,7 @@ def _places(
         whole = integer(count, "count", _WHERE, least=_LEAST, most=_MOST)
         wanted = whole if half else (whole + 1) // 2
     if stations is not None and not isinstance(stations, int | np.integer):
-        x = _given(stations)
+        x = _given(stations, found[0])
         rows = _rows(rows, wanted, len(x) - 1)
         return x, rows
     columns = None
@@ -202,12 +206,16 @@ def _rows(rows: int | None, wanted: int | None, columns: int) -> int:
     return _POINTS - 1 if wanted is None else max(2, round(wanted / max(columns, 1)))
 
 
-def _given(stations: object) -> FloatArray:
-    """Take the places of sections: ascending, each once."""
+def _given(stations: object, wet: FloatArray) -> FloatArray:
+    """Take the places of sections: ascending, each once, on what is wet of the hull."""
     found = np.atleast_1d(numbers(stations, "stations", _WHERE))
     if len(found) < 2 or (np.diff(found) <= 0.0).any():
         what = f"stations are {shown(stations)}"
         raise BadInputError(what, _WHERE, "give two or more, ascending, m from AP")
+    low, high = float(wet.min()), float(wet.max())
+    for x in found.tolist():
+        if not low - _OFF <= x <= high + _OFF:
+            raise OutOfRangeError("a station", x, _WHERE, "meets no wet hull", low, high, "m")
     return found
 
 

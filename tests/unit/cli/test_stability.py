@@ -157,3 +157,12 @@ def test_what_cannot_be_is_refused_in_one_line(
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert words in error
+
+
+def test_a_rule_of_trim_has_no_meaning_at_rest(
+    hull: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """She rests at the trim of equilibrium; what would be ignored is refused."""
+    call = ["stability", str(hull), "--rest", "--weight", "2000", "--lcg", "50", "--kg", "4"]
+    assert main([*call, "--trim", "fixed"]) == 2
+    assert "--trim is given with --rest" in capsys.readouterr().err

@@ -155,3 +155,10 @@ def test_the_same_result_gives_the_same_bytes(
         for name in ("a.svg", "b.svg"):
             plot_stability(found, tmp_path / name)
         assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_the_levers_of_a_ship_with_a_list_are_drawn_from_upright(lines_of: Lines) -> None:
+    """They begin far below nought on the side to which she does not lie, and are not cut there."""
+    listing = box(4.5, tcg=2.0)
+    (levers,) = lines_of(lever_picture(listing), "curve/gz$")
+    assert np.isfinite(levers).all()
