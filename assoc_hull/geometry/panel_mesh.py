@@ -7,6 +7,7 @@ counter-clockwise as seen from the water, so that normals point out of the hull.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import attrs
 import numpy as np
@@ -65,6 +66,11 @@ def _numbers(values: object) -> FloatArray:
         return np.full((1, 3), np.nan)
 
 
+def _shape(values: NDArray[Any]) -> str:
+    """Show an array by its shape: a mesh has thousands of numbers."""
+    return str(values.shape)
+
+
 def _corners(values: object) -> IntArray:
     """Take whole numbers, as an array of its own; none where they are not whole."""
     try:
@@ -108,8 +114,8 @@ class PanelMesh:
     (1, 20.0, 2)
     """
 
-    xyz: FloatArray = attrs.field(converter=_numbers)
-    panel: IntArray = attrs.field(converter=_corners)
+    xyz: FloatArray = attrs.field(converter=_numbers, repr=_shape)
+    panel: IntArray = attrs.field(converter=_corners, repr=_shape)
     mirror_x: bool = attrs.field(default=False, validator=checked(flag, _WHERE))
     mirror_y: bool = attrs.field(default=False, validator=checked(flag, _WHERE))
     title: str = attrs.field(default="", validator=checked(word, _WHERE))

@@ -171,13 +171,13 @@ def _body(sheet: Sheet, whole: PanelMesh, low: float, high: float) -> None:
     factor = paper.factor
     half, deep = float(np.abs(whole.xyz[:, 1]).max()), float(np.ptp(whole.xyz[:, 2]))
     width = (_BLOCK - 8.0) * factor
-    room = max(high - low - 24.0 * factor, 20.0)
+    room = max(high - low - 12.0 * factor, 6.0)
     # Of a heeled ship either body has both sides: they stand beside one another.
     breadth = 2.0 * half if one_side else 4.3 * half
     scale = max(scale_of(breadth, width), scale_of(deep, room))
     middle = paper.width - (MARGIN + 0.5 * _BLOCK) * factor
     aside = 0.0 if one_side else 1.1e3 / scale * half
-    top = high - 8.0 * factor - 1e3 / scale * float(whole.xyz[:, 2].max())
+    top = high - 5.0 * factor - 1e3 / scale * float(whole.xyz[:, 2].max())
     fore = View("body", (1, 2), scale, (middle + aside, top))
     aft = View("body", (1, 2), scale, (middle - aside, top), -1.0)
     port = (whole.centre[:, 1] > 0.0) | (not one_side)

@@ -68,7 +68,7 @@ def bulb_along_plane(area: float, length: float, draught: float) -> float:
 
 
 @parameter(
-    "TRAR", name="immersed area of the transom", unit="-", table="hydrostatic", ittc="f_T",
+    "TRAR", name="transom against the largest section", unit="-", table="hydrostatic", ittc="f_T",
     definition="ATT / Amax", source=TABLE_3, needs=("ATT", "Amax"),
 )  # fmt: skip
 def transom_area(area: float, greatest: float) -> float:
@@ -76,7 +76,7 @@ def transom_area(area: float, greatest: float) -> float:
 
 
 @parameter(
-    "TRAR_paper", name="immersed area of the transom as its source prints it", unit="1/m",
+    "TRAR_paper", name="the same as its source prints it", unit="1/m",
     table="hydrostatic", definition="ATT / (Amax T)",
     datum="the source means a ratio, but divides by the draught too", source=TABLE_3,
     needs=("ATT", "Amax", "T"),

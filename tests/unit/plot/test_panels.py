@@ -50,6 +50,10 @@ def test_all_views_lie_on_the_sheet_and_words_apart(
         every = np.concatenate(corners)
         assert (every > 0.0).all()
         assert (every < [size.width, size.height]).all()
+    spread = {name: np.concatenate(corners) for name, corners in views.items()}
+    assert spread["body/panels"][:, 1].min() > spread["profile/panels"][:, 1].max()
+    (body,) = [box for name, box in boxes_of(figure).items() if "caption/BODY PLAN" in name]
+    assert body[1] > spread["profile/panels"][:, 1].max()
     words = list(boxes_of(figure).values())
     for i, one in enumerate(words):
         for other in words[:i]:
