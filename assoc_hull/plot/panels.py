@@ -171,7 +171,7 @@ def _body(sheet: Sheet, whole: PanelMesh, low: float, high: float) -> None:
     factor = paper.factor
     half, deep = float(np.abs(whole.xyz[:, 1]).max()), float(np.ptp(whole.xyz[:, 2]))
     width = (_BLOCK - 8.0) * factor
-    room = max(high - low - 12.0 * factor, 6.0)
+    room = max(high - low - 14.0 * factor, 3.0)
     # Of a heeled ship either body has both sides: they stand beside one another.
     breadth = 2.0 * half if one_side else 4.3 * half
     scale = max(scale_of(breadth, width), scale_of(deep, room))
