@@ -29,7 +29,7 @@ def form_text(report: FormReport) -> str:
     >>> from assoc_hull.sources import examples
     >>> report = form_report(examples.wigley(), draught=6.25, only=["Cb", "V"])
     >>> print(form_text(report).splitlines()[-1].split())
-    ['Cb', '0.4444', '-', 'V', '2777.45', 'm3']
+    ['V', '2777.45', 'm3', 'Cb', '0.4444', '-']
     """
     given, *parts = report.parts
     lines = ["FORM PARAMETERS", "=" * _WIDTH, *_head(report), "", *_named(given)]
