@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["HOLTROP", "ITTC", "KRACHT", "TABLE_3", "TABLE_4"]
+__all__ = ["HOLTROP", "ITTC", "KRACHT", "LEWIS", "TABLE_3", "TABLE_4"]
 
 _SON_KIM = "Son and Kim, J. CAD/CAM (Korea) 13(6), 2008"
 
@@ -14,3 +14,5 @@ ITTC = "ITTC Symbols and Terminology List 2021, ship geometry"
 KRACHT = "Kracht, Design of bulbous bows, SNAME Transactions 86, 1978"
 
 HOLTROP = "Holtrop and Mennen, International Shipbuilding Progress 29, no. 335, 1982"
+
+LEWIS = "E.V. Lewis, ed., Principles of Naval Architecture, vol. I, SNAME 1988, ch. I"

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from assoc_hull.analysis.form.literature import ITTC
 from assoc_hull.analysis.form.parameter import entries_in, parameter
 from assoc_hull.analysis.form.shape import Shape
 
 __all__ = ["PARAMETERS"]
 
-_ITTC = "ITTC Symbols and Terminology List 2021, 2.2.1"
-
 
 @parameter(
     "Lpp", name="length between perpendiculars", unit="m", table="particulars", ittc="L_PP",
-    definition="as given", datum="from AP to FP", source=_ITTC, digits=3,
+    definition="as given", datum="from AP to FP", source=ITTC, digits=3,
 )  # fmt: skip
 def length(shape: Shape) -> float:
     return shape.length
@@ -20,7 +19,7 @@ def length(shape: Shape) -> float:
 
 @parameter(
     "B", name="moulded breadth", unit="m", table="particulars", ittc="B",
-    definition="as given", datum="both sides", source=_ITTC, digits=3,
+    definition="as given", datum="both sides", source=ITTC, digits=3,
 )  # fmt: skip
 def breadth(shape: Shape) -> float:
     return shape.breadth
@@ -28,7 +27,7 @@ def breadth(shape: Shape) -> float:
 
 @parameter(
     "D", name="moulded depth", unit="m", table="particulars", ittc="D",
-    definition="as given", datum="from the base line, up", source=_ITTC, digits=3,
+    definition="as given", datum="from the base line, up", source=ITTC, digits=3,
 )  # fmt: skip
 def depth(shape: Shape) -> float:
     return shape.depth
@@ -36,7 +35,7 @@ def depth(shape: Shape) -> float:
 
 @parameter(
     "T_A", name="draught at AP", unit="m", table="particulars", ittc="T_A",
-    definition="as given, on the centre line", datum="from the base line, up", source=_ITTC,
+    definition="as given, on the centre line", datum="from the base line, up", source=ITTC,
     digits=3,
 )  # fmt: skip
 def draught_aft(shape: Shape) -> float:
@@ -45,7 +44,7 @@ def draught_aft(shape: Shape) -> float:
 
 @parameter(
     "T_F", name="draught at FP", unit="m", table="particulars", ittc="T_F",
-    definition="as given, on the centre line", datum="from the base line, up", source=_ITTC,
+    definition="as given, on the centre line", datum="from the base line, up", source=ITTC,
     digits=3,
 )  # fmt: skip
 def draught_fore(shape: Shape) -> float:
@@ -54,7 +53,7 @@ def draught_fore(shape: Shape) -> float:
 
 @parameter(
     "T", name="mean draught", unit="m", table="particulars", ittc="T",
-    definition="(T_A + T_F) / 2", datum="from the base line, up", source=_ITTC,
+    definition="(T_A + T_F) / 2", datum="from the base line, up", source=ITTC,
     needs=("T_A", "T_F"), digits=3,
 )  # fmt: skip
 def draught(aft: float, fore: float) -> float:
