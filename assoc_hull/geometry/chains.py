@@ -1,4 +1,4 @@
-"""PlaneChains of cubics in a plane: curves put end to end, cut, mirrored and closed.
+"""Chains of cubics in a plane: curves put end to end, cut, mirrored and closed.
 
 A chain is what is left of a curve when only two of its coordinates, u and v, are looked at. One
 cubic begins where the one before it ends.

@@ -6,7 +6,6 @@ formulas. What is measured on a hull and yet follows from the inputs is computed
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -16,6 +15,7 @@ import pytest
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.evaluate import check_catalogue, evaluate
+from assoc_hull.analysis.form.midship import radius_from_area
 from assoc_hull.analysis.form.parameter import Parameter, parameter
 from assoc_hull.analysis.form.value import Value
 from tests.table5 import CLASSES, DIAMETER, INFERRED, PRINTED, Class
@@ -32,10 +32,6 @@ def _halves(aft: float, x_aft: float, fore: float, x_fore: float) -> float:
     return (aft * x_aft + fore * x_fore) / (aft + fore)
 
 
-def _bilge(area: float, breadth: float, draught: float) -> float:
-    return math.sqrt((breadth * draught - area) / (2.0 - 0.5 * math.pi))
-
-
 AGAIN: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
     "LCB": (
         ("V_a", "LCBa", "V_f", "LCBf", "Lpp"),
@@ -43,7 +39,7 @@ AGAIN: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
     ),
     "LCF": (("Aw_a", "LCFa", "Aw_f", "LCFf"), _halves),
     "LIBA": (("LBA",), lambda area: area),
-    "BR": (("Amax", "B", "T"), _bilge),
+    "BR": (("Amax", "B", "T"), radius_from_area),
 }
 """Needs and formula of what the catalogue measures on a hull."""
 

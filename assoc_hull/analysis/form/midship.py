@@ -17,7 +17,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.places import turning_places
 
-__all__ = ["PARAMETERS"]
+__all__ = ["PARAMETERS", "radius_from_area"]
 
 _LEAST_TURN = 60.0
 """An arc of the section that turns by less (degrees) is no bilge."""
@@ -68,6 +68,11 @@ def _smooth_runs(points: FloatArray) -> list[FloatArray]:
     return [points[a : b + 1] for a, b in itertools.pairwise(bounds)]
 
 
+def radius_from_area(area: float, breadth: float, draught: float) -> float:
+    """Give the radius (m) of two round bilges that leave an area (m2) of the rectangle B T."""
+    return math.sqrt((breadth * draught - area) / (2.0 * (1.0 - 0.25 * math.pi)))
+
+
 def _from_area(shape: Shape, section: Section) -> Found:
     """Give the radius of the circle that leaves the area of the section."""
     half = 0.5 * shape.breadth
@@ -77,10 +82,10 @@ def _from_area(shape: Shape, section: Section) -> Found:
     bottom = places[np.abs(places[:, 2]) <= _FLAT, 1]
     if not flat or bottom.max() <= 0.5 * half:
         return Absent("no circular bilge, bottom or side not flat")
-    lost = shape.breadth * shape.draught - section.area_below(shape.draught)
-    if lost <= _FLAT * _FLAT:
+    area = section.area_below(shape.draught)
+    if shape.breadth * shape.draught - area <= _FLAT * _FLAT:
         return Absent("the bilge is a corner")
-    radius = math.sqrt(lost / (2.0 * (1.0 - 0.25 * math.pi)))
+    radius = radius_from_area(area, shape.breadth, shape.draught)
     return Warned(radius, "no arc fits the bilge: from the area of the section")
 
 
