@@ -1,1 +1,1 @@
-"""Variation of a parent hull: mappings of space that change little, and what they change."""
+"""Variation of a parent hull: fields, maps, named parameters, features, shifts."""
