@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
@@ -99,7 +101,7 @@ def _deadrise(anchor: Anchor) -> dict[str, FloatArray]:
     return {"keel side": keel, "bottom": inner, "bottom edge": outer}
 
 
-_PLACES = {
+_PLACES: Mapping[str, Callable[[Anchor], dict[str, FloatArray]]] = {
     "depth": lambda anchor: _one("deck", anchor),
     "deck_height": _decks,
     "shaft_height": _shaft,
