@@ -15,6 +15,7 @@ import attrs
 
 from assoc_hull.arguments import choice, number, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.model.handles import Group, Line
 from assoc_hull.variation.catalogue import CATALOGUE, NAMES
 from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
@@ -37,7 +38,7 @@ class Ask:
         Raw layers, which act after those of the named parameters.
     layout : Layout
         How far the fields of named parameters reach.
-    drivers : tuple of object or None
+    drivers : tuple of Group, Line, str, or None
         Groups or lines, or their names; None for those whose planes the map keeps.
     stations : {"number", "x"}
         Whether sections keep their numbers and go with the map, or stay where they are.
@@ -50,7 +51,7 @@ class Ask:
     values: Mapping[str, float]
     layers: tuple[Layer, ...] = ()
     layout: Layout = attrs.field(factory=Layout)
-    drivers: tuple[object, ...] | None = None
+    drivers: tuple[Group | Line | str, ...] | None = None
     stations: Stations = "number"
     tolerance: float = 2e-3
     name: str = "vary"
@@ -62,7 +63,7 @@ class Ask:
         *,
         layers: Sequence[object] = (),
         layout: Mapping[str, Any] | Layout | None = None,
-        drivers: Sequence[object] | None = None,
+        drivers: Sequence[Group | Line | str] | None = None,
         stations: str = "number",
         tolerance: float = 2e-3,
         name: str | None = None,
@@ -153,7 +154,7 @@ def _layers(given: object) -> tuple[Layer, ...]:
     return tuple(made)
 
 
-def _drivers(given: object) -> tuple[object, ...] | None:
+def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
     if given is None:
         return None
     if isinstance(given, str) or not isinstance(given, Sequence):
