@@ -14,7 +14,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import attrs
 import numpy as np
@@ -44,8 +44,8 @@ _SHORTEST = 1e-3
 _LEAST, _TURN = 5, np.radians(10.0)
 """So many points, and this angle between its ends, an arc has at least."""
 
-_NANO = 1e-9
-"""Gaps are told in whole nanometres, so that another machine's last bit does not show in them."""
+_CENTRE = 1e-9
+"""A point this near (m) to the centre plane lies in it."""
 
 
 @attrs.frozen(eq=False)
@@ -63,7 +63,11 @@ class _Piece:
     """Whether the curve has a given direction as an end condition there."""
 
 
-def find_features(state: HullState, tolerance: Sequence[float] | None = None) -> list[Feature]:
+def find_features(
+    state: HullState,
+    tolerance: Sequence[float] | None = None,
+    lines: Collection[str] | None = None,
+) -> list[Feature]:
     """Find the features of a hull.
 
     Parameters
@@ -73,6 +77,8 @@ def find_features(state: HullState, tolerance: Sequence[float] | None = None) ->
     tolerance : sequence of float or None, m
         By curve: how far the points of an arc between two tangent points may lie off it;
         1 mm if None.
+    lines : collection of str or None
+        Keys of the lines to look at; all if None.
 
     Returns
     -------
@@ -80,18 +86,20 @@ def find_features(state: HullState, tolerance: Sequence[float] | None = None) ->
         By key. Named after their lines; several of one line are numbered along it.
     """
     found: list[Feature] = []
-    lines = state.live("lines").tolist()
-    for line in sorted(lines, key=lambda each: str(state.lines.key.data[each])):
+    for line in state.live("lines").tolist():
+        if lines is not None and state.lines.key.data[line] not in lines:
+            continue
         whole = _whole_line(state, line)
-        found += [] if whole is None else [whole]
+        mine: list[Feature] = [] if whole is None else [whole]
         for curve in state.lines.curves.data[line]:
             allowed = _LOOSE if tolerance is None else tolerance[curve]
-            found += _of_curve(state, line, int(curve), allowed)
-    return sorted(_named(state, found), key=lambda each: each.key)
+            mine += _of_curve(state, line, int(curve), allowed)
+        found += _told_apart(mine)
+    return sorted(found, key=lambda each: each.key)
 
 
-def _named(state: HullState, found: Sequence[Feature]) -> list[Feature]:
-    """Give features names and keys that no other has."""
+def _told_apart(found: Sequence[Feature]) -> list[Feature]:
+    """Give the features of one line names and keys that no other of them has."""
     names, keys, out = set[str](), set[str](), list[Feature]()
     for each in found:
         name, key = _free(each.name, " ", names), _free(each.key, "~", keys)
@@ -120,8 +128,9 @@ def _make(state: HullState, line: int, kind: str, rows: IntArray, **more: object
         name = title if whole else f"{title} {kind}"
         key = f"{key} {kind} @ ({x:.4f}, {y:.4f}, {z:.4f})"
     made = Feature(key, kind, name, (state.lines.key.data[line],), rows.tolist(), **more)  # type: ignore[arg-type]
+    # In whole nanometres: another machine's last bit must not show in it.
     off = float(places_off(made, state.rows.xyz.data[rows]).max())
-    return attrs.evolve(made, gap=float(np.ceil(off / _NANO) * _NANO))
+    return attrs.evolve(made, gap=round(off, 9))
 
 
 def _whole_line(state: HullState, line: int) -> Feature | None:
@@ -219,7 +228,7 @@ def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:
         return None
     centre = offset * normal + circle.centre[0] * axes[0] + circle.centre[1] * axes[1]
     centre = np.round(centre, 6)
-    whole = bool((np.abs(piece.xyz[[0, -1], 1]) <= _NANO).all() and abs(centre[1]) <= ROUNDING)
+    whole = bool((np.abs(piece.xyz[[0, -1], 1]) <= _CENTRE).all() and abs(centre[1]) <= ROUNDING)
     if whole:
         centre[1] = 0.0
     return _make(
@@ -232,7 +241,7 @@ def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:
 def _closed(piece: _Piece) -> list[bool]:
     """Tell for both ends whether they are tangent: a tangent point, or an end held upright."""
     return [
-        tangent is not None or (held and abs(float(place[1])) <= _NANO)
+        tangent is not None or (held and abs(float(place[1])) <= _CENTRE)
         for tangent, held, place in zip(piece.tangents, piece.held, piece.xyz[[0, -1]], strict=True)
     ]
 
