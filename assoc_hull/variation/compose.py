@@ -32,7 +32,6 @@ _LARGEST = 3.0
 
 _BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
 _CLASHES = (
-    ("depth", "deck_height", "both set the deck edge amidships"),
     ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
     ("bilge_radius", "deadrise_deg", "both turn the bilge"),
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
@@ -68,7 +67,7 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     >>> vmap(np.array([[6.0, 5.0, 5.0]])).round(12).tolist()
     [[6.0, 5.1, 6.0]]
     """
-    _refuse_clashes(asked)
+    _refuse_clashes(asked, layout)
     layers = list[Layer]()
     main = main_layer(parent, asked, layout)
     if main is not None:
@@ -101,8 +100,9 @@ def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Par
     return parent.mapped(VMap((main,)), depth=depth, **sizes)
 
 
-def _refuse_clashes(asked: Mapping[str, float]) -> None:
-    for one, other, why in _CLASHES:
+def _refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+    deck = ("depth", "deck_height", "both set the deck edge amidships")
+    for one, other, why in (*_CLASHES, *([deck] if layout.deck == "midship" else [])):
         if one in asked and other in asked:
             raise BadInputError(
                 f"'{one}' and '{other}' cannot be asked for together: {why}", "in vary",

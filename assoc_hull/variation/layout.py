@@ -54,6 +54,8 @@ class Layout:
         Deadrise fades up to this part of the draught.
     draught_top : float
         Heights are scaled up to the draught, and shifted from this part of the draught up.
+    deck : {"fore", "midship", "aft"}
+        Where ``deck_height`` holds: at the fore perpendicular, amidships, at the after one.
     shift : str
         Shape of ``fore_shift`` and ``aft_shift``.
 
@@ -79,6 +81,7 @@ class Layout:
     bilge_length: float = 0.2
     deadrise_top: float = 0.8
     draught_top: float = 1.6
+    deck: Literal["fore", "midship", "aft"] = "fore"
     shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
 
     @property
@@ -107,7 +110,11 @@ class Layout:
         return cls(**dict(given))
 
 
-_WORDS = {"blend": ("quintic", "cubic"), "shift": ("c1", "c2", "end", "half", "lackenby")}
+_WORDS = {
+    "blend": ("quintic", "cubic"),
+    "deck": ("fore", "midship", "aft"),
+    "shift": ("c1", "c2", "end", "half", "lackenby"),
+}
 
 
 def _check(name: str, value: object) -> None:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from assoc_hull.errors import BadInputError
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.corner import CornerLayer
@@ -35,13 +33,13 @@ def _corner(
     """Stretch about the corner, full as far as `size` (m) from it."""
     corner, low = parent.at("corner", name), parent.at("bilge low", name)
     y, z = float(corner[1]), float(corner[2])
-    rise = math.atan2(float(low[2]) - z, y - float(low[1]))
-    rise = -rise if rise else 0.0
+    rise = math.atan2(z - float(low[2]), y - float(low[1]))
+    largest = size * max(*ratios, 1.0)
     reach = min(layout.bilge * size, _INNER * y, _INNER * (parent.depth - z))
-    if not reach > size:
+    if not reach > largest:
         raise BadInputError(
-            f"bilge: radius {size:.4g} m leaves no bottom (half-breadth {y:.4g} m)", "in vary",
-            "ask for a smaller one",
+            f"bilge: {name} of {largest:.4g} m from the corner leaves no bottom or side to fade in "
+            f"({reach:.4g} m)", "in vary", "ask for less",
         )  # fmt: skip
     fade = Chain.through([size, reach], [1.0, 0.0], layout.curve, name)
     return CornerLayer(name, _range(parent, layout, name), y, z, rise, *ratios, fade)
@@ -50,14 +48,13 @@ def _corner(
 def bilge_radius(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
     """Make the bilge's circle larger or smaller, touching side and bottom as before."""
     name = "bilge_radius"
-    corner, high = parent.at("corner", name), parent.at("bilge high", name)
-    low = parent.at("bilge low", name)
-    # with rise of floor the tangent lengths are r tan(45 deg -+ rise / 2), alike for both
-    size = float(np.sqrt(((high - corner)[1:] ** 2).sum()))
-    along = float(np.sqrt(((low - corner)[1:] ** 2).sum()))
-    radius = float(parent.at("bilge radius", name)[0])
-    ratio = asked / radius
-    return _corner(parent, layout, name, max(size, along), (ratio, ratio))
+    corner, low, high = (parent.at(each, name) for each in ("corner", "bilge low", "bilge high"))
+    along = math.dist(corner.tolist(), low.tolist())
+    up = math.dist(corner.tolist(), high.tolist())
+    rise = math.atan2(float(corner[2] - low[2]), float(corner[1] - low[1]))
+    # both tangents of a fillet are as long
+    tangent = asked * math.tan(0.5 * (0.5 * math.pi - rise))
+    return _corner(parent, layout, name, max(along, up), (tangent / along, tangent / up))
 
 
 def flat_of_bottom(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
@@ -76,9 +73,8 @@ def flat_of_bottom(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
 def deadrise_deg(parent: Parent, asked: float, layout: Layout) -> DeadriseLayer:
     """Turn the bottom about the side of the keel; what lies above the bilge stays."""
     name = "deadrise_deg"
-    keel = parent.at("keel side", name)
-    angle = math.radians(float(parent.at("deadrise", name)[0]))
-    q = math.tan(math.radians(asked)) - math.tan(angle)
+    keel, inner, outer = (parent.at(each, name) for each in ("keel side", "bottom", "bottom edge"))
+    q = math.tan(math.radians(asked)) - float((outer[2] - inner[2]) / (outer[1] - inner[1]))
     low = float(parent.places["bilge high"][2]) if parent.has("bilge high") else 0.0
     top = layout.deadrise_top * parent.draught
     fade = Chain.through([low, top], [1.0, 0.0], layout.curve, name)

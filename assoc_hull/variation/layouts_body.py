@@ -30,12 +30,17 @@ def depth(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 def deck_height(parent: Parent, asked: float, layout: Layout) -> Share:
-    """Raise the deck's edge amidships, and the whole deck with it, as it is."""
+    """Raise the deck at one place: at the fore perpendicular, amidships, or at the after one."""
     name = "deck_height"
-    deck = parent.at("deck", name)
-    z = float(deck[2])
+    deck = parent.at({"fore": "deck fore", "aft": "deck aft", "midship": "deck"}[layout.deck], name)
+    middle, z = 0.5 * parent.length, float(deck[2])
+    course = {
+        "fore": Chain.through([middle, parent.length], [0.0, 1.0], layout.curve, name),
+        "aft": Chain.through([0.0, middle], [1.0, 0.0], layout.curve, name),
+        "midship": _ALL,
+    }[layout.deck]
     walls = stack(["T", "deck"], [parent.draught, z])
-    pieces = _NOTHING, Piece.along(_ALL, 0.0, asked - z)
+    pieces = Piece.along(course, 0.0, 0.0), Piece.along(course, 0.0, asked - z)
     return Share.at(name, "z", asked - z, deck, Field(name, "z", walls, pieces, layout.curve))
 
 
