@@ -72,6 +72,11 @@ class WrongTypeError(BadInputError, TypeError):
 
 
 @attrs.define(slots=False, eq=False)
+class AbsentParameterError(BadInputError, KeyError):
+    """A parameter was asked for that this hull does not have."""
+
+
+@attrs.define(slots=False, eq=False)
 class OutOfRangeError(AssocHullError, ValueError):
     """A number lies outside the range that has a meaning for this hull.
 

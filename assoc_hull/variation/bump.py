@@ -65,6 +65,12 @@ class Bump:
         """Both terminals, rising."""
         return np.sort(np.array([self.begin, self.end]))
 
+    @property
+    def top(self) -> float:
+        """Where it is fullest, m."""
+        _, m, n = SHAPES[self.shape]
+        return self.begin + (self.end - self.begin) * m / (m + n)
+
     def scaled(self, factor: float) -> Bump:
         """Give the bump times a factor."""
         return attrs.evolve(self, size=self.size * factor)
