@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.edit.anew import take_out
 from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
@@ -44,6 +45,7 @@ def transform(
     *,
     follow: bool = False,
     tolerance: float = _TOLERANCE,
+    keep_features: bool = False,
 ) -> None:
     """Carry driving lines by a mapping and cut the others again.
 
@@ -60,6 +62,9 @@ def transform(
         Whether the planes of followers move where the mapping sends them to parallel ones.
     tolerance : float, m
         How far a driver may leave its exact image; at least 0.1 mm.
+    keep_features : bool
+        Whether features stay whose points the mapping bends off them: for who makes them anew
+        right after.
 
     Raises
     ------
@@ -80,6 +85,7 @@ def transform(
         _tell(edit, work, 0)
         return
     edit.pending.structural = True
+    edit.pending.features = carry_features(state, space, np.inf if keep_features else tolerance)
     turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
