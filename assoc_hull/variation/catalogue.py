@@ -14,6 +14,11 @@ from assoc_hull.variation.share import Share
 
 __all__ = ["CATALOGUE", "NAMES", "NamedParameter"]
 
+_SIGNED = frozenset(
+    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+)
+"""Parameters that may be nil or negative."""
+
 _Lays = Callable[[Parent, float, Layout], Share | Layer]
 
 
@@ -43,6 +48,11 @@ class NamedParameter:
     field: str
 
     @property
+    def positive(self) -> bool:
+        """Whether only values above 0 have a meaning."""
+        return not (self.amplitude or self.name in _SIGNED)
+
+    @property
     def amplitude(self) -> bool:
         """Whether it is a movement, present value 0, and no measure of the hull."""
         return self.name.endswith("_shift")
@@ -60,8 +70,8 @@ def _entries() -> tuple[NamedParameter, ...]:
               "ratio of z up to T, shift above 1.6 T"),
         entry("depth", "D", "m", "height of the deck edge amidships", body.depth,
               "ratio of z from the deck up, nothing below T"),
-        entry("deck_height", "z_deck", "m", "height of the deck edge at the FP", body.deck_height,
-              "shift of z from the deck up, nothing below T and amidships"),
+        entry("deck_height", "z_deck", "m", "height of the deck edge amidships", body.deck_height,
+              "shift of z from the deck up, nothing below T"),
         entry("shaft_height", "h", "m", "height of the centre of the bossing end",
               stern.shaft_height, "hat of z over base, bossing and T"),
         entry("bossing_radius", "r_b", "m", "radius of the circle of the bossing end",

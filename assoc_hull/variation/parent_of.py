@@ -34,7 +34,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
     >>> from assoc_hull.examples.wigley import wigley
     >>> from assoc_hull.variation.parent_of import parent_of
     >>> parent_of(wigley()).at("deck", "depth").tolist()
-    [50.0, 5.0, 6.25]
+    [50.0, 5.0, 9.375]
     """
     found = measure_all(state) if measures is None else measures
     ship = state.particulars
