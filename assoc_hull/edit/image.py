@@ -59,6 +59,8 @@ class Image:
         The mapping.
     batch : SplineBatch
         The curves before it.
+    curves : tuple of int
+        Which curves of the hull these are.
     owner, t : (n,) int, (n,), m
         Sampled places: curve of the batch and parameter.
     before, after : (n, 3), m
@@ -67,13 +69,14 @@ class Image:
 
     space: SpaceMap
     batch: SplineBatch
+    curves: tuple[int, ...]
     owner: IntArray
     t: FloatArray
     before: FloatArray
     after: FloatArray
 
     @classmethod
-    def of(cls, space: SpaceMap, batch: SplineBatch) -> Image:
+    def of(cls, space: SpaceMap, batch: SplineBatch, curves: tuple[int, ...]) -> Image:
         """Sample a batch of curves and map the samples."""
         first = segment_start(batch)
         part = np.arange(_SAMPLES) / _SAMPLES
@@ -85,7 +88,7 @@ class Image:
         order = np.lexsort((t, owner))
         owner, t = owner[order], t[order]
         before = evaluate(batch, owner, t)
-        return cls(space, batch, owner, t, before, space.places(before))
+        return cls(space, batch, curves, owner, t, before, space.places(before))
 
     def at(self, curve: IntArray, t: FloatArray) -> FloatArray:
         """Give places of the image, (k, 3), m, by curve and parameter before the mapping."""

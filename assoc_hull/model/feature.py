@@ -68,6 +68,10 @@ def _real(value: float | None) -> float | None:
     return None if value is None else number(value, "a number", _WHERE) + 0.0
 
 
+def _words(values: Sequence[str]) -> tuple[str, ...]:
+    return tuple(values)
+
+
 def _rows(values: Sequence[int]) -> tuple[int, ...]:
     return tuple(np.asarray(values, np.int64).ravel().tolist())
 
@@ -111,7 +115,7 @@ class Feature:
     key: str
     kind: str
     name: str
-    lines: tuple[str, ...] = attrs.field(converter=tuple)
+    lines: tuple[str, ...] = attrs.field(converter=_words)
     points: tuple[int, ...] = attrs.field(converter=_rows)
     centre: Place | None = attrs.field(default=None, converter=_place)
     radius: float | None = attrs.field(default=None, converter=_real)

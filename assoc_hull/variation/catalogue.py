@@ -14,6 +14,11 @@ from assoc_hull.variation.share import Share
 
 __all__ = ["CATALOGUE", "NAMES", "NamedParameter"]
 
+_SIGNED = frozenset(
+    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+)
+"""Parameters that may be nil or negative."""
+
 _Lays = Callable[[Parent, float, Layout], Share | Layer]
 
 
@@ -41,6 +46,11 @@ class NamedParameter:
     meaning: str
     lays: _Lays | None
     field: str
+
+    @property
+    def positive(self) -> bool:
+        """Whether only values above 0 have a meaning."""
+        return not (self.amplitude or self.name in _SIGNED)
 
     @property
     def amplitude(self) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
@@ -32,7 +34,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
     >>> from assoc_hull.examples.wigley import wigley
     >>> from assoc_hull.variation.parent_of import parent_of
     >>> parent_of(wigley()).at("deck", "depth").tolist()
-    [50.0, 5.0, 6.25]
+    [50.0, 5.0, 9.375]
     """
     found = measure_all(state) if measures is None else measures
     ship = state.particulars
@@ -99,7 +101,7 @@ def _deadrise(anchor: Anchor) -> dict[str, FloatArray]:
     return {"keel side": keel, "bottom": inner, "bottom edge": outer}
 
 
-_PLACES = {
+_PLACES: Mapping[str, Callable[[Anchor], dict[str, FloatArray]]] = {
     "depth": lambda anchor: _one("deck", anchor),
     "deck_height": _decks,
     "shaft_height": _shaft,
