@@ -27,6 +27,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.blend import QUINTIC, Blend
 from assoc_hull.variation.chain import Chain, Course
+from assoc_hull.variation.gaps import check_gaps
 
 __all__ = ["Axis", "Boundary", "Field", "Piece", "Region", "Tube", "span", "stack"]
 
@@ -160,6 +161,28 @@ class Field:
                 f"field '{self.name}' shifts y", "in vary",
                 "give ratios of y: the centre plane stays where it is",
             )  # fmt: skip
+
+    @classmethod
+    def checked(
+        cls,
+        name: str,
+        axis: Axis,
+        boundaries: Sequence[Boundary],
+        pieces: Sequence[Piece],
+        *,
+        blend: Blend = QUINTIC,
+        tube: Tube | None = None,
+    ) -> Field:
+        """Take a field as a designer lays it out.
+
+        Raises
+        ------
+        BadInputError
+            Boundary curves that touch or cross anywhere along the ship; not one piece a
+            boundary; a y-field that shifts.
+        """
+        check_gaps(name, [(each.name, each.height) for each in boundaries])
+        return cls(name, axis, tuple(boundaries), tuple(pieces), blend, tube)
 
     def scaled(self, factor: float) -> Field:
         """Give the field with its displacement times a factor."""
