@@ -15,6 +15,7 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import pairwise
 
 import attrs
 import numpy as np
@@ -173,7 +174,7 @@ def _pieces(state: HullState, line: int, curve: int) -> Iterator[_Piece]:
     if not (kind == PointKind.TANGENT).any() and not _held(state, curve, 0):
         return
     breaks = np.unique(np.concatenate([[0], np.flatnonzero(kind), [len(rows) - 1]])).tolist()
-    for first, last in zip(breaks[:-1], breaks[1:], strict=True):
+    for first, last in pairwise(breaks):
         mine = rows[first : last + 1]
         given = [
             state.rows.direction.data[rows[i], side[i]] if kind[i] == PointKind.TANGENT else None
@@ -181,9 +182,7 @@ def _pieces(state: HullState, line: int, curve: int) -> Iterator[_Piece]:
         ]
         ending = first == 0, last == len(rows) - 1
         held = ending[0] and _held(state, curve, 0), ending[1] and _held(state, curve, 1)
-        yield _Piece(
-            line, mine, state.rows.xyz.data[mine], (given[0], given[1]), ending, held
-        )
+        yield _Piece(line, mine, state.rows.xyz.data[mine], (given[0], given[1]), ending, held)
 
 
 def _held(state: HullState, curve: int, end: int) -> bool:

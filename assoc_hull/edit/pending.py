@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import attrs
 
+from assoc_hull.edit.carry_features import CarriedFeatures
 from assoc_hull.edit.field import Field
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run import Policy
-from assoc_hull.model.feature import Feature
 
 __all__ = ["Pending", "Settings"]
 
@@ -67,10 +67,8 @@ class Pending:
         Keys of the lines that a mapping carried, and of those that followed it.
     by_hand : set of (int, int)
         Points that were inserted, taken out or given another kind, each with the curve.
-    features : tuple of Feature or None
+    features : CarriedFeatures or None
         The features as a mapping carried them; as they are in the tables if None.
-    keep_features : bool
-        Whether features stay although their points are off them: they are made anew next.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -90,8 +88,7 @@ class Pending:
     carried: list[str] = attrs.field(factory=list)
     cut_again: list[str] = attrs.field(factory=list)
     by_hand: set[tuple[int, int]] = attrs.field(factory=set)
-    features: tuple[Feature, ...] | None = None
-    keep_features: bool = False
+    features: CarriedFeatures | None = None
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

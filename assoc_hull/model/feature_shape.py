@@ -19,7 +19,7 @@ from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.feature import Feature
 from assoc_hull.model.state import HullState
 
-__all__ = ["ROUNDING", "host_curve", "is_off", "places_off"]
+__all__ = ["ROUNDING", "host_curve", "places_off"]
 
 ROUNDING = 1e-6
 """Points this near (m) to a feature, its gap aside, lie on it."""
@@ -61,12 +61,6 @@ def _off_chord(xyz: FloatArray) -> FloatArray:
     square = float((chord * chord).sum()) or 1.0
     across = away - (dot(away, chord) / square)[:, None] * chord
     return np.sqrt(dot(across, across))
-
-
-def is_off(state: HullState, feature: Feature) -> bool:
-    """Tell whether a point of a feature lies farther off it than its gap and rounding."""
-    off = places_off(feature, state.rows.xyz.data[list(feature.points)])
-    return bool(off.max() > feature.gap + ROUNDING)
 
 
 def host_curve(state: HullState, feature: Feature) -> int:

@@ -35,7 +35,7 @@ def put_features(
     Raises
     ------
     BadInputError
-        A line or point that is not there, a key or name that stands twice, or parameters that
+        A line or point that is not there, a key that stands twice, or parameters that
         do not fit the kind.
     """
     features = [_feature(record, keys) for record in records]
