@@ -36,7 +36,7 @@ class Lattice:
         size = self.box[1] - self.box[0]
         st = (xyz - self.box[0]) / size
         rows = [_slopes(st[:, i]) / size[i] if i == along else _values(st[:, i]) for i in range(3)]
-        return np.einsum("ni,nj,nk->nijk", *rows).reshape(len(xyz), -1)
+        return np.einsum("ni,nj,nk->nijk", *rows).reshape(len(xyz), SIDE**3)
 
 
 def _values(t: FloatArray) -> FloatArray:
