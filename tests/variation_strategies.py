@@ -78,7 +78,7 @@ def bumps(draw: DrawFn, size: float = 1.0) -> Bump:
     begin, end = _nodes(draw, 2).tolist()
     ends = draw(st.permutations([begin, end]))
     shape = draw(st.sampled_from(sorted(SHAPES)))
-    return Bump(*ends, draw(st.floats(-size, size)), shape)  # type: ignore[arg-type]
+    return Bump(ends[0], ends[1], draw(st.floats(-size, size)), shape)  # type: ignore[arg-type]
 
 
 def courses() -> SearchStrategy[Course]:
