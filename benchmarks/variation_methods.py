@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -24,6 +25,8 @@ from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
+from assoc_hull.variation.additive import AdditiveLayer
+from assoc_hull.variation.additive_fold import additive_fold
 from assoc_hull.variation.apply import apply
 from assoc_hull.variation.fairness_of import DEAD_BAND
 from assoc_hull.variation.layer import Layer
@@ -36,6 +39,7 @@ from benchmarks.variation_tasks import METHODS, Task, active_points, lattice, ta
 __all__ = ["Fared", "fared", "figures", "main"]
 
 VARIANTS = 1000
+_FIELD = "rounded hat, quintic"
 CHORDS = 8
 """Places on each segment of each line, for what is measured on the surface and for the times."""
 
@@ -191,19 +195,18 @@ def _fastest(
 def figures(quick: bool = False) -> list[Figure]:
     """Measure times on the carrier: one variant, a thousand, laying out, certifying, re-lofting."""
     hull = ah.examples.bulk_carrier_207k()
-    state = hull.document.state
-    task, cloud = tasks(state)[0], _cloud(hull.document.state)
-    rounds = 5 if quick else 30
+    cloud = _cloud(hull.document.state)
+    task = next(each for each in tasks(hull.document.state) if each.name.startswith("transom"))
     return [
         Figure("variation: places on the hull", float(len(cloud)), ""),
-        *_variants(task, cloud, rounds),
+        *_variants(task, cloud, 5 if quick else 30),
         *_apart(hull, task, cloud, 1 if quick else 5),
     ]
 
 
 def _variants(task: Task, cloud: FloatArray, rounds: int) -> list[Figure]:
     """Compare one variant and a thousand, weights kept."""
-    layer = METHODS["rounded hat, quintic"][0](task, METHODS["rounded hat, quintic"][1])
+    layer = METHODS[_FIELD][0](task, METHODS[_FIELD][1])
     plan, frame = FieldPlan.of([layer], cloud), lattice(task)
     whole = LatticePlan.of(frame, cloud, 2)
     few = np.flatnonzero(active_points(task).ravel())
@@ -250,24 +253,30 @@ def _ratios(name: str, times: dict[str, float], goal: float) -> list[Figure]:
 
 def _apart(hull: ah.Hull, task: Task, cloud: FloatArray, rounds: int) -> list[Figure]:
     """Time what is no mapping: laying out, computing weights, certifying, lofting again."""
-    lay, blend = METHODS["rounded hat, quintic"]
-    layer = lay(task, blend)
-    ffd = METHODS["FFD 5 x 5 x 5"][0](task, blend)
-    times = _fastest(
-        {
-            "weights": lambda: FieldPlan.of([layer], cloud),
-            "lattice": lambda: LatticePlan.of(lattice(task), cloud, 2),
-            "map": lambda: VMap((layer,))(cloud),
-            "FFD": lambda: VMap((ffd,))(cloud),
-            "loft": lambda: _reloft(hull, VMap((layer,))),
-        },
-        rounds,
-    )
+    named = {"field": _FIELD, "additive": "additive, quintic", "FFD": "FFD 5 x 5 x 5"}
+    layers = {key: METHODS[name][0](task, METHODS[name][1]) for key, name in named.items()}
+    additive = layers["additive"]
+    assert isinstance(additive, AdditiveLayer)
+    box = np.stack([cloud.min(axis=0), cloud.max(axis=0)])
+    frame = lattice(task)
+    jobs: dict[str, Callable[[], object]] = {
+        "weights": lambda: FieldPlan.of([layers["field"]], cloud),
+        "lattice": lambda: LatticePlan.of(frame, cloud, 2),
+        "map": lambda: VMap((layers["field"],))(cloud),
+        "FFD map": lambda: VMap((layers["FFD"],))(cloud),
+        "fold, additive": lambda: additive_fold(additive, box),
+    }
+    jobs |= {f"loft, {key}": partial(_reloft, hull, VMap((each,))) for key, each in layers.items()}
+    times = _fastest(jobs, rounds)
     return [
         Figure("weights of the places: field", 1e3 * times["weights"], "ms"),
         Figure("weights of the places: FFD / field", times["lattice"] / times["weights"], "x"),
-        Figure("the map without weights kept: FFD / field", times["FFD"] / times["map"], "x"),
-        Figure("the net lofted and cut again", 1e3 * times["loft"], "ms"),
+        Figure("the map, no weights kept: FFD / field", times["FFD map"] / times["map"], "x"),
+        Figure("apart: fold check, additive", 1e3 * times["fold, additive"], "ms"),
+        *(
+            Figure(f"apart: net lofted and cut again, {key}", 1e3 * times[f"loft, {key}"], "ms")
+            for key in layers
+        ),
     ]
 
 
