@@ -85,6 +85,8 @@ class Carried:
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
         Crossings with drivers by the driver and the meeting, counted along it.
+    driven : set of int
+        Crossings that a driver has come to drive, as they slid onto another of its points.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -105,6 +107,7 @@ class Carried:
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    driven: set[int] = attrs.field(factory=set)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
