@@ -8,8 +8,8 @@ Examples
 --------
 >>> from assoc_hull.edit.find_features import find_features
 >>> from assoc_hull.examples.wigley import wigley
->>> find_features(wigley(stations=5, waterlines=4))
-[]
+>>> [each.name for each in find_features(wigley(stations=5, waterlines=4))]
+['ST 1 straight', 'ST 2 straight', 'ST 3 straight']
 """
 
 from __future__ import annotations
