@@ -125,6 +125,6 @@ def _sharp(work: Work, curve: int, order: list[Item]) -> int:
     """Give a given point where the chords of a dense line would fold; -1 if nowhere."""
     edges = np.array([item.at for item in order])
     numbers = work.numbers(order)
-    kind, _ = work.given.on(np.int64(curve), numbers)
+    kind, _ = work.given.on(np.array(curve, np.int64), numbers)
     known = work.given.xyz[numbers]
     return sharp(known, edges, knots_of(work, curve), kind == PointKind.KNUCKLE)
