@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
 from assoc_hull.edit.image import Image, Roots, misfit
+from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
@@ -89,7 +90,10 @@ def _cut_with(
     planes, table = work.planes, work.state.lines
     normal, offset = planes.normal[line], float(planes.offset[line])
     new = image.changed(normal, float(table.offset.data[line]), offset, PLANE)
-    needed = [local for local in some.tolist() if new[local] or _off(work, curves[local], line)]
+    needed = [
+        local for local in some.tolist()
+        if new[local] or _off(work, curves[local], line) or (int(curves[local]), line) in work.touches
+    ]  # fmt: skip
     if not needed:
         return
     roots = image.meet(normal, offset)
@@ -116,6 +120,8 @@ def _pairs(
     meets: Meets = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
+    touch = work.touches.get((curve, line))
+    new = new[without_double(roots.xyz[new], touch.xyz if touch else None)]
     carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
     return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
@@ -125,6 +131,8 @@ def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots)
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
+    if bool(touch_rows(state, curve, line)) != ((curve, line) in work.touches):
+        return True
     old, new, pairs = _pairs(work, curve, line, local, roots)
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     rows: IntArray = state.curves.meets.data[curve].row[old[lost]]
@@ -139,6 +147,8 @@ def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -
         row = int(meets.row[old[one]])
         if row >= 0:
             work.anew[line][curve, other] = row
+    if (curve, line) in work.touches:
+        work.anew[line] |= {(curve, NO_ROOT): row for row in touch_rows(work.state, curve, line)}
 
 
 def _match(
@@ -147,6 +157,10 @@ def _match(
     """Say which crossing each meeting of one image with one plane is."""
     meets: Meets = work.state.curves.meets.data[curve]
     old, new, pairs = _pairs(work, curve, line, local, roots)
+    if (curve, line) in work.touches:
+        for row in touch_rows(work.state, curve, line):
+            work.value[row] = work.touches[curve, line].xyz
+            work.known[row] = work.slid[row] = True
     for one, other in pairs:
         row = int(meets.row[old[one]])
         if row >= 0 and not work.direct[row]:
