@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.edit.anew import take_out
 from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
@@ -50,6 +51,7 @@ def transform(
     reshape: Reshape | None = None,
     anchors: Sequence[tuple[int, float]] = (),
     particulars: Particulars | None = None,
+    keep_features: bool = False,
 ) -> int:
     """Carry driving lines by a mapping and cut the others again.
 
@@ -73,6 +75,9 @@ def transform(
         Curves with parameters on them (m) before the mapping, where drivers are to be exact.
     particulars : Particulars or None
         Those of the hull afterwards; None leaves them.
+    keep_features : bool
+        Whether features stay whose points the mapping bends off them: for who makes them anew
+        right after.
 
     Returns
     -------
@@ -101,6 +106,7 @@ def transform(
         _tell(edit, work, 0, size)
         return 0
     edit.pending.structural = True
+    edit.pending.features = carry_features(state, space, np.inf if keep_features else tolerance)
     turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
     if reshape is not None:
         reshape(work)

@@ -130,9 +130,8 @@ def _features(state: HullState) -> Iterator[str]:
     """Features own points and lie on lines that there are; keys and names stand once."""
     features, live = state.features, set(state.live("rows").tolist())
     lines = {state.lines.key.data[line] for line in state.live("lines").tolist()}
-    for texts in ([each.key for each in features], [each.name for each in features]):
-        if len(set(texts)) < len(texts):
-            yield "a key or name of the features stands there twice"
+    if len({each.key for each in features}) < len(features):
+        yield "a key of the features stands there twice"
     for each in features:
         if not (live.issuperset(each.points) and lines.issuperset(each.lines)):
             yield f"the feature {each.name!r} owns a point or lies on a line that is not there"

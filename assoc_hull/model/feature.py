@@ -87,7 +87,7 @@ class Feature:
     kind : str
         One of `FEATURE_KINDS`.
     name : str
-        What it is called; no two features of a hull have one name.
+        What it is called; no two features of one line have one name.
     lines : tuple of str
         Keys of the lines that it lies on.
     points : tuple of int

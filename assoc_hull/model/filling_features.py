@@ -35,16 +35,15 @@ def put_features(
     Raises
     ------
     BadInputError
-        A line or point that is not there, a key or name that stands twice, or parameters that
+        A line or point that is not there, a key that stands twice, or parameters that
         do not fit the kind.
     """
     features = [_feature(record, keys) for record in records]
-    for texts, what in (
-        ([each.key for each in features], "the key"), ([each.name for each in features], "the name")
-    ):  # fmt: skip
-        for text in texts:
-            if texts.count(text) > 1:
-                raise wrong(f"{what} {text!r} stands there twice", "in the features")
+    there = set[str]()
+    for each in features:
+        if each.key in there:
+            raise wrong(f"the key {each.key!r} stands there twice", "in the features")
+        there.add(each.key)
     Maker(state, journal).features(features)
 
 
