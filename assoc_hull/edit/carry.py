@@ -84,6 +84,8 @@ class Carried:
         Crossings with drivers by the driver and the meeting, counted along it.
     touches : dict of (int, int) to Touch
         Where planes are tangent to features, by the curve of the feature and the line.
+    fine : dict of int to float, m
+        Drivers that are features, and how far they may leave their exact shape.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -103,6 +105,7 @@ class Carried:
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
+    fine: dict[int, float] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property

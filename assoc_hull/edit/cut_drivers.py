@@ -32,6 +32,9 @@ _ROUNDS = 8
 _LEAST = 0.1
 """Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
 
+_LEAST_FINE = 0.01
+"""The same of a feature, of which it is known how it is to turn."""
+
 _SAME = 1e-3
 """A point as near as this (m) to an anchor stands for it."""
 
@@ -316,6 +319,8 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     keys = work.state.curves.key.data
     curves = sorted((c for c in work.made if work.drives(c)), key=lambda curve: str(keys[curve]))
     added = 0
+    limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
+    least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
     for _ in range(_ROUNDS):
         batch = loft(through(work, curves), [str(keys[curve]) for curve in curves])
         at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
@@ -323,7 +328,7 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
         count = np.diff(batch.start) - 1
         owner = np.repeat(np.arange(len(curves)), count)
         chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
-        wide = np.flatnonzero((away > tolerance) & (chord > _LEAST))
+        wide = np.flatnonzero((away > limit[owner]) & (chord > least[owner]))
         if not len(wide):
             break
         places = image.at(owner[wide], middle[wide])
