@@ -26,7 +26,6 @@ from assoc_hull.edit.thin_work import (
     knots_of,
     loft_orders,
     thinned_at,
-    xyz_of,
 )
 from assoc_hull.edit.thin_worst import find_wide, find_worst
 from assoc_hull.geometry.curves import PointKind
@@ -44,8 +43,9 @@ def thin(net: Net) -> Thinned:
     _collect(work)
     for curve in range(len(net.sources)):
         work.chosen[curve] = _rule(work, curve)
+    generates = [_generates(net.state, meeting) for meeting in net.meetings]
     for _ in range(200):
-        roles = _roles(work)
+        roles = _roles(work, generates)
         orders = _orders(work, roles)
         splines = loft_orders(work, range(len(orders)), orders)
         worst, left = find_worst(net, splines, orders, work)
@@ -148,15 +148,15 @@ def _rule(work: Work, curve: int) -> set[int]:
     return {item.number for item, take in zip(items, picked.tolist(), strict=True) if take}
 
 
-def _roles(work: Work) -> list[Role]:
+def _roles(work: Work, generates: list[tuple[bool, bool]]) -> list[Role]:
     net, chosen = work.net, work.chosen
     roles = [
         Role.SHARED if i in chosen[contact.boundary] else Role.DRIVES_B
         for i, contact in enumerate(net.contacts)
     ]
-    for i, meeting in enumerate(net.meetings, len(net.contacts)):
-        generates = _generates(net.state, meeting)
-        roles.append(role_of(i in chosen[meeting.a], i in chosen[meeting.b], generates))
+    pairs = zip(net.meetings, generates, strict=True)
+    for i, (meeting, given) in enumerate(pairs, len(net.contacts)):
+        roles.append(role_of(i in chosen[meeting.a], i in chosen[meeting.b], given))
     return roles
 
 
@@ -198,16 +198,13 @@ def _orders(work: Work, roles: list[Role]) -> list[list[Item]]:
 
 def _apart(work: Work, order: list[Item]) -> list[Item]:
     """Leave out adopted points at which a crossing has come to define the curve."""
-    crossings = [item.number for item in order if item.number < work.fixed_count]
-    if len(crossings) in (0, len(order)):
+    numbers = work.numbers(order)
+    crossing = numbers < work.fixed_count
+    if crossing.all() or not crossing.any():
         return order
-    held = np.array([xyz_of(work, number) for number in crossings])
-    return [
-        item
-        for item in order
-        if item.number < work.fixed_count
-        or np.abs(held - xyz_of(work, item.number)).max(axis=1).min() >= SAME
-    ]
+    xyz = work.given.xyz[numbers]
+    apart = np.abs(xyz[:, None] - xyz[crossing][None]).max(axis=2).min(axis=1) >= SAME
+    return [item for item, kept in zip(order, (crossing | apart).tolist(), strict=True) if kept]
 
 
 def _take_in(work: Work, curve: int, point: int, order: list[Item]) -> None:

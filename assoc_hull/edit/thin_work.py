@@ -7,17 +7,18 @@ from typing import NamedTuple
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.edit.match import Contact, Meeting
-from assoc_hull.geometry.curves import CurveData, FloatArray, PointKind, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.family import Role
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "SAME", "Item", "Left", "Net", "PointItem", "Thinned", "Work", "add_point", "kind_of",
-    "knots_of", "loft_orders", "thinned_at", "xyz_of",
+    "SAME", "Item", "Left", "Net", "PointItem", "Thinned", "Work", "add_point", "is_thinned",
+    "knots_of", "loft_orders", "thinned_at",
 ]  # fmt: skip
 
 
@@ -87,6 +88,41 @@ class Item(NamedTuple):
 
 
 @attrs.define(eq=False)
+class Given:
+    """Contacts, then meetings, then points, by their numbers.
+
+    Attributes
+    ----------
+    xyz : (n, 3), m
+        Their places.
+    curve : (n,) int
+        The curve on which they have a kind of their own; on another one they are smooth.
+    kind : (n,) int8
+        Their `PointKind` on it.
+    direction : (n, 3)
+        Their direction on it.
+    """
+
+    xyz: FloatArray
+    curve: IntArray
+    kind: NDArray[np.int8]
+    direction: FloatArray
+
+    def add(self, point: PointItem) -> None:
+        """Append a point."""
+        self.xyz = np.concatenate([self.xyz, point.xyz[None]])
+        self.curve = np.append(self.curve, point.curve)
+        self.kind = np.append(self.kind, np.int8(point.kind))
+        self.direction = np.concatenate([self.direction, point.direction[None]])
+
+    def on(self, curve: IntArray, numbers: IntArray) -> tuple[NDArray[np.int8], FloatArray]:
+        """Give the kinds, (k,), and directions, (k, 3), that items have on a curve each."""
+        own = self.curve[numbers] == curve
+        kind = np.where(own, self.kind[numbers], np.int8(PointKind.SMOOTH))
+        return kind, np.where(own[:, None], self.direction[numbers], 0.0)
+
+
+@attrs.define(eq=False)
 class Work:
     """What lies on each curve, what of it was chosen, and the points that were added.
 
@@ -102,6 +138,10 @@ class Work:
         Points by themselves.
     held : dict of int to list of int
         By curve, the numbers through which it was last found to hold its line.
+    given : Given
+        All that has a number, as columns.
+    fixed_count : int
+        Number of contacts and meetings; points are counted after them.
     """
 
     net: Net
@@ -109,11 +149,33 @@ class Work:
     chosen: list[set[int]]
     points: list[PointItem]
     held: dict[int, list[int]]
+    given: Given = attrs.field(init=False)
+    fixed_count: int = attrs.field(init=False)
 
-    @property
-    def fixed_count(self) -> int:
-        """Number of contacts and meetings; points are counted after them."""
-        return len(self.net.contacts) + len(self.net.meetings)
+    def __attrs_post_init__(self) -> None:
+        self.given = _given(self.net)
+        self.fixed_count = len(self.net.contacts) + len(self.net.meetings)
+
+    def numbers(self, order: Sequence[Item]) -> IntArray:
+        """Give the numbers of items, (k,)."""
+        return np.array([item.number for item in order], np.int64)
+
+
+def _given(net: Net) -> Given:
+    """Put contacts and meetings into columns.
+
+    A contact has the kind that its plane curve was given there; all else, of the boundary too,
+    is smooth.
+    """
+    count = len(net.contacts) + len(net.meetings)
+    xyz = [each.xyz for each in net.contacts] + [each.spots[0] for each in net.meetings]
+    curve, kind = np.full(count, -1), np.full(count, PointKind.SMOOTH, np.int8)
+    direction = np.zeros((count, 3))
+    for i, each in enumerate(net.contacts):
+        source = net.sources[each.curve]
+        curve[i], kind[i] = each.curve, source.kind[each.point]
+        direction[i] = source.direction[each.point]
+    return Given(np.array(xyz).reshape(-1, 3), curve, kind, direction)
 
 
 def add_point(work: Work, curve: int, point: int) -> Item:
@@ -121,61 +183,39 @@ def add_point(work: Work, curve: int, point: int) -> Item:
     source = work.net.sources[curve]
     at = float(work.net.reference.knot[work.net.reference.start[curve] + point])
     item = Item(at, work.fixed_count + len(work.points), True, 90.0)
-    work.points.append(
-        PointItem(
-            curve,
-            source.points[point],
-            source.placed,
-            int(source.kind[point]),
-            source.direction[point],
-        )
+    added = PointItem(
+        curve,
+        source.points[point],
+        source.placed,
+        int(source.kind[point]),
+        source.direction[point],
     )
+    work.points.append(added)
+    work.given.add(added)
     work.items[curve].append(item)
     work.items[curve].sort()
     return item
 
 
-def xyz_of(work: Work, index: int) -> FloatArray:
-    """Give the place of an item, (3,), m."""
-    net = work.net
-    if index < len(net.contacts):
-        return net.contacts[index].xyz
-    if index < work.fixed_count:
-        return net.meetings[index - len(net.contacts)].spots[0]
-    return work.points[index - work.fixed_count].xyz
-
-
 def loft_orders(work: Work, curves: Sequence[int], orders: Sequence[Sequence[Item]]) -> SplineBatch:
     """Loft curves through the items that define them, one order to each curve named."""
-    net = work.net
+    net, sizes = work.net, [len(order) for order in orders]
     start = np.zeros(len(orders) + 1, np.int64)
-    np.cumsum([len(order) for order in orders], out=start[1:])
-    pairs = list(zip(curves, orders, strict=True))
-    kinds = [kind_of(work, curve, item.number) for curve, order in pairs for item in order]
+    np.cumsum(sizes, out=start[1:])
+    numbers = work.numbers([item for order in orders for item in order])
+    kind, direction = work.given.on(np.repeat(np.asarray(curves, np.int64), sizes), numbers)
     ends = [net.sources[curve].ends for curve in curves]
     return loft(
         CurveData(
             start,
-            np.array([xyz_of(work, item.number) for order in orders for item in order]),
-            np.array([kind for kind, _ in kinds], np.int8),
-            np.array([direction for _, direction in kinds]),
+            work.given.xyz[numbers],
+            kind,
+            direction,
             np.array([each.kind for each in ends], np.int8),
             np.array([each.vector for each in ends], np.float64),
         ),
         [net.state.curves.key.data[curve] for curve in curves],
     )
-
-
-def kind_of(work: Work, curve: int, index: int) -> tuple[int, FloatArray]:
-    """Give the `PointKind` of an item on a curve, and its direction, (3,)."""
-    net = work.net
-    if index < len(net.contacts) and net.contacts[index].curve == curve:
-        source, point = net.sources[curve], net.contacts[index].point
-        return int(source.kind[point]), source.direction[point]
-    if index >= work.fixed_count:
-        item = work.points[index - work.fixed_count]
-        return item.kind, item.direction
-    return int(PointKind.SMOOTH), np.zeros(3)
 
 
 def knots_of(work: Work, curve: int) -> FloatArray:
@@ -199,6 +239,6 @@ def thinned_at(work: Work, curve: int, point: int) -> int | None:
     place = work.net.sources[curve].points[point]
     for item in work.items[curve]:
         near = is_thinned(work, curve, item)
-        if near and float(np.abs(xyz_of(work, item.number) - place).max()) < SAME:
+        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < SAME:
             return item.number
     return None

@@ -14,10 +14,8 @@ from assoc_hull.edit.thin_work import (
     Left,
     Net,
     Work,
-    kind_of,
     knots_of,
     thinned_at,
-    xyz_of,
 )
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
@@ -112,7 +110,7 @@ def distances(
         From the nearest defining point.
     """
     net, source = work.net, work.net.sources[curve]
-    known = np.array([xyz_of(work, item.number) for item in order])
+    known = work.given.xyz[work.numbers(order)]
     step = source.points[:, None, :] - known[None, :, :]
     open_ = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME)
     away = np.zeros(len(source.points))
@@ -126,6 +124,7 @@ def distances(
 def _sharp(work: Work, curve: int, order: list[Item]) -> int:
     """Give a given point where the chords of a dense line would fold; -1 if nowhere."""
     edges = np.array([item.at for item in order])
-    known = np.array([xyz_of(work, item.number) for item in order])
-    kinds = [kind_of(work, curve, item.number)[0] == PointKind.KNUCKLE for item in order]
-    return sharp(known, edges, knots_of(work, curve), np.array(kinds))
+    numbers = work.numbers(order)
+    kind, _ = work.given.on(np.array(curve, np.int64), numbers)
+    known = work.given.xyz[numbers]
+    return sharp(known, edges, knots_of(work, curve), kind == PointKind.KNUCKLE)

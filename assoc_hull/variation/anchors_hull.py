@@ -10,7 +10,7 @@ from assoc_hull.variation.drawn import Drawn
 
 __all__ = ["breadth", "deck_height", "depth", "draught", "fore_end_at_draught", "length"]
 
-_NO_DECK = "parent has no deck edge there"
+_NO_DECK = "parent has no deck edge amidships"
 
 
 def fore_end_at_draught(hull: Drawn) -> FloatArray | None:
@@ -55,25 +55,24 @@ def depth(hull: Drawn) -> Anchor:
     """Give the height of the deck edge amidships."""
     place = _deck_at(hull, hull.middle)
     if place is None:
-        return Anchor("depth", "m", None, reason="parent has no deck edge amidships")
+        return Anchor("depth", "m", None, reason=_NO_DECK)
     return Anchor(
         "depth", "m", float(place[2]), "deck edge amidships", [place], hull.keys(hull.deck_edge)
     )
 
 
 def deck_height(hull: Drawn) -> Anchor:
-    """Give the height of the deck edge at FP; `at_AP`, `at_midship`, `at_FP`: and elsewhere.
+    """Give the height of the deck edge amidships, from which the deck is raised as it is.
 
-    Amidships it is the depth, which has a name already.
+    `at_AP`, `at_midship`, `at_FP`: its heights there, where it reaches so far.
     """
-    at = {"at_AP": 0.0, "at_midship": hull.middle, "at_FP": hull.length}
+    at = {"at_midship": hull.middle, "at_AP": 0.0, "at_FP": hull.length}
     found = {name: _deck_at(hull, x) for name, x in at.items()}
     there = {name: place for name, place in found.items() if place is not None}
-    if "at_FP" not in there:
-        why = f"parent has no deck edge at FP (x={hull.length:.3f})"
-        return Anchor("deck_height", "m", None, reason=why)
+    if "at_midship" not in there:
+        return Anchor("deck_height", "m", None, reason=_NO_DECK)
     return Anchor(
-        "deck_height", "m", float(there["at_FP"][2]), "deck edge at FP",
+        "deck_height", "m", float(there["at_midship"][2]), "deck edge amidships",
         np.array(list(there.values())), hull.keys(hull.deck_edge),
         {name: float(place[2]) for name, place in there.items()},
     )  # fmt: skip

@@ -22,7 +22,7 @@ from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["compose", "solve"]
+__all__ = ["compose", "conflicts", "solve"]
 
 _CONDITION = 50.0
 """Above this, two parameters ask for the movement of one place."""
@@ -98,6 +98,12 @@ def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Par
     sizes = {name: asked[name] for name in ("length", "breadth", "draught") if name in asked}
     depth = float(VMap((main,))(np.array([[0.0, 0.0, parent.depth]]))[0, 2])
     return parent.mapped(VMap((main,)), depth=depth, **sizes)
+
+
+def conflicts(name: str) -> tuple[str, ...]:
+    """Give the parameters that cannot be asked for beside one."""
+    pairs = [(one, other) for one, other, _ in _CLASHES]
+    return tuple(other if one == name else one for one, other in pairs if name in (one, other))
 
 
 def _refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:

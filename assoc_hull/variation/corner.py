@@ -62,7 +62,7 @@ class CornerLayer:
     zeta_ratio: float
     fade: Chain
 
-    def _skew(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def skew(self, xyz: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Give the side (+1 port), eta and zeta of places."""
         side = np.where(xyz[:, 1] < 0.0, -1.0, 1.0)
         inward = self.y - np.abs(xyz[:, 1])
@@ -70,7 +70,7 @@ class CornerLayer:
 
     def displacement(self, xyz: FloatArray) -> FloatArray:
         """Give by how much places (n, 3), m, move, (n, 3), m."""
-        side, eta, zeta = self._skew(xyz)
+        side, eta, zeta = self.skew(xyz)
         weight = self.course.at(xyz[:, 0]) * self.fade.at(eta) * self.fade.at(zeta)
         along = (self.eta_ratio - 1.0) * weight * eta
         moved = np.zeros_like(xyz)
@@ -80,7 +80,7 @@ class CornerLayer:
 
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
-        side, eta, zeta = self._skew(xyz)
+        side, eta, zeta = self.skew(xyz)
         cos, sin, tan = math.cos(self.rise), math.sin(self.rise), math.tan(self.rise)
         a, a_x = self.course.at(xyz[:, 0]), self.course.slope(xyz[:, 0])
         c, c_eta = self.fade.at(eta), self.fade.slope(eta)

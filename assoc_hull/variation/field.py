@@ -26,8 +26,9 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.blend import QUINTIC, Blend
 from assoc_hull.variation.chain import Chain, Course
+from assoc_hull.variation.gaps import check_gaps
 
-__all__ = ["Axis", "Boundary", "Field", "Piece", "Region", "Tube", "stack"]
+__all__ = ["Axis", "Boundary", "Field", "Piece", "Region", "Tube", "span", "stack"]
 
 Axis = Literal["x", "y", "z"]
 
@@ -160,6 +161,28 @@ class Field:
                 "give ratios of y: the centre plane stays where it is",
             )  # fmt: skip
 
+    @classmethod
+    def checked(
+        cls,
+        name: str,
+        axis: Axis,
+        boundaries: Sequence[Boundary],
+        pieces: Sequence[Piece],
+        *,
+        blend: Blend = QUINTIC,
+        tube: Tube | None = None,
+    ) -> Field:
+        """Take a field as a designer lays it out.
+
+        Raises
+        ------
+        BadInputError
+            Boundary curves that touch or cross anywhere along the ship; not one piece a
+            boundary; a y-field that shifts.
+        """
+        check_gaps(name, [(each.name, each.height) for each in boundaries])
+        return cls(name, axis, tuple(boundaries), tuple(pieces), blend, tube)
+
     def scaled(self, factor: float) -> Field:
         """Give the field with its displacement times a factor."""
         return attrs.evolve(self, pieces=tuple(each.scaled(factor) for each in self.pieces))
@@ -224,11 +247,11 @@ class Field:
         """Give the box of the profile plane outside which u is exactly nil."""
         acts = [_acts(each.a) or _acts(each.d) for each in self.pieces]
         spans = [
-            _span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)
+            span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)
         ]  # fmt: skip
         if not spans:
             return Region(self.name, (np.inf, -np.inf), (np.inf, -np.inf))
-        x = min(span[0] for span in spans), max(span[1] for span in spans)
+        x = min(each[0] for each in spans), max(each[1] for each in spans)
         first, last = acts.index(True), len(acts) - 1 - acts[::-1].index(True)
         everywhere = np.array(-np.inf), np.array(np.inf)
         low, high = -np.inf, np.inf
@@ -298,7 +321,7 @@ def _acts(course: Course) -> bool:
     return bool(low != 0.0) or bool(high != 0.0)
 
 
-def _span(course: Course) -> tuple[float, float]:
+def span(course: Course) -> tuple[float, float]:
     """Give between which x a course is other than nil."""
     nodes = course.nodes
     value = course.at(nodes)

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import attrs
 
-from assoc_hull.arguments import positive
-from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.arguments import positive, shown
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
 
 __all__ = ["Layout"]
@@ -54,8 +54,8 @@ class Layout:
         Deadrise fades up to this part of the draught.
     draught_top : float
         Heights are scaled up to the draught, and shifted from this part of the draught up.
-    deck : {"fore", "midship", "aft"}
-        Where ``deck_height`` holds: at the fore perpendicular, amidships, at the after one.
+    deck : {"midship", "fore", "aft"}
+        Where ``deck_height`` holds: amidships, the whole deck with it, or at a perpendicular.
     shift : str
         Shape of ``fore_shift`` and ``aft_shift``.
 
@@ -81,7 +81,7 @@ class Layout:
     bilge_length: float = 0.2
     deadrise_top: float = 0.8
     draught_top: float = 1.6
-    deck: Literal["fore", "midship", "aft"] = "fore"
+    deck: Literal["midship", "fore", "aft"] = "midship"
     shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
 
     @property
@@ -102,6 +102,8 @@ class Layout:
         """
         if given is None or isinstance(given, Layout):
             return given or cls()
+        if not isinstance(given, Mapping):
+            raise WrongTypeError(f"layout is {shown(given)}", "in vary", "give reaches by name")
         known = {field.name: field for field in attrs.fields(cls)}
         for name, value in given.items():
             if name not in known:

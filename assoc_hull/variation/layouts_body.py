@@ -30,7 +30,7 @@ def depth(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 def deck_height(parent: Parent, asked: float, layout: Layout) -> Share:
-    """Raise the deck at one place: at the fore perpendicular, amidships, or at the after one."""
+    """Raise the deck as it is, or by a fade from amidships to one of the perpendiculars."""
     name = "deck_height"
     deck = parent.at({"fore": "deck fore", "aft": "deck aft", "midship": "deck"}[layout.deck], name)
     middle, z = 0.5 * parent.length, float(deck[2])

@@ -91,7 +91,7 @@ def _stack(given: object) -> Field:
     tube = None
     if "tube" in data:
         tube = _tube(data["tube"], blend)
-    return Field(name, axis, tuple(walls), tuple(pieces), blend, tube)
+    return Field.checked(name, axis, walls, pieces, blend=blend, tube=tube)
 
 
 def _rake(given: object) -> Rake:

@@ -19,6 +19,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
+from assoc_hull.variation.anchor import Measures
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.apply import Applied, apply
 from assoc_hull.variation.ask import Ask
@@ -114,9 +115,9 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
             )
     vmap, rounds = _settle(document.state, parent, ask)
     applied, report = _apply(document, vmap, parent, ask)
-    reached = _measured(document.state, ask)
+    was, reached = _values(before, ask), _measured(document.state, ask)
     targets = tuple(
-        Target(name, CATALOGUE[name].unit, before[name], value, reached[name])
+        Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
         for name, value in ask.values.items()
     )
     return vmap, VariationReport(
@@ -183,10 +184,23 @@ def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict
     return found
 
 
+def _values(measures: Measures, ask: Ask) -> dict[str, float]:
+    """Give measured values; that of the deck is taken where it is asked for."""
+    found = dict(measures)
+    place = {"fore": "at_FP", "aft": "at_AP"}.get(ask.layout.deck)
+    if place is not None and "deck_height" in found:
+        there = measures.anchors["deck_height"].numbers.get(place)
+        if there is None:
+            found.pop("deck_height")
+        else:
+            found["deck_height"] = there
+    return found
+
+
 def _measured(state: HullState, ask: Ask) -> dict[str, float]:
     """Measure what was asked for; amplitudes are what was asked for."""
     names = [name for name in ask.values if not CATALOGUE[name].amplitude]
-    found = dict(measure_all(state, names))
+    found = _values(measure_all(state, names), ask)
     lost = [name for name in names if name not in found]
     if lost:
         raise BadInputError(

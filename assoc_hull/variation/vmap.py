@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.field import Region
+from assoc_hull.variation.inverse import inverse
 from assoc_hull.variation.layer import Layer
 
 __all__ = ["VMap"]
@@ -49,6 +51,16 @@ class VMap:
             found = (layer.jacobian(xyz)[:, :, :, None] * found[:, None, :, :]).sum(axis=2)
             xyz = xyz + layer.displacement(xyz)
         return found
+
+    def inverse(self, xyz: ArrayLike) -> FloatArray:
+        """Give the places (n, 3), m, that are mapped to given ones.
+
+        Raises
+        ------
+        BadInputError
+            Places that are no places, or a map that folds there.
+        """
+        return inverse(self.layers, xyz)
 
     def regions(self) -> tuple[Region, ...]:
         """Give the boxes of the profile plane outside which nothing moves."""

@@ -91,7 +91,7 @@ def test_the_region_holds_every_place_that_a_feature_moves() -> None:
 
 
 def test_a_fade_over_six_radii_adds_no_sign_change() -> None:
-    """Of a correction of .054 r beside a circle on a convex section; over one and a half it does."""
+    """Of a correction of .054 r beside a circle on a convex section; over 1.5 radii it does."""
     assert _changes(6.0) == 0
     assert _changes(1.5) > 0
 
