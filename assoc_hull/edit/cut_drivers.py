@@ -95,7 +95,8 @@ def _cut_with(
     new = image.changed(normal, float(table.offset.data[line]), offset, PLANE)
     needed = [
         local for local in some.tolist()
-        if new[local] or _off(work, curves[local], line) or (int(curves[local]), line) in work.touches
+        if new[local] or _off(work, curves[local], line)
+        or (int(curves[local]), line) in work.touches
     ]  # fmt: skip
     if not needed:
         return
@@ -151,7 +152,8 @@ def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -
         if row >= 0:
             work.anew[line][curve, other] = row
     if (curve, line) in work.touches:
-        work.anew[line] |= {(curve, NO_ROOT): row for row in touch_rows(work.state, curve, line)}
+        for row in touch_rows(work.state, curve, line):
+            work.anew[line][curve, NO_ROOT] = row
 
 
 def _match(

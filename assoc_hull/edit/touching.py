@@ -20,9 +20,18 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.make import Maker
-from assoc_hull.model.state import HullState
+from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["NO_ROOT", "Touch", "clear", "is_touch", "touch_rows", "with_touches", "without_double"]
+__all__ = [
+    "NO_ROOT",
+    "Touch",
+    "clear",
+    "is_touch",
+    "slips",
+    "touch_rows",
+    "with_touches",
+    "without_double",
+]
 
 NO_ROOT = -1
 """What stands for the number of a meeting at a touch, which is none."""
@@ -154,13 +163,40 @@ def _along(
     """Tell which marks lie on curves that run in the plane, nearly, from a touch to the mark."""
     found = np.zeros(len(marks.curve), bool)
     for curve in np.unique(marks.curve).tolist():
-        spline = state.spline(curve)
-        start, _, away = closest(spline, 0, touch.xyz[None])
-        if float(away[0]) > _FLAT:
-            continue
-        part = np.linspace(0.0, 1.0, _PROBES)
-        for i in np.flatnonzero(marks.curve == curve).tolist():
-            t = float(start[0]) + (float(marks.at[i]) - float(start[0])) * part
-            off = evaluate(spline, np.zeros(_PROBES, np.int64), t) @ normal - offset
-            found[i] = bool(np.abs(off).max() <= _FLAT)
+        start = _passes(state, curve, touch.xyz)
+        for i in np.flatnonzero(marks.curve == curve).tolist() if start is not None else []:
+            found[i] = _hardly(state, curve, (start or 0.0, float(marks.at[i])), (normal, offset))
     return found
+
+
+def slips(state: HullState, curve: int, spot: int) -> bool:
+    """Tell whether a meeting with a line that touches a feature is none.
+
+    From it to the next one, or to the touch, the curve hardly leaves the plane.
+    """
+    meets: Meets = state.curves.meets.data[curve]
+    line = int(meets.line[spot])
+    rows = np.concatenate([state.curves.rows.data[each] for each in state.lines.curves.data[line]])
+    rows = rows[is_touch(state, rows)]
+    if not len(rows):
+        return False
+    passed = [_passes(state, curve, state.rows.xyz.data[row]) for row in rows.tolist()]
+    here, along = float(meets.parameter[spot]), meets.line == line
+    others = [*np.delete(meets.parameter[along], int(along[:spot].sum())).tolist(), *passed]
+    plane = state.lines.normal.data[line], float(state.lines.offset.data[line])
+    return any(_hardly(state, curve, (here, at), plane) for at in others if at is not None)
+
+
+def _passes(state: HullState, curve: int, place: FloatArray) -> float | None:
+    """Give where a curve passes a touch, its parameter (m); None if it does not."""
+    at, _, away = closest(state.spline(curve), 0, place[None])
+    return float(at[0]) if float(away[0]) <= _FLAT else None
+
+
+def _hardly(
+    state: HullState, curve: int, span: tuple[float, float], plane: tuple[FloatArray, float]
+) -> bool:
+    """Tell whether a curve hardly leaves a plane between two parameters (m)."""
+    t = span[0] + (span[1] - span[0]) * np.linspace(0.0, 1.0, _PROBES)
+    places = evaluate(state.spline(curve), np.zeros(_PROBES, np.int64), t)
+    return float(np.abs(places @ plane[0] - plane[1]).max()) <= _FLAT

@@ -9,6 +9,7 @@ the neighbourhood takes part in (see `features_map`).
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -30,6 +31,9 @@ TOUCH = 1e-6
 
 GAP = 5e-6
 """A spline through points of a circle lies as near (m) to it."""
+
+_ROUNDING = 1e-13
+"""A correction by less than so many radii is rounding."""
 
 _LARGEST = 0.1
 """A circle may lie off the image by so many of its radii."""
@@ -125,6 +129,11 @@ class Redrawn:
     image: _Map
     slope: _Map
     gap: float = GAP
+
+    @cached_property
+    def carried(self) -> bool:
+        """Whether the map itself makes the circle, so that nothing is to be corrected."""
+        return self.most() <= _ROUNDING * self.after.radius
 
     @property
     def idle(self) -> bool:

@@ -79,8 +79,10 @@ class FeatureMap:
         for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
             some, circle = np.flatnonzero(self._near(away)[i]), self.circles[i]
             unit, size = circle.before.unit(xyz[some])
-            weight = self._weight(i, away[:, some])[0][:, None]
-            moved = found[some] + weight * circle.correction(unit)
+            moved = found[some]
+            if not circle.carried:
+                weight = self._weight(i, away[:, some])[0][:, None]
+                moved = moved + weight * circle.correction(unit)
             moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
             level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
             moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
@@ -94,6 +96,8 @@ class FeatureMap:
         for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
             some = np.flatnonzero(self._near(away)[i])
             circle, (weight, turn) = self.circles[i], self._weight(i, away[:, some])
+            if circle.carried:
+                continue
             unit, size = circle.before.unit(xyz[some])
             about = np.eye(3) - circle.before.normal[:, None] * circle.before.normal
             about = about - unit[:, :, None] * unit[:, None, :]
@@ -106,7 +110,7 @@ class FeatureMap:
 
     def regions(self) -> tuple[Region, ...]:
         """Give the boxes of the profile plane in which features change the map."""
-        return tuple(_region(each) for each in self.circles)
+        return tuple(_region(each) for each in self.circles if not each.carried)
 
     def _away(self, xyz: FloatArray) -> FloatArray:
         """Give how far places lie from each circle, (c, n), m."""

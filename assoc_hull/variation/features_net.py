@@ -12,6 +12,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carry import Carried
+from assoc_hull.edit.carry_features import CarriedFeatures
 from assoc_hull.edit.touching import Touch
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.feature import Feature
@@ -26,6 +27,9 @@ __all__ = ["Regenerated", "regenerated"]
 _ROUND = 1e-6
 """A curve that is a circle leaves it by no more (m)."""
 
+_OBLATE = 1.2
+"""A circle that is stretched by more one way than the other is meant to be an oval."""
+
 _END = 1e-3
 """A touch as near as this (m) to an end of the curve is that end."""
 
@@ -37,11 +41,14 @@ class Regenerated:
     Attributes
     ----------
     map : FeatureMap
+    keys : tuple of str
+        The features that the circles are.
     hosts : tuple of int
-        The curves that the circles are, one each.
+        The curves that they are, one each.
     """
 
     map: FeatureMap
+    keys: tuple[str, ...]
     hosts: tuple[int, ...]
 
     def settle(self, work: Carried) -> None:
@@ -50,6 +57,18 @@ class Regenerated:
             work.fine[curve] = _ROUND
             for found in _touches(work, curve, circle.after):
                 work.touches[curve, found.line] = found
+
+    def features(self, carried: CarriedFeatures) -> CarriedFeatures:
+        """Give carried features the centres and radii that the circles are drawn with."""
+        drawn = dict(zip(self.keys, self.map.circles, strict=True))
+        found = tuple(
+            attrs.evolve(
+                each, centre=drawn[each.key].after.centre.tolist(), radius=drawn[each.key].after.radius
+            )
+            if each.key in drawn else each
+            for each in carried.features
+        )  # fmt: skip
+        return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
 
 
 def regenerated(
@@ -74,14 +93,26 @@ def regenerated(
     wanted = radii or {}
     features = [each for each in state.features if each.kind == "circle"]
     drawn = {
-        each.key: _redrawn(each, vmap, wanted.get(each.key)) for each in features
-    }  # fmt: skip
+        each.key: _redrawn(each, vmap, wanted.get(each.key))
+        for each in features
+        if each.key in wanted or not _stretched(each, vmap)
+    }
     some = acting(list(drawn.values()))
-    chosen = [each for each in features if drawn[each.key] in some]
+    chosen = [each for each in features if drawn.get(each.key) in some]
     return Regenerated(
         FeatureMap(vmap, vmap.jacobian, tuple(drawn[each.key] for each in chosen)),
+        tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
     )
+
+
+def _stretched(feature: Feature, vmap: VMap) -> bool:
+    """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
+    normal = np.array(feature.parameters["normal"])
+    slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
+    across = slope - np.outer(slope @ normal, normal)
+    size = np.linalg.svd(across, compute_uv=False)
+    return bool(size[0] > _OBLATE * size[1])
 
 
 def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
