@@ -67,6 +67,8 @@ class Carried:
         Where each point goes.
     direct : (r,) bool
         Whether its image lies in the planes of its lines.
+    still : (r,) bool
+        Whether the mapping leaves it and all around it where it is, to the last bit.
     known : (r,) bool
         Whether `value` is final.
     slid : (r,) bool
@@ -75,6 +77,8 @@ class Carried:
         Curves whose points are chosen.
     gone : set of int
         Points that have no place any more.
+    watched : set of int
+        Crossings of drivers with followers that come to pass them within the tolerance only.
     come : list of (int, (3,) array)
         Followers with places at which a driver has come to meet their planes.
     contacts : list of (int, int)
@@ -97,10 +101,12 @@ class Carried:
     image: FloatArray
     value: FloatArray
     direct: BoolArray
+    still: BoolArray
     known: BoolArray
     slid: BoolArray
     made: dict[int, Through] = attrs.field(factory=dict)
     gone: set[int] = attrs.field(factory=set)
+    watched: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
@@ -118,7 +124,7 @@ class Carried:
         self.image = np.concatenate([self.image, place[None]])
         self.value = np.concatenate([self.value, place[None]])
         self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
-        self.slid = np.append(self.slid, True)
+        self.slid, self.still = np.append(self.slid, True), np.append(self.still, False)
 
     def piece(self, line: int, place: FloatArray) -> int:
         """Give the curve of a line whose carried points come nearest to a place."""
@@ -161,7 +167,12 @@ def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArra
     live = state.live("rows")
     image = state.rows.xyz.data.copy()
     image[live] = space.places(state.rows.xyz.data[live])
-    _refuse_folds(state, space, live)
+    slope = space.jacobians(state.rows.xyz.data[live])
+    _refuse_folds(state, live, slope)
+    still = np.zeros(state.rows.count, bool)
+    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (
+        image[live] == state.rows.xyz.data[live]
+    ).all(axis=1)
     table = state.rows
     line = np.where(table.curve.data >= 0, state.curves.line.data[table.curve.data], -1)
     direct = np.ones(table.count, bool)
@@ -178,14 +189,13 @@ def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArra
     crossing = table.sort.data == Sort.CROSSING
     known = np.where(crossing, direct, drives & direct)
     return Carried(
-        maker, space, planes, driver, image, value, direct, known, np.zeros(table.count, bool)
-    )
+        maker, space, planes, driver, image, value, direct, still, known,
+        np.zeros(table.count, bool),
+    )  # fmt: skip
 
 
-def _refuse_folds(state: HullState, space: SpaceMap, live: IntArray) -> None:
+def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
     """See that the mapping keeps right- and left-handed apart at every point."""
-    xyz = state.rows.xyz.data[live]
-    j = space.jacobians(xyz)
     volume = (
         j[:, 0, 0] * (j[:, 1, 1] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 1])
         - j[:, 0, 1] * (j[:, 1, 0] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 0])
@@ -193,7 +203,7 @@ def _refuse_folds(state: HullState, space: SpaceMap, live: IntArray) -> None:
     )
     worst = int(volume.argmin())
     if not volume[worst] > 0.0:
-        x, y, z = xyz[worst].tolist()
+        x, y, z = state.rows.xyz.data[live[worst]].tolist()
         raise BadInputError(
             f"the mapping folds: its Jacobian determinant is {volume[worst]:.3g}",
             f"at ({x:.3f}, {y:.3f}, {z:.3f}) m in transform", "make it smaller or smoother",
