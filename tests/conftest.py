@@ -13,6 +13,7 @@ from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.sources import examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
+from tests.twins import made_once
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -57,15 +58,15 @@ def data_folder() -> Path:
 
 
 @pytest.fixture(scope="session")
-def series60_60() -> Hull:
+def series60_60(tmp_path_factory: pytest.TempPathFactory) -> Hull:
     """Series 60 CB .60; a test that edits it undoes its edits."""
-    return examples.series60(0.60)
+    return made_once(tmp_path_factory, "series60_60", lambda: examples.series60(0.60))
 
 
 @pytest.fixture(scope="session")
-def series60_70() -> Hull:
+def series60_70(tmp_path_factory: pytest.TempPathFactory) -> Hull:
     """Series 60 CB .70; a test that edits it undoes its edits."""
-    return examples.series60(0.70)
+    return made_once(tmp_path_factory, "series60_70", lambda: examples.series60(0.70))
 
 
 @pytest.fixture
@@ -76,15 +77,17 @@ def fresh_series60_70(series60_70: Hull) -> Iterator[Hull]:
 
 
 @pytest.fixture(scope="session")
-def bulk_carrier() -> Hull:
+def bulk_carrier(tmp_path_factory: pytest.TempPathFactory) -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
-    return examples.bulk_carrier_207k()
+    return made_once(tmp_path_factory, "bulk_carrier", examples.bulk_carrier_207k)
 
 
 @pytest.fixture(scope="session")
-def dtc_with_report(data_folder: Path) -> tuple[Hull, SliceReport]:
+def dtc_with_report(
+    data_folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Hull, SliceReport]:
     """The DTC container ship at 10 mm, from its mesh, and the report of it."""
-    return read_dtc_with_report(data_folder)
+    return made_once(tmp_path_factory, "dtc", lambda: read_dtc_with_report(data_folder))
 
 
 @pytest.fixture(scope="session")

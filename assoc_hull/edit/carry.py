@@ -90,6 +90,8 @@ class Carried:
         Where planes are tangent to features, by the curve of the feature and the line.
     fine : dict of int to float, m
         Drivers that are features, and how far they may leave their exact shape.
+    driven : set of int
+        Crossings that a driver has come to drive, as they slid onto another of its points.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -112,6 +114,7 @@ class Carried:
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
+    driven: set[int] = attrs.field(factory=set)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property

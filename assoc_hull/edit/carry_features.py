@@ -6,9 +6,9 @@ where the mapping does not bend it. The images of their points tell.
 Examples
 --------
 >>> from assoc_hull.edit.carry_features import carry_features
->>> from assoc_hull.edit.mapping import affine, space_map
+>>> from assoc_hull.edit.mapping import space_map
 >>> from assoc_hull.examples.wigley import wigley
->>> twice = space_map(affine([2, 2, 2], None), None)
+>>> twice = space_map(None, None, [2, 2, 2], None)
 >>> carry_features(wigley(stations=5, waterlines=4), twice, 1e-3).features
 ()
 """

@@ -238,6 +238,9 @@ def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float])
     drop = _crowded(state, work, order) if any(row in slid for row in order) else set[int]()
     work.gone |= drop
     kept = [each for each in kept if each[2] not in drop]
+    if any(row in slid for row in order):
+        held = _doubled(work, curve, [row for _, _, row in kept], slid)
+        kept = [each for each in kept if each[2] not in held]
     work.made[curve] = Through(
         [row for _, _, row in kept],
         [work.value[row].copy() for _, _, row in kept],
@@ -261,6 +264,28 @@ def _settle(work: Carried, curve: int, row: int) -> None:
         work.known[row] = True
     else:
         work.gone.add(row)
+
+
+def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]) -> set[int]:
+    """Let a driver drive crossings that slid onto another of its points, instead of passing it.
+
+    Two points of a curve cannot lie at one place. The follower is made through the crossing as
+    before, which is now computed from the driver.
+    """
+    table, place = work.state.rows, work.value[order]
+    step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
+    found: set[int] = set()
+    for i in np.flatnonzero(step < work.state.tolerances.coincident).tolist():
+        for row in (order[i], order[i + 1]):
+            first, other = table.curve.data[row].tolist()
+            if row in slid and first == curve and other >= 0 and not table.contact.data[row]:
+                found.add(row)
+                break
+    if found:
+        rows = np.array(sorted(found), np.int64)
+        work.maker.roles(rows, np.full(len(rows), int(Role.DRIVES_B)))
+        work.driven |= found
+    return found
 
 
 def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
