@@ -14,14 +14,21 @@ import attrs
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import not_negative, places
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.additive import AdditiveLayer
 from assoc_hull.variation.certificate import Certificate, Reason
+from assoc_hull.variation.certify_additive import additive_minors
 from assoc_hull.variation.certify_cells import Found
+from assoc_hull.variation.certify_corner import corner_minors
 from assoc_hull.variation.certify_fields import field_minors
+from assoc_hull.variation.certify_shear import shear_minors
+from assoc_hull.variation.corner import CornerLayer
 from assoc_hull.variation.culprit import culprit
 from assoc_hull.variation.fields_layer import FieldLayer
+from assoc_hull.variation.image_box import image_box
 from assoc_hull.variation.layer import Layer
+from assoc_hull.variation.shear import DeadriseLayer
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["certify"]
@@ -68,10 +75,14 @@ def certify(what: VMap | Layer, box: ArrayLike, least: float = MARGIN) -> Certif
     corners = _box(box)
     margin = not_negative(least, "least", "in certify")
     found = list[Certificate]()
-    for layer in what.layers if isinstance(what, VMap) else (what,):
+    layers = what.layers if isinstance(what, VMap) else (what,)
+    for k, layer in enumerate(layers):
+        if k:
+            corners = image_box(layers[k - 1], corners)
         found.append(_layer(layer, corners, margin))
     refused = [each for each in found if not each.certified]
-    return min(refused or found, key=lambda each: each.least, default=_nothing(corners, margin))
+    nothing = _nothing(corners, margin)
+    return min(refused or found, key=lambda each: each.least, default=nothing)
 
 
 def _box(box: ArrayLike) -> FloatArray:
@@ -89,14 +100,7 @@ def _nothing(box: FloatArray, margin: float, layer: str = "") -> Certificate:
 
 
 def _layer(layer: Layer, box: FloatArray, margin: float) -> Certificate:
-    if not isinstance(layer, FieldLayer):
-        raise NotImplementedError
-    return _certificate(layer, field_minors(layer, box, margin), box, margin)
-
-
-def _certificate(
-    layer: FieldLayer, found: Sequence[Found], box: FloatArray, margin: float
-) -> Certificate:
+    found = _minors(layer, box, margin)
     if not found:
         return _nothing(box, margin, layer.name)
     worst = min(found, key=lambda each: (each.least, each.bound))
@@ -106,7 +110,24 @@ def _certificate(
         sum(each.boxes for each in found), sum(each.splits for each in found), layer.name,
         minors=_by_minor(found),
     )  # fmt: skip
-    return attrs.evolve(record, **culprit(layer, _AXES[worst.minor], worst.witness))
+    if isinstance(layer, FieldLayer):
+        return attrs.evolve(record, **culprit(layer, _AXES[worst.minor], worst.witness))
+    return record
+
+
+def _minors(layer: Layer, box: FloatArray, margin: float) -> list[Found]:
+    """Give the least minors of a layer of any kind."""
+    if isinstance(layer, FieldLayer):
+        return field_minors(layer, box, margin)
+    if isinstance(layer, CornerLayer):
+        return corner_minors(layer, box, margin)
+    if isinstance(layer, DeadriseLayer):
+        return shear_minors(layer, box)
+    if isinstance(layer, AdditiveLayer):
+        return additive_minors(layer, box, margin)
+    raise WrongTypeError(
+        f"'{layer.name}' is a {type(layer).__name__}", "in certify", "give a layer of a known kind"
+    )
 
 
 def _by_minor(found: Sequence[Found]) -> tuple[tuple[str, float], ...]:
