@@ -26,6 +26,9 @@ _ROUNDS = 12
 _DOUBT = 0.3
 """Where a point slips to is uncertain by this part of the way."""
 
+_SHARP = 0.5
+"""Where the chords of a line make an angle of a lower cosine, its adopted points are needed."""
+
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
 
@@ -146,11 +149,24 @@ def tie(work: Carried, curve: int, found: Through, loose: list[int]) -> None:
             break
     for row, off in zip(left, away.tolist(), strict=False):
         if state.rows.sort.data[row] == Sort.ADOPTED:
-            work.gone.add(row)
+            if _at_turn(found, work.value[row]):
+                _take(work, found, row)
+            else:
+                work.gone.add(row)
         elif off <= state.tolerances.keep:
             insert(found, row, work.value[row])
         else:
             work.watched.add(row)
+
+
+def _at_turn(found: Through, place: FloatArray) -> bool:
+    """Tell whether a place lies beside a point at which the chords of a line turn sharply."""
+    places = np.array(found.place)
+    chord = np.diff(places, axis=0)
+    unit = chord / np.sqrt((chord * chord).sum(axis=1))[:, None]
+    cosine = np.concatenate([[1.0], (unit[1:] * unit[:-1]).sum(axis=1), [1.0]])
+    index = interval_of(places, place)
+    return bool(cosine[index - 1 : index + 1].min() < _SHARP)
 
 
 def _limit(work: Carried, rows: list[int]) -> FloatArray:
