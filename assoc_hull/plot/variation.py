@@ -227,7 +227,7 @@ def _name(profile: _Profile, names: Sequence[tuple[float, float, str]]) -> None:
     sheet, unit = profile.chart.sheet, profile.chart.sheet.paper.factor
     middle = 0.5 * (profile.box[0] + profile.box[1])
     for aft in (True, False):
-        last = -np.inf
+        last = profile.chart.low + (1.2 - _PITCH) * unit
         for x, z, words in sorted((each for each in names if (each[0] < middle) == aft),
                                   key=lambda each: each[1]):  # fmt: skip
             place = profile.on(np.array([x]), np.array([z]))[0]
