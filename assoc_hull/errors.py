@@ -18,6 +18,7 @@ from __future__ import annotations
 import attrs
 
 __all__ = [
+    "AbsentParameterError",
     "AssocHullError",
     "BadInputError",
     "CoincidentPointsError",

@@ -1,7 +1,8 @@
 """What all tests share: the hypothesis profiles and the folder of published hulls."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.sources import examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
+from tests.twins import made_once, packed, twin
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -56,16 +58,41 @@ def data_folder() -> Path:
     return folder
 
 
+Shipped = Callable[[str], Hull]
+"""Gives a hull that ships by the name of its fixture, at every call a new one."""
+
+
 @pytest.fixture(scope="session")
-def series60_60() -> Hull:
+def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
+    """Hulls that ship, as they are made: each call gives one of the caller's own."""
+    makers = {
+        "wigley": examples.wigley,
+        "series60_60": lambda: examples.series60(0.60),
+        "series60_70": lambda: examples.series60(0.70),
+        "bulk_carrier": examples.bulk_carrier_207k,
+    }
+
+    @cache
+    def pack(name: str) -> bytes:
+        return made_once(tmp_path_factory, name, lambda: packed(makers[name]()))
+
+    def give(name: str) -> Hull:
+        found: Hull = twin(pack(name))
+        return found
+
+    return give
+
+
+@pytest.fixture(scope="session")
+def series60_60(shipped: Shipped) -> Hull:
     """Series 60 CB .60; a test that edits it undoes its edits."""
-    return examples.series60(0.60)
+    return shipped("series60_60")
 
 
 @pytest.fixture(scope="session")
-def series60_70() -> Hull:
+def series60_70(shipped: Shipped) -> Hull:
     """Series 60 CB .70; a test that edits it undoes its edits."""
-    return examples.series60(0.70)
+    return shipped("series60_70")
 
 
 @pytest.fixture
@@ -76,15 +103,17 @@ def fresh_series60_70(series60_70: Hull) -> Iterator[Hull]:
 
 
 @pytest.fixture(scope="session")
-def bulk_carrier() -> Hull:
+def bulk_carrier(shipped: Shipped) -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
-    return examples.bulk_carrier_207k()
+    return shipped("bulk_carrier")
 
 
 @pytest.fixture(scope="session")
-def dtc_with_report(data_folder: Path) -> tuple[Hull, SliceReport]:
+def dtc_with_report(
+    data_folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Hull, SliceReport]:
     """The DTC container ship at 10 mm, from its mesh, and the report of it."""
-    return read_dtc_with_report(data_folder)
+    return made_once(tmp_path_factory, "dtc", lambda: read_dtc_with_report(data_folder))
 
 
 @pytest.fixture(scope="session")

@@ -19,7 +19,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.thin_work import Net
-from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import evaluate
@@ -122,16 +122,25 @@ def report_lines(net: Net) -> tuple[LineReport, ...]:
     )
     bends = (inflections(batch, normals)[0] for batch in (net.reference, splines))
     given, found = bends
+    away = _away(net, splines)
     return tuple(
-        _line(net, i, splines, int(given[i]), int(found[i])) for i in range(len(net.sources))
+        _line(net, i, away[i], int(given[i]), int(found[i])) for i in range(len(net.sources))
     )
 
 
-def _line(net: Net, number: int, splines: SplineBatch, given: int, found: int) -> LineReport:
+def _away(net: Net, splines: SplineBatch) -> list[FloatArray]:
+    """Give how far each curve passes the points it is measured at, m."""
+    points = [_measured(net, i)[0] for i in range(len(net.sources))]
+    sizes = [len(each) for each in points]
+    curve = np.repeat(np.arange(len(points)), sizes)
+    away = closest_each(splines, curve, np.concatenate(points))[2]
+    return np.split(away, np.cumsum(sizes)[:-1])
+
+
+def _line(net: Net, number: int, away: FloatArray, given: int, found: int) -> LineReport:
     state, source = net.state, net.sources[number]
     crossings, adopted, placed = _sorts(state, state.curves.rows.data[number])
     points, tolerance = _measured(net, number)
-    away = closest(splines, number, points)[2]
     worst = int(np.argmax(away))
     x, y, z = points[worst].tolist()
     return LineReport(

@@ -13,7 +13,7 @@ import numpy as np
 from assoc_hull.edit.finding import Finding, row_finding
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.feature import Feature
-from assoc_hull.model.feature_shape import ROUNDING, places_off
+from assoc_hull.model.feature_shape import ROUNDING, line_numbers, places_off
 from assoc_hull.model.state import HullState
 
 __all__ = ["find_off_features"]
@@ -32,7 +32,7 @@ def find_off_features(state: HullState, book: AddressBook) -> Iterator[Finding]:
     []
     """
     live = set(state.live("rows").tolist())
-    lines = {state.lines.key.data[line] for line in state.live("lines").tolist()}
+    lines = set(line_numbers(state))
     for each in state.features:
         if not (live.issuperset(each.points) and lines.issuperset(each.lines)):
             text = "owns a point or lies on a line that is not there: undo the edit"

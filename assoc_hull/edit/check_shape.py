@@ -8,12 +8,11 @@ from typing import TypeGuard
 import numpy as np
 
 from assoc_hull.edit.finding import Finding, row_finding
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.closest import closest_each
+from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.geometry.order import folds
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.place import points_on
 from assoc_hull.model.state import HullState
 
 __all__ = ["bounded", "find_shape"]
@@ -33,6 +32,7 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
     """
     yield from _unbounded_points(state, book)
     yield from _off_planes(state, book)
+    lofted = list[int]()
     for curve in state.live("curves").tolist():
         yield from _close(state, book, curve)
         spline = state.curves.spline.data[curve]
@@ -40,7 +40,8 @@ def find_shape(state: HullState, book: AddressBook) -> Iterator[Finding]:
             yield _unbounded(state, book, curve)
             continue
         yield from _folds(book, curve, spline)
-        yield from _off_curve(state, book, curve)
+        lofted.append(curve)
+    yield from _off_curves(state, book, lofted)
 
 
 def _unbounded_points(state: HullState, book: AddressBook) -> Iterator[Finding]:
@@ -83,20 +84,33 @@ def _close(state: HullState, book: AddressBook, curve: int) -> Iterator[Finding]
         yield row_finding(state, book, int(rows[i]), "close", text, float(away[i]))
 
 
-def _off_curve(state: HullState, book: AddressBook, curve: int) -> Iterator[Finding]:
+def _off_curves(state: HullState, book: AddressBook, curves: list[int]) -> Iterator[Finding]:
     """Points that should lie on a curve and do not."""
-    on = points_on(state, curve)
-    finite = np.isfinite(state.rows.xyz.data[on.row]).all(axis=1)
-    watched = (state.rows.sort.data[on.row] == Sort.CROSSING) & (
-        state.rows.role.data[on.row] == Role.WATCHED
-    )
-    rows = on.row[finite & ~watched]
-    if not len(rows):
+    if not curves:
         return
-    away = closest(state.spline(curve), 0, state.rows.xyz.data[rows])[2]
+    number = np.full(state.curves.count, -1)
+    number[curves] = np.arange(len(curves))
+    rows, curve = _points_of(state, number)
+    batch = SplineBatch.join([state.spline(each) for each in curves])
+    away = closest_each(batch, number[curve], state.rows.xyz.data[rows])[2]
     for i in np.flatnonzero(away > state.tolerances.consistent).tolist():
-        text = f"lies {away[i]:.3g} m off {book.curve_name(curve)}: undo the edit"
+        text = f"lies {away[i]:.3g} m off {book.curve_name(int(curve[i]))}: undo the edit"
         yield row_finding(state, book, int(rows[i]), "off curve", text, float(away[i]))
+
+
+def _points_of(state: HullState, number: IntArray) -> tuple[IntArray, IntArray]:
+    """Give the points that should lie on curves that have a number, with their curves."""
+    rows = state.live("rows")
+    watched = (state.rows.sort.data[rows] == Sort.CROSSING) & (
+        state.rows.role.data[rows] == Role.WATCHED
+    )
+    rows = rows[np.isfinite(state.rows.xyz.data[rows]).all(axis=1) & ~watched]
+    curve = state.rows.curve.data[rows]
+    known = (curve >= 0) & (curve < len(number))
+    known[known] = number[curve[known]] >= 0
+    known[:, 1] &= curve[:, 1] != curve[:, 0]
+    order, side = np.nonzero(known)
+    return rows[order], curve[order, side]
 
 
 def _off_planes(state: HullState, book: AddressBook) -> Iterator[Finding]:

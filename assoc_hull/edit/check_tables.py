@@ -6,13 +6,12 @@ looks may then stumble, and these findings say over what.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from assoc_hull.edit.finding import Finding
-from assoc_hull.geometry.curves import PointKind
+from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort, State
 from assoc_hull.model.state import HullState
@@ -55,27 +54,36 @@ def find_tables(state: HullState, _: AddressBook) -> Iterator[Finding]:
     []
     """
     for table, column, target in _REFERENCES:
-        count = getattr(state, target).count
-        for number, values in _cells(state, table, column):
-            yield from _beyond(state, table, number, column, values, target, count)
-    for number, meets in _cells(state, "curves", "meets"):
-        for column, values, target in (("row", meets.row, "rows"), ("line", meets.line, "lines")):
-            count = getattr(state, target).count
-            yield from _beyond(state, "curves", number, f"meets.{column}", values, target, count)
+        yield from _beyond(state, table, column, _flat(state, table, column), target)
+    live = state.live("curves").tolist()
+    for part, target in (("row", "rows"), ("line", "lines")):
+        meets = [getattr(state.curves.meets.data[number], part) for number in live]
+        yield from _beyond(state, "curves", f"meets.{part}", _joined(live, meets), target)
     for table, column, known in _CODES:
-        for number, values in _cells(state, table, column):
-            for value in np.setdiff1d(values, known).tolist():
-                text = f"its {column!r} is {value}, which means nothing: {REMEDY}"
-                yield Finding("tables", _key(state, table, number), None, float(value), text)
+        numbers, values = _flat(state, table, column)
+        wrong = ~np.isin(values, known)
+        pairs = zip(numbers[wrong].tolist(), values[wrong].tolist(), strict=True)
+        for number, value in sorted(set(pairs)):
+            text = f"its {column!r} is {value}, which means nothing: {REMEDY}"
+            yield Finding("tables", _key(state, table, number), None, float(value), text)
     yield from _families(state)
     yield from _keys(state)
 
 
-def _cells(state: HullState, table: str, column: str) -> Iterator[tuple[int, Any]]:
-    """Give the number and the value of a column of each live object."""
-    data = getattr(getattr(state, table), column).data
-    for number in state.live(table).tolist():
-        yield number, data[number]
+def _flat(state: HullState, table: str, column: str) -> tuple[IntArray, IntArray]:
+    """Give all values in a column of the live objects, and the number of each one's object."""
+    live, data = state.live(table), getattr(getattr(state, table), column).data
+    if not isinstance(data, np.ndarray):
+        return _joined(live.tolist(), [data[number] for number in live.tolist()])
+    values = data[live].reshape(len(live), -1)
+    return np.repeat(live, values.shape[1]), np.asarray(values.ravel(), np.int64)
+
+
+def _joined(numbers: list[int], cells: Sequence[object]) -> tuple[IntArray, IntArray]:
+    flat = [np.atleast_1d(np.asarray(cell, np.int64)).ravel() for cell in cells]
+    sizes = [len(each) for each in flat]
+    none = np.zeros(0, np.int64)
+    return np.repeat(np.array(numbers, np.int64), sizes), np.concatenate([none, *flat])
 
 
 def _key(state: HullState, table: str, number: int) -> str:
@@ -84,17 +92,20 @@ def _key(state: HullState, table: str, number: int) -> str:
 
 
 def _beyond(
-    state: HullState, table: str, number: int, column: str, values: Any, target: str, count: int
+    state: HullState, table: str, column: str, found: tuple[IntArray, IntArray], target: str
 ) -> Iterator[Finding]:
     """Tell numbers that no row of the target has; -1 stands for none."""
-    flat = np.atleast_1d(np.asarray(values, np.int64)).ravel()
-    for value in flat[(flat < -1) | (flat >= count)].tolist():
+    numbers, values = found
+    count = getattr(state, target).count
+    wrong = (values < -1) | (values >= count)
+    for number, value in zip(numbers[wrong].tolist(), values[wrong].tolist(), strict=True):
         text = f"its {column!r} leads to number {value} of {count} {target}: {REMEDY}"
         yield Finding("tables", _key(state, table, number), None, float(value), text)
 
 
 def _families(state: HullState) -> Iterator[Finding]:
-    for group, family in _cells(state, "groups", "family"):
+    for group in state.live("groups").tolist():
+        family = state.groups.family.data[group]
         if family not in FAMILIES:
             text = f"is of the family {family!r}, which does not exist: {REMEDY}"
             yield Finding("tables", _key(state, "groups", group), None, None, text)

@@ -8,8 +8,8 @@ Examples
 --------
 >>> from assoc_hull.edit.find_features import find_features
 >>> from assoc_hull.examples.wigley import wigley
->>> find_features(wigley(stations=5, waterlines=4))
-[]
+>>> [each.name for each in find_features(wigley(stations=5, waterlines=4))]
+['ST 1 straight', 'ST 2 straight', 'ST 3 straight']
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from assoc_hull.model.feature import FEATURE_LEAST, Feature
 from assoc_hull.model.feature_shape import ROUNDING, places_off
 from assoc_hull.model.state import HullState
 
-__all__ = ["find_features"]
+__all__ = ["LOOSE", "find_features"]
 
-_LOOSE = 1e-3
+LOOSE = 1e-3
 """Points of a straight run lie this near to it (m), those of an arc within its line's tolerance."""
 
 _ALONG = 0.01
@@ -93,7 +93,7 @@ def find_features(
         whole = _whole_line(state, line)
         mine: list[Feature] = [] if whole is None else [whole]
         for curve in state.lines.curves.data[line]:
-            allowed = _LOOSE if tolerance is None else tolerance[curve]
+            allowed = LOOSE if tolerance is None else tolerance[curve]
             mine += _of_curve(state, line, int(curve), allowed)
         found += _told_apart(mine)
     return sorted(found, key=lambda each: each.key)
@@ -145,8 +145,8 @@ def _whole_line(state: HullState, line: int) -> Feature | None:
         return None
     normal, offset = state.lines.normal.data[line], float(state.lines.offset.data[line])
     if not state.lines.planar.data[line]:
-        normal, offset, worst = fit_plane(state.rows.xyz.data[rows], _LOOSE)
-        if worst > _LOOSE:
+        normal, offset, worst = fit_plane(state.rows.xyz.data[rows], LOOSE)
+        if worst > LOOSE:
             return None
     side = flat_side(state, rows, normal, offset)
     return _make(state, line, "flat", rows, normal=normal, offset=offset, side=side)
@@ -161,9 +161,10 @@ def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iter
             joined |= {found.points[0], found.points[-1]}
             yield found
     rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
-    for row, at in zip(rows.tolist(), side.tolist(), strict=True):
-        if state.rows.kind.data[row, at] == PointKind.TANGENT and row not in joined:
-            along = state.rows.direction.data[row, at]
+    tangent = state.rows.kind.data[rows, side] == PointKind.TANGENT
+    for row, at in zip(rows[tangent].tolist(), side[tangent].tolist(), strict=True):
+        along = state.rows.direction.data[row, at]
+        if row not in joined and along.any():
             unit = along / np.sqrt((along * along).sum())
             yield _make(state, line, "tangent", np.array([row]), direction=unit)
 
@@ -205,7 +206,7 @@ def _straight(state: HullState, piece: _Piece) -> Feature | None:
         if (each * chord).sum() < np.cos(_ALONG) * np.sqrt(square):
             return None
     found = _make(state, piece.line, "straight", piece.rows)
-    return found if found.gap <= _LOOSE else None
+    return found if found.gap <= LOOSE else None
 
 
 def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:

@@ -5,14 +5,17 @@ Examples
 >>> from assoc_hull.edit.follow_features import followed
 >>> from assoc_hull.examples.wigley import wigley
 >>> from assoc_hull.model.feature import Feature
+>>> from assoc_hull.model.feature_shape import line_numbers
 >>> state = wigley(stations=5, waterlines=4)
 >>> line, rows = state.lines.key.data[4], state.curves.rows.data[state.lines.curves.data[4][0]]
 >>> run = Feature("run", "straight", "run", (line,), rows[[0, 2]].tolist())
->>> followed(state, run).points == tuple(rows[:3].tolist())
+>>> followed(state, run, line_numbers(state)).points == tuple(rows[:3].tolist())
 True
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
@@ -23,10 +26,10 @@ from assoc_hull.model.feature import FEATURE_LEAST, Feature
 from assoc_hull.model.feature_shape import ROUNDING, host_curve
 from assoc_hull.model.state import HullState
 
-__all__ = ["followed"]
+__all__ = ["followed", "in_plane"]
 
 
-def followed(state: HullState, feature: Feature) -> Feature | None:
+def followed(state: HullState, feature: Feature, numbers: Mapping[str, int]) -> Feature | None:
     """Give a feature as it lies on its line now.
 
     Parameters
@@ -35,14 +38,15 @@ def followed(state: HullState, feature: Feature) -> Feature | None:
         The tables.
     feature : Feature
         As it was; its points may have gone.
+    numbers : mapping of str to int
+        The live lines, by key.
 
     Returns
     -------
     Feature or None
         None if its line, one of its ends or too much of it has gone.
     """
-    keys = state.lines.key.data
-    lines = [line for line in state.live("lines").tolist() if keys[line] in feature.lines]
+    lines = [numbers[key] for key in feature.lines if key in numbers]
     if len(lines) < len(feature.lines):
         return None
     if feature.kind in ("flat", "knuckle"):
@@ -52,7 +56,7 @@ def followed(state: HullState, feature: Feature) -> Feature | None:
         rows = _between_ends(state, feature, lines)
     if rows is None or len(rows) < FEATURE_LEAST[feature.kind]:
         return None
-    return _in_plane(state, attrs.evolve(feature, points=rows.tolist()), lines[0])
+    return in_plane(state, attrs.evolve(feature, points=rows.tolist()), lines[0])
 
 
 def _between_ends(state: HullState, feature: Feature, lines: list[int]) -> IntArray | None:
@@ -76,8 +80,14 @@ def _stands(state: HullState, rows: IntArray, row: int) -> int:
     return int(at[0]) if len(at) else -1
 
 
-def _in_plane(state: HullState, feature: Feature, line: int) -> Feature | None:
-    """Lay a feature into the plane of its line; turn a join as its point is turned."""
+def in_plane(state: HullState, feature: Feature, line: int) -> Feature | None:
+    """Lay a feature into the plane of its line; turn a join as its point is turned.
+
+    Returns
+    -------
+    Feature or None
+        None for a join whose point is no tangent point any more.
+    """
     if feature.kind == "tangent":
         return _turned(state, feature)
     if feature.normal is None or not state.lines.planar.data[line]:

@@ -7,19 +7,19 @@ between its ends are its own now, and it lies in the plane of its line.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.carry_features import CarriedFeatures
-from assoc_hull.edit.find_features import find_features
-from assoc_hull.edit.follow_features import followed
+from assoc_hull.edit.find_features import LOOSE, find_features
+from assoc_hull.edit.follow_features import followed, in_plane
 from assoc_hull.edit.work import Work
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.feature import Feature
-from assoc_hull.model.feature_shape import ROUNDING, places_off
+from assoc_hull.model.feature_shape import ROUNDING, line_numbers, places_off
 from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState
 
@@ -34,9 +34,13 @@ _Hand = set[tuple[int, int]]
 
 @attrs.define(eq=False)
 class _Settling:
-    """Features while they are settled: those kept, by key, and what is told of the others."""
+    """Features while they are settled: those kept, by key, and what is told of the others.
+
+    `lines` holds the numbers of the live lines by key.
+    """
 
     kept: dict[str, Feature]
+    lines: dict[str, int]
     notes: list[str] = attrs.field(factory=list)
     lost: list[str] = attrs.field(factory=list)
     bent: list[str] = attrs.field(factory=list)
@@ -60,7 +64,7 @@ def settle_features(work: Work, rows: IntArray) -> None:
     if not affected and not fresh:
         return
     hand = pending.by_hand | _moved_by_hand(work, rows)
-    found = _Settling({each.key: each for each in before})
+    found = _Settling({each.key: each for each in before}, line_numbers(state))
     for number in affected:
         _settle(work, found, before[number], hand, whole=whole)
     _find_anew(state, found, before, fresh)
@@ -111,14 +115,12 @@ def _owners(state: HullState) -> tuple[IntArray, IntArray]:
 def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: bool) -> None:
     """Keep a feature, as it has become, or dissolve it."""
     state = work.state
-    new = followed(state, old) if whole else old
+    new = followed(state, old, found.lines) if whole else old
     touched = _by_hand(state, old, hand) or (_by_hand(state, new, hand) if new else "")
     if touched:
         found.notes.append(f"the feature {old.name!r} is dissolved: {touched} was set by hand")
     elif new is None:
-        alive = state.live("lines").tolist()
-        if any(state.lines.key.data[line] in old.lines for line in alive):
-            found.lost.append(old.name)
+        found.lost += [old.name] if set(old.lines) & found.lines.keys() else []
     else:
         stays = _held(state, new, work.pending.features)
         if stays is not None:
@@ -133,9 +135,12 @@ def _held(state: HullState, feature: Feature, carried: CarriedFeatures | None) -
     off = float(places_off(feature, state.rows.xyz.data[list(feature.points)]).max())
     if off <= feature.gap + ROUNDING:
         return feature
-    if carried is None or (feature.key in carried.bent and np.isfinite(carried.within)):
+    if carried is None:
         return None
-    return attrs.evolve(feature, gap=round(off, 9)) if off <= carried.within else None
+    if np.isinf(carried.within):
+        return feature
+    stays = feature.key not in carried.bent and off <= carried.within
+    return attrs.evolve(feature, gap=round(off, 9)) if stays else None
 
 
 def _by_hand(state: HullState, feature: Feature, hand: _Hand) -> str:
@@ -154,18 +159,31 @@ def _find_anew(
     """Find the features of lines that were cut; one of a name that was there keeps its key."""
     if not fresh:
         return
-    known = {(each.lines, each.name): each.key for each in before if fresh.issuperset(each.lines)}
+    known = {(each.lines, each.name): each for each in before if fresh.issuperset(each.lines)}
     old = {each.key for each in found.kept.values() if fresh.issuperset(each.lines)}
     found.kept = {key: each for key, each in found.kept.items() if key not in old}
     names = set[tuple[tuple[str, ...], str]]()
     for each in find_features(state, lines=fresh):
-        key = known.get((each.lines, each.name), each.key)
-        found.kept[key] = attrs.evolve(each, key=key)
+        new = _as_before(state, found.lines, known.get((each.lines, each.name)), each)
+        found.kept[new.key] = new
         names.add((each.lines, each.name))
     told = {*found.lost, *found.bent}
     found.lost = [each for each in found.lost if each not in {name for _, name in names}]
     found.bent = [each for each in found.bent if each not in {name for _, name in names}]
     found.bent += [name for lines, name in known if (lines, name) not in names and name not in told]
+
+
+def _as_before(
+    state: HullState, lines: Mapping[str, int], old: Feature | None, new: Feature
+) -> Feature:
+    """Give a feature found anew the key it had, and the circle it had where that fits as well."""
+    if old is None or old.kind != new.kind:
+        return new
+    again = in_plane(state, attrs.evolve(old, points=new.points), lines[new.lines[0]])
+    off = places_off(again, state.rows.xyz.data[list(new.points)]) if again else np.ones(1)
+    if again is None or off.max() > LOOSE:
+        return attrs.evolve(new, key=old.key)
+    return attrs.evolve(again, gap=round(float(off.max()), 9))
 
 
 def _told(reason: str, names: Sequence[str]) -> list[str]:

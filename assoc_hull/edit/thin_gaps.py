@@ -7,13 +7,12 @@ adoption tolerance, the curve that passes its own line farther there needs anoth
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
 
 from assoc_hull.edit.match import Meeting
-from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import derivative
 from assoc_hull.model.gaps import crossing_normals
@@ -74,14 +73,8 @@ def _tangents(reference: SplineBatch, curve: IntArray, at: FloatArray) -> FloatA
 
 def _off(trial: SplineBatch, meetings: Sequence[Meeting], normal: FloatArray) -> FloatArray:
     """Give how far each of the two curves lies off its own line along the normal, (k, 2), m."""
-    mine: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    for i, each in enumerate(meetings):
-        mine[each.a].append((i, 0))
-        mine[each.b].append((i, 1))
-    off = np.zeros((len(meetings), 2))
-    for curve, places in mine.items():
-        spots = np.array([meetings[i].spots[side] for i, side in places])
-        away = closest(trial, curve, spots)[1] - spots
-        number = np.array(places)
-        off[number[:, 0], number[:, 1]] = (away * normal[number[:, 0]]).sum(axis=1)
-    return off
+    sides = [[each.a, each.b] for each in meetings]
+    spots = np.array([each.spots for each in meetings]).reshape(-1, 3)
+    foot = closest_each(trial, np.array(sides, np.int64).ravel(), spots)[1]
+    away = (foot - spots).reshape(-1, 2, 3)
+    return np.asarray((away * normal[:, None]).sum(axis=2))

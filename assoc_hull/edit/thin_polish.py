@@ -142,12 +142,13 @@ def _shape(work: Work, curve: int, order: list[Item], goal: int) -> _Shape:
 
 
 def _part(work: Work, curve: int, order: list[Item], splines: SplineBatch, number: int) -> float:
-    away = distances(work, curve, order, splines, number)[0]
+    away = distances(work, [curve], [order], splines, [number])[0][0]
     return float((away / work.net.sources[curve].tolerance).max())
 
 
 def _left(work: Work, curve: int, order: list[Item]) -> Left:
     """Say which given point is passed farthest off for its tolerance."""
-    away, beside = distances(work, curve, order, loft_orders(work, [curve], [order]), 0)
+    spline = loft_orders(work, [curve], [order])
+    away, beside = distances(work, [curve], [order], spline, [0])[0]
     point = int((away / work.net.sources[curve].tolerance).argmax())
     return Left(curve, point, float(away[point]), float(beside[point]), True)

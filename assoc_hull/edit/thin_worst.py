@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -17,8 +17,8 @@ from assoc_hull.edit.thin_work import (
     knots_of,
     thinned_at,
 )
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
+from assoc_hull.geometry.closest import closest_each
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.model.family import Role
 
 __all__ = ["distances", "find_wide", "find_worst"]
@@ -37,11 +37,12 @@ def find_worst(
     """
     found: list[tuple[int, int]] = []
     left: list[Left] = []
-    for curve, source in enumerate(net.sources):
-        numbers = [item.number for item in orders[curve]]
-        if work.held.get(curve) == numbers:  # made through the same points as when it held
-            continue
-        away, beside = distances(work, curve, orders[curve], splines, curve)
+    numbers = [[item.number for item in order] for order in orders]
+    # A curve made through the same points as when it held its line holds it still.
+    todo = [i for i, order in enumerate(numbers) if work.held.get(i) != order]
+    measured = distances(work, todo, [orders[i] for i in todo], splines, todo)
+    for curve, (away, beside) in zip(todo, measured, strict=True):
+        source = net.sources[curve]
         for point in np.flatnonzero(away > source.tolerance).tolist():
             close = beside[point] < net.state.tolerances.adopted_spacing
             if close and not source.dense and thinned_at(work, curve, point) is None:
@@ -53,7 +54,7 @@ def find_worst(
         if worst >= 0:
             found.append((curve, worst))
         elif not any(each.curve == curve for each in left):
-            work.held[curve] = numbers
+            work.held[curve] = numbers[curve]
     return found, left
 
 
@@ -87,44 +88,75 @@ def _rooms(
 
 
 def distances(
-    work: Work, curve: int, order: list[Item], splines: SplineBatch, number: int
-) -> tuple[FloatArray, FloatArray]:
-    """Give how far a curve passes the given points, and how far they are from defining ones.
+    work: Work,
+    curves: Sequence[int],
+    orders: Sequence[list[Item]],
+    splines: SplineBatch,
+    numbers: Sequence[int],
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Give how far curves pass the given points, and how far those are from defining ones.
 
     Parameters
     ----------
     work : Work
         What was given.
-    curve : int
-        The curve.
-    order : list of Item
-        What defines it.
-    splines, number : SplineBatch, int
-        A batch with the curve lofted through them, and which of its curves that is.
+    curves : (m,) int
+        The curves.
+    orders : (m,) list of Item
+        What defines each.
+    splines, numbers : SplineBatch, (m,) int
+        A batch with the curves lofted through them, and which of its curves they are.
 
     Returns
     -------
-    away : (n,), m
-        Nil at a defining point; of a dense line, also where there is no room for one more.
-    beside : (n,), m
-        From the nearest defining point.
+    (m,) pairs
+        away : (n,), m
+            Nil at a defining point; of a dense line, also where there is no room for one more.
+        beside : (n,), m
+            From the nearest defining point.
     """
-    net, source = work.net, work.net.sources[curve]
+    pairs = list(zip(curves, orders, strict=True))
+    measured = [_beside(work, curve, order) for curve, order in pairs]
+    asked = [
+        work.net.sources[curve].points[there]
+        for curve, (there, _) in zip(curves, measured, strict=True)
+    ]
+    sizes = [len(points) for points in asked]
+    off = closest_each(
+        splines,
+        np.repeat(np.array(numbers, np.int64), sizes),
+        np.concatenate([np.zeros((0, 3)), *asked]),
+    )[2]
+    found, begin = [], 0
+    for (curve, order), (there, beside) in zip(pairs, measured, strict=True):
+        away = np.zeros(len(beside))
+        away[there] = off[begin : begin + len(there)]
+        begin += len(there)
+        _close_off(work, curve, order, away)
+        found.append((away, beside))
+    return found
+
+
+def _beside(work: Work, curve: int, order: list[Item]) -> tuple[IntArray, FloatArray]:
+    """Find the given points of a curve that define it not, and how far all are from those."""
     known = work.given.xyz[work.numbers(order)]
-    step = source.points[:, None, :] - known[None, :, :]
-    open_ = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME)
-    away = np.zeros(len(source.points))
-    away[open_] = closest(splines, number, source.points[open_])[2]
-    if source.dense:
+    step = work.net.sources[curve].points[:, None, :] - known[None, :, :]
+    there = np.flatnonzero(np.abs(step).max(axis=2).min(axis=1) > SAME)
+    return there, np.sqrt((step * step).sum(axis=2)).min(axis=1)
+
+
+def _close_off(work: Work, curve: int, order: list[Item], away: FloatArray) -> None:
+    """Pass over the points of a dense line where there is no room for one more."""
+    if work.net.sources[curve].dense:
         edges = np.array([item.at for item in order])
-        away[~room(edges, knots_of(work, curve), net.state.tolerances.adopted_spacing)] = 0.0
-    return away, np.sqrt((step * step).sum(axis=2)).min(axis=1)
+        spacing = work.net.state.tolerances.adopted_spacing
+        away[~room(edges, knots_of(work, curve), spacing)] = 0.0
 
 
 def _sharp(work: Work, curve: int, order: list[Item]) -> int:
     """Give a given point where the chords of a dense line would fold; -1 if nowhere."""
     edges = np.array([item.at for item in order])
     numbers = work.numbers(order)
-    kind, _ = work.given.on(np.array(curve, np.int64), numbers)
+    kind, _ = work.given.on(np.array(curve), numbers)
     known = work.given.xyz[numbers]
     return sharp(known, edges, knots_of(work, curve), kind == PointKind.KNUCKLE)

@@ -113,6 +113,7 @@ def transform(
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
     cut_followers(work)
+    _watch(edit, work)
     added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
     let_go(edit, work)
     take_out(edit, work)
@@ -184,12 +185,31 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
     fresh = [row for _, row in work.contacts]
-    pending.computed |= set(fresh)
+    pending.computed |= set(fresh) | work.driven
     pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())
     pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
     pending.relink |= set(state.live("curves").tolist())
+
+
+def _watch(edit: Transaction, work: Carried) -> None:
+    """Let crossings define neither of their curves any more."""
+    rows = np.array(sorted(work.watched), np.int64)
+    if not len(rows):
+        return
+    edit.maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
+    limit = 2.0 * edit.state.tolerances.adoption
+    edit.journal.put(edit.state.rows.limit, rows, np.full(len(rows), limit))
+    for curve, part in work.made.items():
+        if work.drives(curve):
+            kept = [i for i, row in enumerate(part.row) if row not in work.watched]
+            part.row, part.place = [part.row[i] for i in kept], [part.place[i] for i in kept]
+            part.at = [part.at[i] for i in kept]
+    edit.pending.notes.append(
+        f"{len(rows)} crossings of lines that a mapping carried with lines that were cut again "
+        "are watched now: there the two agree within the tolerance of adoption"
+    )
 
 
 def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> None:

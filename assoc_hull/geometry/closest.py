@@ -7,6 +7,9 @@ next minimum of a search. Segments whose box is farther than the nearest knot ar
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -14,9 +17,9 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import unit_roots
-from assoc_hull.geometry.segments import bernstein, power
+from assoc_hull.geometry.segments import bernstein, power, segment_start
 
-__all__ = ["closest"]
+__all__ = ["closest", "closest_each"]
 
 _PAIRS = 200_000  # pairs of point and segment that are looked at together
 _TIE = 16 * np.finfo(np.float64).eps  # of the coordinates: rounding of a distance
@@ -73,10 +76,59 @@ def closest(
             "give an index from 0",
         )
     rows = _checked(points)
-    curve = batch if batch.count == 1 else batch.curve(int(curve_index))
-    size = max(1, _PAIRS // max(1, len(curve.knot) - 1))
-    parts = [_nearest(curve, rows[i : i + size]) for i in range(0, max(1, len(rows)), size)]
-    t, xyz, distance = (np.concatenate(part) for part in zip(*parts, strict=True))
+    curve = batch if batch.count == 1 else batch.part(int(curve_index), int(curve_index) + 1)
+    return _nearest(curve, np.zeros(len(rows), np.int64), rows)
+
+
+def closest_each(
+    batch: SplineBatch, curves: IntArray, points: ArrayLike
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Find for each of many points the closest point of a curve of its own.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    curves : (k,) int
+        The curve of each point.
+    points : (k, 3), m
+        The points.
+
+    Returns
+    -------
+    t, xyz, distance : (k,), (k, 3), (k,), m
+        As `closest` gives them, to the last bit.
+
+    Raises
+    ------
+    BadInputError
+        There is no such curve, or the points are not rows of three finite numbers.
+    TooFewPointsError
+        A curve has fewer than two points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.closest import closest_each
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> xyz = np.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0], [4, 3, 0]])
+    >>> along = np.ones((4, 1)) * [1.0, 0, 0]
+    >>> lines = SplineBatch(np.array([0, 2, 4]), np.array([0.0, 4, 0, 4]), xyz, along, along)
+    >>> closest_each(lines, np.array([1, 0]), [[1, 2, 0], [1, 2, 0]])[2].tolist()
+    [1.0, 2.0]
+    """
+    rows, curves = _checked(points), np.asarray(curves, np.int64)
+    if curves.shape != rows.shape[:1] or np.any((curves < 0) | (curves >= batch.count)):
+        raise BadInputError(
+            f"{len(rows)} points, and curves {curves.tolist()[:9]} of a batch of {batch.count}",
+            "where the closest points were asked",
+            "give each point an index from 0",
+        )
+    order = np.argsort(curves, kind="stable")
+    found = _nearest(batch, curves[order], rows[order])
+    back = np.empty(len(order), np.int64)
+    back[order] = np.arange(len(order))
+    t, xyz, distance = (part[back] for part in found)
     freeze(t, xyz, distance)
     return t, xyz, distance
 
@@ -93,15 +145,58 @@ def _checked(points: ArrayLike) -> FloatArray:
     return rows
 
 
-def _nearest(curve: SplineBatch, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give t, position and distance of the closest points of the one curve."""
-    if len(points) == 0:
-        return np.zeros(0), np.zeros((0, 3)), np.zeros(0)
-    item, segment = _candidates(curve, points)
-    t, xyz, distance = _extremes(curve, segment, points[item])
+def _nearest(
+    batch: SplineBatch, curves: IntArray, points: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give t, position and distance of the closest points; the curves ascend."""
+    parts = [_nearest_of(batch, runs, points) for runs in _portions(batch, curves)]
+    none = (np.zeros(0), np.zeros((0, 3)), np.zeros(0))
+    t, xyz, distance = (np.concatenate(each) for each in zip(none, *parts, strict=True))
+    freeze(t, xyz, distance)
+    return t, xyz, distance
+
+
+_Run = tuple[int, int, int]
+"""A curve, its first point, and the one after its last."""
+
+
+def _portions(batch: SplineBatch, curves: IntArray) -> Iterator[list[_Run]]:
+    """Divide points by their curves, and into portions that need little memory."""
+    portion, room = list[_Run](), _PAIRS
+    edges = [0, *(np.flatnonzero(np.diff(curves)) + 1).tolist(), len(curves)]
+    for first, last in itertools.pairwise(edges if len(curves) else []):
+        curve = int(curves[first])
+        segments = max(1, int(batch.start[curve + 1] - batch.start[curve]) - 1)
+        size = max(1, _PAIRS // segments)
+        for begin in range(first, last, size):
+            end = min(begin + size, last)
+            if portion and (end - begin) * segments > room:
+                yield portion
+                portion, room = [], _PAIRS
+            portion.append((curve, begin, end))
+            room -= (end - begin) * segments
+    if portion:
+        yield portion
+
+
+def _nearest_of(
+    batch: SplineBatch, runs: list[_Run], points: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give the closest points of a portion."""
+    low = runs[0][1]
+    points = points[low : runs[-1][2]]
+    items, segments, slack = [], [], np.abs(points).max(axis=1)
+    for number, begin, end in runs:
+        curve = batch if batch.count == 1 else batch.part(number, number + 1)
+        mine = slice(begin - low, end - low)
+        item, segment = _candidates(curve, points[mine])
+        items.append(item + (begin - low))
+        segments.append(segment + (int(batch.start[number]) - number))
+        slack[mine] = _TIE * (np.abs(curve.xyz).max() + slack[mine])
+    item, segment = np.concatenate(items), np.concatenate(segments)
+    t, xyz, distance = _extremes(batch, segment, points[item])
     begins = np.searchsorted(item, np.arange(len(points)))
     least = np.minimum.reduceat(distance.min(axis=1), begins)
-    slack = _TIE * (np.abs(curve.xyz).max() + np.abs(points).max(axis=1))
     # Pairs and their places run along the curve, so the first good one has the lowest t.
     good = distance <= (least + slack)[item][:, None]
     rank = np.where(good, np.arange(good.size).reshape(good.shape), good.size)
@@ -126,21 +221,21 @@ def _candidates(curve: SplineBatch, points: FloatArray) -> tuple[IntArray, IntAr
 
 
 def _extremes(
-    curve: SplineBatch, segment: IntArray, points: FloatArray
+    batch: SplineBatch, segment: IntArray, points: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Give t, position and distance of all extremes and ends, (p, 7) for p pairs."""
-    local = power(curve)[segment].copy()
+    local, knot = power(batch)[segment], segment_start(batch)[segment]
     local[:, 0] -= points
     roots = unit_roots(_quintic(local, differentiate(local)))
     end = np.ones((len(segment), 1))
     u = np.concatenate([0.0 * end, roots, end], axis=1)
     place, at = points[:, None], u[:, :, None]
-    begin, finish = curve.xyz[segment, None], curve.xyz[segment + 1, None]
+    begin, finish = batch.xyz[knot, None], batch.xyz[knot + 1, None]
     offset = np.where(at == 1.0, finish - place, horner(local, u))
     distance = np.sqrt((offset * offset).sum(axis=2))
     # At a knot the defining point itself, whatever rounding says.
     xyz = np.where(at == 0.0, begin, np.where(at == 1.0, finish, offset + place))
-    low, high = curve.knot[segment, None], curve.knot[segment + 1, None]
+    low, high = batch.knot[knot, None], batch.knot[knot + 1, None]
     t = np.where(u == 1.0, high, low + u * (high - low))
     return t, xyz, distance
 

@@ -4,8 +4,8 @@ Examples
 --------
 >>> from assoc_hull.examples.wigley import wigley
 >>> from assoc_hull.model.feature_handle import features_by_name
->>> len(features_by_name(wigley(stations=5, waterlines=4)))
-0
+>>> features_by_name(wigley(stations=5, waterlines=4))["ST 2 straight"]
+<straight ST 2 straight, 2 points>
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Mapping
 import attrs
 
 from assoc_hull.model.feature import Feature, Place
+from assoc_hull.model.feature_shape import line_numbers
 from assoc_hull.model.line import Line
 from assoc_hull.model.named import Named
 from assoc_hull.model.point import Point
@@ -72,7 +73,7 @@ class FeatureHandle:
     @property
     def lines(self) -> tuple[Line, ...]:
         """The lines that it lies on."""
-        numbers = {self.tables.lines.key.data[line]: line for line in self._live()}
+        numbers = line_numbers(self.tables)
         return tuple(Line.of(self.tables, numbers[key]) for key in self.feature.lines)
 
     @property
@@ -85,10 +86,6 @@ class FeatureHandle:
             side = 0 if self.tables.lines.key.data[self.tables.line_of(first)] in mine else 1
             found.append(Point(self.tables, row, str(table.key.data[row]), side))
         return tuple(found)
-
-    def _live(self) -> list[int]:
-        numbers: list[int] = self.tables.live("lines").tolist()
-        return numbers
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}, {len(self.feature.points)} points>"

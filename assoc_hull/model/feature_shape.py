@@ -19,7 +19,7 @@ from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.feature import Feature
 from assoc_hull.model.state import HullState
 
-__all__ = ["ROUNDING", "host_curve", "places_off"]
+__all__ = ["ROUNDING", "host_curve", "line_numbers", "places_off"]
 
 ROUNDING = 1e-6
 """Points this near (m) to a feature, its gap aside, lie on it."""
@@ -61,6 +61,12 @@ def _off_chord(xyz: FloatArray) -> FloatArray:
     square = float((chord * chord).sum()) or 1.0
     across = away - (dot(away, chord) / square)[:, None] * chord
     return np.sqrt(dot(across, across))
+
+
+def line_numbers(state: HullState) -> dict[str, int]:
+    """Give the numbers of the live lines by key."""
+    keys = state.lines.key.data
+    return {str(keys[line]): line for line in state.live("lines").tolist()}
 
 
 def host_curve(state: HullState, feature: Feature) -> int:

@@ -25,7 +25,7 @@ from assoc_hull.variation.drawn import Drawn
 __all__ = ["parallel_body_end", "parallel_body_start"]
 
 _LEVEL = 1e-6
-"""Defining points of a level run differ by less, in parts of the breadth."""
+"""Neighbouring points of a level run differ by less, in parts of the breadth."""
 
 _SHORT = 0.02
 """Of Lpp: what is level over less is no parallel middle body."""
@@ -86,12 +86,15 @@ def _of_flats(hull: Drawn) -> _Ends | None:
 
 
 def _level_run(xyz: FloatArray, axis: int, within: float) -> tuple[float, float]:
-    """Give the longest stretch in x along which a border is broadest (axis 1) or lowest (2)."""
-    value = xyz[:, axis] if axis == 1 else -xyz[:, axis]
-    on = np.concatenate([[False], value >= value.max() - within, [False]])
-    step = np.diff(on.astype(np.int8))
-    first, last = np.flatnonzero(step == 1), np.flatnonzero(step == -1) - 1
-    begin, end = xyz[first, 0], xyz[last, 0]
+    """Give the longest stretch in x along which y (axis 1) or z (axis 2) of a border stays.
+
+    It need not be the broadest or lowest: a bilge that was made larger is so amidships only.
+    """
+    level = np.concatenate([[False], np.abs(np.diff(xyz[:, axis])) <= within, [False]])
+    step = np.diff(level.astype(np.int8))
+    begin, end = xyz[np.flatnonzero(step == 1), 0], xyz[np.flatnonzero(step == -1), 0]
+    if not len(begin):
+        return 0.0, 0.0
     longest = int(np.abs(end - begin).argmax())
     ends = sorted((float(begin[longest]), float(end[longest])))
     return ends[0], ends[1]
@@ -106,19 +109,20 @@ def _of_areas(hull: Drawn) -> _Ends | str:
         return f"parent has no section areas: {error}"
     if found.level is None:
         return "parent has no parallel middle body"
-    least = (1.0 - EQUAL) * found.largest
+    least, spans = (1.0 - EQUAL) * found.largest, shape.body.spans
 
     def spare(x: float) -> float:
-        return float(areas_at(shape.body.spans, np.array([x]), shape.planes)[0]) - least
+        return float(areas_at(spans, np.array([x]), shape.planes)[0]) - least
 
-    start, end = (_sought(spare, x) for x in found.level)
+    ends = float(spans.aft.min()), float(spans.fore.max())
+    start, end = (_sought(spare, x, ends) for x in found.level)
     how = "where section areas below the draught are the largest but for 1e-4 of it"
     return _Ends(start, end, how)
 
 
-def _sought(spare: Callable[[float], float], x: float) -> float:
-    """Find finely where something becomes nil, m; where it does not pass nil stays what it is."""
-    low, high = x - _NEAR, x + _NEAR
+def _sought(spare: Callable[[float], float], x: float, ends: tuple[float, float]) -> float:
+    """Find finely where something becomes nil within a hull, m; x if it does not near there."""
+    low, high = max(x - _NEAR, ends[0]), min(x + _NEAR, ends[1])
     if spare(low) * spare(high) >= 0.0:
         return x
     return float(brentq(spare, low, high, xtol=1e-12, rtol=1e-14))

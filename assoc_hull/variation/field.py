@@ -17,6 +17,7 @@ circle.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Literal
 
 import attrs
@@ -188,7 +189,23 @@ class Field:
         return attrs.evolve(self, pieces=tuple(each.scaled(factor) for each in self.pieces))
 
     def displacement(self, xyz: FloatArray) -> FloatArray:
-        """Give u, (n,), m, at places (n, 3), m."""
+        """Give u, (n,), m, at places (n, 3), m; only those in the region are looked at."""
+        some = self._touched(xyz)
+        u = np.zeros(len(xyz))
+        u[some] = self._displacement(xyz[some])
+        return u
+
+    def _touched(self, xyz: FloatArray) -> np.typing.NDArray[np.int64]:
+        """Give which places lie in the region."""
+        found = np.ones(len(xyz), bool)
+        for axis, (low, high) in ((0, self._region.x), (2, self._region.z)):
+            if low > -np.inf:
+                found &= xyz[:, axis] >= low
+            if high < np.inf:
+                found &= xyz[:, axis] <= high
+        return np.flatnonzero(found)
+
+    def _displacement(self, xyz: FloatArray) -> FloatArray:
         x, z = xyz[:, 0], xyz[:, 2]
         c = self._own(xyz)
         low, s = self.strip(x, z)
@@ -245,6 +262,10 @@ class Field:
 
     def region(self) -> Region:
         """Give the box of the profile plane outside which u is exactly nil."""
+        return self._region
+
+    @cached_property
+    def _region(self) -> Region:
         acts = [_acts(each.a) or _acts(each.d) for each in self.pieces]
         spans = [
             span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)

@@ -1,11 +1,11 @@
 """The inverse of a map: where places of the varied hull come from.
 
 Layers are undone in reverse order. A layer of fields moves x and z by what depends on x and z
-alone: these two first, by Newton's rule, then y. A corner or deadrise layer leaves x and couples
-y and z; any other layer is solved for all three at once. A step is halved as long as the residual
-grows. Where the rule stalls, nested bracketed roots take over: if all principal minors of the
-Jacobian are positive (which the fold check demands), the innermost equation rises in its unknown,
-and so does every outer one once the inner ones are solved.
+alone: these two first, by Newton's rule, then y. A corner or deadrise layer leaves x, additive
+functions have an x of their own; both couple y and z. Any other layer is solved for all three at
+once. A step is halved as long as the residual grows. Where the rule stalls, nested bracketed roots
+take over: if all principal minors of the Jacobian are positive (which the fold check demands), the
+innermost equation rises in its unknown, and so does every outer one once the inner ones are solved.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from assoc_hull.arguments import places
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.false_position import false_position
+from assoc_hull.variation.additive import AdditiveLayer
 from assoc_hull.variation.corner import CornerLayer
 from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.layer import Layer
@@ -42,6 +43,7 @@ _FAR = 1e6
 """A bracket reaches so far at most, m: beyond, no place has a meaning."""
 
 _BLOCKS: dict[type, tuple[Axes, ...]] = {
+    AdditiveLayer: ((0,), (1, 2)),
     FieldLayer: ((0, 2), (1,)),
     CornerLayer: ((0,), (1, 2)),
     DeadriseLayer: ((0,), (1, 2)),

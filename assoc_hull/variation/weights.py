@@ -8,20 +8,21 @@ amplitude, at the places and for the coordinates that anything moves at all.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import numbers, places
+from assoc_hull.arguments import places
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.variation.layer import Layer
 
 __all__ = ["FieldPlan", "Moving"]
 
-_BLOCK = 1 << 14
-"""So many numbers are worked on at once: they stay in the fast memory."""
+_BLOCK = 30
+"""So many variants are worked on at once: they stay in the fast memory, on one core."""
 
 
 @attrs.frozen(eq=False)
@@ -48,20 +49,24 @@ class Moving:
     def __attrs_post_init__(self) -> None:
         freeze(self.rows, self.start, self.weights)
 
-    def at(self, amplitudes: FloatArray) -> FloatArray:
-        """Give the coordinate in variants: amplitudes (m, k) to (m, t), m."""
-        count = len(amplitudes)
-        found = np.empty((count, len(self.rows)))
-        together = max(1, _BLOCK // max(1, len(self.rows)))
-        spare = np.empty((min(count, together), len(self.rows)))
-        for first in range(0, count, together):
-            part = amplitudes[first : first + together]
-            into, more = found[first : first + together], spare[: len(part)]
-            np.multiply(part[:, :1], self.weights[0], out=into)
-            for k in range(1, len(self.weights)):
-                into += np.multiply(part[:, k : k + 1], self.weights[k], out=more)
-            into += self.start
+    def one(self, amplitudes: Sequence[float]) -> FloatArray:
+        """Give the coordinate in one variant, (t,), m."""
+        found: FloatArray = self.weights[0] * amplitudes[0]
+        for weights, amplitude in zip(self.weights[1:], amplitudes[1:], strict=True):
+            found += weights * amplitude
+        found += self.start
         return found
+
+    def many(self, amplitudes: FloatArray, out: FloatArray) -> FloatArray:
+        """Give the coordinate in variants: amplitudes (m, k) to `out` (m, t), m."""
+        count, k = amplitudes.shape
+        factors = np.ones((count, k + 1))
+        factors[:, :k] = amplitudes
+        whole = np.vstack([self.weights, self.start])
+        for first in range(0, count, _BLOCK):
+            some = slice(first, first + _BLOCK)
+            np.matmul(factors[some], whole, out=out[some])
+        return out
 
 
 @attrs.frozen(eq=False)
@@ -125,52 +130,81 @@ class FieldPlan:
                 found.append(Moving(axis, rows, given[rows, axis], weights))
         return cls(given, len(units), tuple(found))
 
-    def places(self, amplitudes: ArrayLike) -> FloatArray:
-        """Give the places of one variant, (n, 3), m, frozen; what does not move keeps its bits.
+    def moved(self, amplitudes: Sequence[float] | FloatArray) -> tuple[FloatArray, ...]:
+        """Give what moves in one variant.
 
         Parameters
         ----------
         amplitudes : (k,)
             One for each layer.
 
+        Returns
+        -------
+        tuple of (t,) arrays, m
+            For each of `moving`, its coordinate of its places.
+
         Raises
         ------
         BadInputError
             Another number of amplitudes, or not finite.
         """
-        given = self._checked(numbers(amplitudes, "amplitudes", "in a plan of fields")[None])
+        given = np.asarray(amplitudes, np.float64)
+        row: list[float] = given.tolist()
+        if given.shape != (self.count,) or not all(map(isfinite, row)):
+            raise self._refused(given)
+        return tuple([each.one(row) for each in self.moving])
+
+    def places(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
+        """Give the places of one variant, (n, 3), m, frozen; what does not move keeps its bits.
+
+        Raises
+        ------
+        BadInputError
+            As for `moved`.
+        """
         found = self.xyz.copy()
-        for each in self.moving:
-            found[each.rows, each.axis] = each.at(given)[0]
+        for each, values in zip(self.moving, self.moved(amplitudes), strict=True):
+            found[each.rows, each.axis] = values
         freeze(found)
         return found
 
-    def batch(self, amplitudes: ArrayLike) -> tuple[FloatArray, ...]:
+    def batch(
+        self, amplitudes: ArrayLike, out: Sequence[FloatArray] | None = None
+    ) -> tuple[FloatArray, ...]:
         """Give what moves in many variants.
 
         Parameters
         ----------
         amplitudes : (m, k)
             Variant by variant.
+        out : sequence of (m, t) arrays or None
+            Memory to be written to, as an earlier batch gave it: fresh memory is dear.
 
         Returns
         -------
         tuple of (m, t) arrays, m
             For each of `moving`, its coordinate of its places; all other numbers are those of the
-            parent. Bit for bit what `places` gives.
+            parent. It is what `moved` gives, to rounding.
 
         Raises
         ------
         BadInputError
-            Another number of amplitudes, or not finite.
+            As for `moved`; memory of another shape.
         """
-        given = self._checked(np.asarray(amplitudes, np.float64))
-        return tuple(each.at(given) for each in self.moving)
-
-    def _checked(self, given: FloatArray) -> FloatArray:
+        given = np.asarray(amplitudes, np.float64)
         if given.ndim != 2 or given.shape[1] != self.count or not np.isfinite(given).all():
+            raise self._refused(given)
+        shapes = [(len(given), len(each.rows)) for each in self.moving]
+        memory = [np.empty(shape) for shape in shapes] if out is None else list(out)
+        if [each.shape for each in memory] != shapes:
             raise BadInputError(
-                f"amplitudes of shape {given.shape}, or not finite", "in a plan of fields",
-                f"give {self.count} for each variant",
+                f"memory of shapes {[each.shape for each in memory]}", "in a plan of fields",
+                f"give {shapes}",
             )  # fmt: skip
-        return given
+        return tuple(each.many(given, into) for each, into in zip(self.moving, memory, strict=True))
+
+    def _refused(self, given: FloatArray) -> BadInputError:
+        return BadInputError(
+            f"amplitudes of shape {given.shape}, or not finite", "in a plan of fields",
+            f"give {self.count} for each variant",
+        )  # fmt: skip

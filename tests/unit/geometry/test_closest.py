@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.closest import closest, closest_each
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.polynomials import horner
 from assoc_hull.geometry.segments import power
@@ -133,6 +133,38 @@ def test_the_other_points_do_not_matter() -> None:
     for row in (0, 77, 199):
         alone = closest(curve, 1, points[[row]])
         assert [part[row].tolist() for part in together] == [part[0].tolist() for part in alone]
+
+
+def test_each_point_has_its_curve() -> None:
+    """Points in any order, each with a curve of its own: what one curve at a time gives."""
+    rng = np.random.default_rng(3)
+    sizes = (2, 4, 7, 3)
+    batch = SplineBatch.join([curve_of(*rng.uniform(-5, 5, (2, size, 3))) for size in sizes])
+    curves, points = rng.integers(0, len(sizes), 300), rng.uniform(-6, 6, (300, 3))
+    together = closest_each(batch, curves, points)
+    for curve in range(len(sizes)):
+        mine = curves == curve
+        alone = closest(batch, curve, points[mine])
+        assert [part[mine].tolist() for part in together] == [part.tolist() for part in alone]
+
+
+@pytest.mark.parametrize("most", [1, 7, 100])
+def test_portions_do_not_matter(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However few pairs of point and segment are looked at together."""
+    rng = np.random.default_rng(4)
+    batch = SplineBatch.join([curve_of(*rng.uniform(-5, 5, (2, size, 3))) for size in (5, 2, 6)])
+    curves, points = rng.integers(0, 3, 60), rng.uniform(-6, 6, (60, 3))
+    whole = closest_each(batch, curves, points)
+    monkeypatch.setattr("assoc_hull.geometry.closest._PAIRS", most)
+    parts = closest_each(batch, curves, points)
+    assert [part.tolist() for part in whole] == [part.tolist() for part in parts]
+
+
+@pytest.mark.parametrize("curves", [[2, 0], [-1, 0], [0], [[0, 0]]])
+def test_a_curve_that_is_none_is_refused(curves: list[int]) -> None:
+    """Each point needs one of the batch."""
+    with pytest.raises(BadInputError):
+        closest_each(line(), np.array(curves), np.zeros((2, 3)))
 
 
 def test_no_points_no_results() -> None:

@@ -58,14 +58,23 @@ def test_what_does_not_move_keeps_its_bits() -> None:
 
 
 def test_a_batch_is_variant_by_variant() -> None:
-    """Bit for bit, whatever the other variants are, over blocks of any size."""
+    """To rounding, whatever the other variants are, in new memory or in that of an earlier one."""
     plan = FieldPlan.of(UNITS, XYZ)
-    amplitudes = np.random.default_rng(6).uniform(-1, 1, (50, 3))
+    amplitudes = np.random.default_rng(6).uniform(-1, 1, (70, 3))
     batch = plan.batch(amplitudes)
     for i, one in enumerate(amplitudes):
-        found = plan.places(one)
-        for each, values in zip(plan.moving, batch, strict=True):
-            assert values[i].tobytes() == found[each.rows, each.axis].tobytes()
+        for alone, values in zip(plan.moved(one), batch, strict=True):
+            assert np.abs(values[i] - alone).max() < 1e-13
+    again = plan.batch(amplitudes[::-1], out=batch)
+    assert all(one is other for one, other in zip(again, batch, strict=True))
+    assert np.abs(again[0][0] - plan.moved(amplitudes[-1])[0]).max() < 1e-13
+
+
+def test_memory_of_another_shape_is_refused() -> None:
+    """Nothing is written then."""
+    plan = FieldPlan.of([SHAFT], XYZ)
+    with pytest.raises(BadInputError, match="memory of shapes"):
+        plan.batch([[1.0], [2.0]], out=plan.batch([[1.0]]))
 
 
 def test_additive_functions_are_planned_alike() -> None:

@@ -1,0 +1,87 @@
+"""Hulls that are dear to make: made once, by one process, and handed out as twins.
+
+A twin has the tables of the hull to the last bit, in arrays of its own, read-only where they
+were. What edits leave in the tables is in the twin too; the history is not.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import io
+import os
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.graph.table import ArrayColumn
+
+__all__ = ["made_once", "packed", "twin"]
+
+T = TypeVar("T")
+
+
+def _frozen(array: np.typing.NDArray[Any]) -> np.typing.NDArray[Any]:
+    array.setflags(write=False)
+    return array
+
+
+def _column(store: np.typing.NDArray[Any], fill: Any, count: int, writes: int) -> ArrayColumn:
+    """Make a column whose rows in use are a view of its store, as it must be."""
+    column = ArrayColumn(store.dtype, store.shape[1:], fill)
+    column.store, column.data, column.writes = store, _frozen(store[:count]), writes
+    return column
+
+
+def _hull(state: Any, adoption: Any) -> ah.Hull:
+    hull = ah.Hull(state)
+    hull.adoption = adoption
+    return hull
+
+
+class _Pickler(pickle.Pickler):
+    """Keeps what plain pickles lose: that an array is read-only, or a view of another."""
+
+    def reducer_override(self, value: Any) -> Any:
+        if isinstance(value, ah.Hull):
+            assert not value.history, "the history stays behind"
+            return _hull, (value.state, value.adoption)
+        if type(value) is ArrayColumn:
+            return _column, (value.store, value.fill, len(value.data), value.writes)
+        if type(value) is np.ndarray and not value.flags.writeable:
+            return _frozen, (value.copy(),)
+        return NotImplemented
+
+
+def packed(value: object) -> bytes:
+    """Pack a hull, or a tuple with one: `twin` gives as many as are wanted."""
+    out = io.BytesIO()
+    _Pickler(out, pickle.HIGHEST_PROTOCOL).dump(value)
+    return out.getvalue()
+
+
+def twin(pack: bytes) -> Any:
+    """Give a twin of what was packed."""
+    return pickle.loads(pack)
+
+
+def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[], T]) -> T:
+    """Make a value, unless another process of this run of tests has made it, or is about to.
+
+    The others wait for the first, and load a twin from a file beside their own folders.
+    """
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        return make()
+    path: Path = factory.getbasetemp().parent / f"{name}.pickle"
+    with path.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if path.exists():
+            found: T = twin(path.read_bytes())
+            return found
+        made = make()
+        path.write_bytes(packed(made))
+        return made
