@@ -1,7 +1,8 @@
 """What all tests share: the hypothesis profiles and the folder of published hulls."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from assoc_hull.io.slice_report import SliceReport
 from assoc_hull.sources import examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
-from tests.twins import made_once
+from tests.twins import made_once, packed, twin
 
 # No deadline and no complaint about slow draws: the machine may be busy with other work.
 settings.register_profile(
@@ -57,16 +58,41 @@ def data_folder() -> Path:
     return folder
 
 
+Shipped = Callable[[str], Hull]
+"""Gives a hull that ships by the name of its fixture, at every call a new one."""
+
+
 @pytest.fixture(scope="session")
-def series60_60(tmp_path_factory: pytest.TempPathFactory) -> Hull:
+def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
+    """Hulls that ship, as they are made: each call gives one of the caller's own."""
+    makers = {
+        "wigley": examples.wigley,
+        "series60_60": lambda: examples.series60(0.60),
+        "series60_70": lambda: examples.series60(0.70),
+        "bulk_carrier": examples.bulk_carrier_207k,
+    }
+
+    @cache
+    def pack(name: str) -> bytes:
+        return made_once(tmp_path_factory, name, lambda: packed(makers[name]()))
+
+    def give(name: str) -> Hull:
+        found: Hull = twin(pack(name))
+        return found
+
+    return give
+
+
+@pytest.fixture(scope="session")
+def series60_60(shipped: Shipped) -> Hull:
     """Series 60 CB .60; a test that edits it undoes its edits."""
-    return made_once(tmp_path_factory, "series60_60", lambda: examples.series60(0.60))
+    return shipped("series60_60")
 
 
 @pytest.fixture(scope="session")
-def series60_70(tmp_path_factory: pytest.TempPathFactory) -> Hull:
+def series60_70(shipped: Shipped) -> Hull:
     """Series 60 CB .70; a test that edits it undoes its edits."""
-    return made_once(tmp_path_factory, "series60_70", lambda: examples.series60(0.70))
+    return shipped("series60_70")
 
 
 @pytest.fixture
@@ -77,9 +103,9 @@ def fresh_series60_70(series60_70: Hull) -> Iterator[Hull]:
 
 
 @pytest.fixture(scope="session")
-def bulk_carrier(tmp_path_factory: pytest.TempPathFactory) -> Hull:
+def bulk_carrier(shipped: Shipped) -> Hull:
     """The 207,000 TDW bulk carrier; a test that edits it undoes its edits."""
-    return made_once(tmp_path_factory, "bulk_carrier", examples.bulk_carrier_207k)
+    return shipped("bulk_carrier")
 
 
 @pytest.fixture(scope="session")

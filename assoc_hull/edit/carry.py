@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.carry_planes import PLANE, Planes, flat_borders, heights, into_planes
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.touching import Touch
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
 from assoc_hull.geometry.spline import derivative
@@ -85,6 +86,12 @@ class Carried:
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
         Crossings with drivers by the driver and the meeting, counted along it.
+    touches : dict of (int, int) to Touch
+        Where planes are tangent to features, by the curve of the feature and the line.
+    fine : dict of int to float, m
+        Drivers that are features, and how far they may leave their exact shape.
+    driven : set of int
+        Crossings that a driver has come to drive, as they slid onto another of its points.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -105,6 +112,9 @@ class Carried:
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
+    fine: dict[int, float] = attrs.field(factory=dict)
+    driven: set[int] = attrs.field(factory=set)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -136,6 +146,11 @@ class Carried:
         """Tell whether a point lies on a follower that is cut wholly anew."""
         curves = self.state.rows.curve.data[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
+
+    def touched(self, line: int) -> tuple[Touch, ...]:
+        """Give the touches of a line, by curve."""
+        found = sorted(key for key in self.touches if key[1] == line)
+        return tuple(self.touches[key] for key in found)
 
     def other(self, row: int, curve: int) -> int:
         """Give the curve on the other side of a crossing, -1 if there is none."""

@@ -9,23 +9,30 @@ Examples
 >>> from assoc_hull.edit.mapping import space_map
 >>> from assoc_hull.examples.wigley import wigley
 >>> twice = space_map(None, None, [2, 2, 2], None)
->>> carry_features(wigley(stations=5, waterlines=4), twice, 1e-3).features
-()
+>>> len(carry_features(wigley(stations=5, waterlines=4), twice, 1e-3).features)
+3
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.plane import plane_axes
 from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.feature import Feature
 from assoc_hull.model.feature_shape import ROUNDING, places_off
 from assoc_hull.model.state import HullState
 
 __all__ = ["CarriedFeatures", "carry_features"]
+
+_DIGITS = 9
+"""Circles that images lie on are told to this digit of a metre; what is beyond is rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -35,8 +42,9 @@ class CarriedFeatures:
     Attributes
     ----------
     features : tuple of Feature
-        With the points they had. A radius is the mean distance of the images of the points from
-        the image of the centre; a gap grows as the radius or as the run of the points does.
+        With the points they had. A circle is the one on which the images of its points lie;
+        where they lie on none, centre and radius are those of the image of the centre and of
+        the mean distance from it. A gap grows as the radius or as the run of the points does.
     bent : frozenset of str
         Keys of those whose points are not on them after the mapping.
     within : float, m
@@ -47,6 +55,14 @@ class CarriedFeatures:
     features: tuple[Feature, ...]
     bent: frozenset[str]
     within: float
+
+    def anew(self, features: Iterable[Feature]) -> CarriedFeatures:
+        """Let features that were made anew take the place of those of their keys."""
+        made = {each.key: each for each in features}
+        return CarriedFeatures(
+            tuple(made.get(each.key, each) for each in self.features),
+            self.bent - made.keys(), self.within,
+        )  # fmt: skip
 
 
 def carry_features(state: HullState, space: SpaceMap, within: float) -> CarriedFeatures:
@@ -82,25 +98,39 @@ def _carried(
     feature: Feature, places: tuple[FloatArray, FloatArray], centre: FloatArray, slope: FloatArray
 ) -> Feature:
     """Carry one feature; `centre` and `slope` are image and Jacobian at its centre or begin."""
-    old, new = places
+    new = places[1]
     grown = _ratio(*(float(np.sqrt(((xyz - xyz[0]) ** 2).sum(axis=1).max())) for xyz in places))
     found: dict[str, object] = {}
-    if feature.centre is not None and feature.radius is not None:
-        radii = [
-            float(np.sqrt(dot(away, away)).mean())
-            for away in (old - np.array(feature.centre), new - centre)
-        ]
-        grown = _ratio(*radii)
-        found |= {"centre": centre, "radius": feature.radius * grown}
     if feature.normal is not None:
         normal = _unit(np.linalg.solve(slope.T, np.array(feature.normal)))
         found["normal"] = normal
         if feature.offset is not None:
             found["offset"] = float((normal * centre).sum())
+        if feature.radius is not None:
+            found["centre"], radius = _circle(feature, new, centre, normal)
+            found["radius"], grown = radius, radius / feature.radius
     if feature.direction is not None:
         found["direction"] = _unit((slope * np.array(feature.direction)).sum(axis=1))
     gap = round(feature.gap * grown, 9)
     return attrs.evolve(feature, gap=gap, **found)  # type: ignore[arg-type]
+
+
+def _circle(
+    feature: Feature, xyz: FloatArray, centre: FloatArray, normal: FloatArray
+) -> tuple[FloatArray, float]:
+    """Give centre and radius of the circle on which the images of points lie, or nearly do."""
+    axes = plane_axes(normal)
+    fit = fit_circle(np.column_stack([dot(xyz, axis) for axis in axes]))
+    height = float((normal * xyz[0]).sum())
+    middle = fit.centre[0] * axes[0] + fit.centre[1] * axes[1] + height * normal
+    if feature.kind == "circle":
+        middle = middle * np.where(np.array(feature.centre) == 0.0, [1.0, 0.0, 1.0], 1.0)
+    away = xyz - middle
+    off = np.abs(np.sqrt(dot(away, away)) - fit.radius).max()
+    if off <= ROUNDING + feature.gap * fit.radius / (feature.radius or fit.radius):
+        return np.round(middle, _DIGITS), round(fit.radius, _DIGITS)
+    away = xyz - centre
+    return centre, float(np.sqrt(dot(away, away)).mean())
 
 
 def _ratio(old: float, new: float) -> float:

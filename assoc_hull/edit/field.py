@@ -13,14 +13,15 @@ shared crossings follow was measured to leave up to 80 % of the edit as gaps els
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from typing import Protocol
 
 import attrs
 import numpy as np
 
-from assoc_hull.edit.normals import free_normals, hull_normals
+from assoc_hull.edit.normals import free_normals, hull_normals, shape_stamp
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.spline import sample
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import BoundaryKind, Role, Sort
@@ -81,6 +82,9 @@ class FieldContext:
     free: IntArray
     flat_distance: FloatArray
 
+    def __attrs_post_init__(self) -> None:
+        freeze(self.normal, self.free, self.flat_distance)
+
 
 @attrs.frozen(eq=False)
 class Shift:
@@ -123,7 +127,19 @@ class Field(Protocol):
 
 
 def context(state: HullState, *, across_flats: bool = False) -> FieldContext:
-    """Find the points that fields may move."""
+    """Find the points that fields may move; kept as long as the hull stays as it is."""
+    stamp = shape_stamp(state), state.rows.role.writes, across_flats
+    known: tuple[Hashable, FieldContext] | None = state.kept.get(_KEPT)
+    if known is None or known[0] != stamp:
+        known = stamp, _context(state, across_flats)
+        state.kept[_KEPT] = known
+    return known[1]
+
+
+_KEPT = "field context"
+
+
+def _context(state: HullState, across_flats: bool) -> FieldContext:
     table = state.rows
     shared = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.SHARED)
     free = table.alive.data & (shared | (table.sort.data == Sort.ADOPTED))

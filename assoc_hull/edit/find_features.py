@@ -8,8 +8,8 @@ Examples
 --------
 >>> from assoc_hull.edit.find_features import find_features
 >>> from assoc_hull.examples.wigley import wigley
->>> find_features(wigley(stations=5, waterlines=4))
-[]
+>>> [each.name for each in find_features(wigley(stations=5, waterlines=4))]
+['ST 1 straight', 'ST 2 straight', 'ST 3 straight']
 """
 
 from __future__ import annotations
@@ -161,9 +161,10 @@ def _of_curve(state: HullState, line: int, curve: int, tolerance: float) -> Iter
             joined |= {found.points[0], found.points[-1]}
             yield found
     rows, side = state.curves.rows.data[curve], state.curves.side.data[curve]
-    for row, at in zip(rows.tolist(), side.tolist(), strict=True):
-        if state.rows.kind.data[row, at] == PointKind.TANGENT and row not in joined:
-            along = state.rows.direction.data[row, at]
+    tangent = state.rows.kind.data[rows, side] == PointKind.TANGENT
+    for row, at in zip(rows[tangent].tolist(), side[tangent].tolist(), strict=True):
+        along = state.rows.direction.data[row, at]
+        if row not in joined and along.any():
             unit = along / np.sqrt((along * along).sum())
             yield _make(state, line, "tangent", np.array([row]), direction=unit)
 

@@ -2,27 +2,63 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 import attrs
 import numpy as np
 
 from assoc_hull.edit.outward import turn_outward
-from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.interpolation import interpolate
 from assoc_hull.graph.table import ListColumn
 from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
+from assoc_hull.model.index import Objects
 from assoc_hull.model.recipe import loft_curves
 from assoc_hull.model.state import HullState
 
-__all__ = ["free_normals", "hull_normals"]
+__all__ = ["free_normals", "hull_normals", "shape_stamp"]
 
 
 def hull_normals(state: HullState) -> FloatArray:
     """Give the unit outward normal at every point, (rows, 3); nil where it is not known.
 
     At a crossing it is the cross product of the two tangents; at points that have one curve
-    only it is interpolated along that curve between its crossings.
+    only it is interpolated along that curve between its crossings. An edit asks for them again
+    and again: they are kept, read-only, until something changes that they are made from.
     """
+    stamp = shape_stamp(state)
+    known: tuple[Hashable, FloatArray] | None = state.kept.get(_KEPT)
+    if known is not None and known[0] == stamp:
+        return known[1]
+    normal = _normals(state)
+    freeze(normal)
+    state.kept[_KEPT] = stamp, normal
+    return normal
+
+
+_KEPT = "hull normals"
+
+
+def shape_stamp(state: HullState) -> Hashable:
+    """Give what is another one when points, curves, or planes have become others.
+
+    Arrays tell how often they were written; what the curves hold is never written to, but
+    replaced.
+    """
+    rows, curves, lines = state.rows, state.curves, state.lines
+    held = (curves.spline, curves.rows, curves.side, curves.meets, curves.ends, lines.curves)
+    return (
+        Objects([each for column in held for each in column.data]),
+        *(each.writes for each in (rows.alive, rows.sort, rows.kind, rows.direction, rows.curve)),
+        *(each.writes for each in (rows.parameter, rows.xyz, curves.alive, curves.line)),
+        *(each.writes for each in (lines.planar, lines.normal, lines.offset, lines.boundary)),
+        lines.alive.writes,
+        state.particulars,
+    )
+
+
+def _normals(state: HullState) -> FloatArray:
     table = state.rows
     tangent = _tangents(state)
     crossing = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))

@@ -185,7 +185,7 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
     fresh = [row for _, row in work.contacts]
-    pending.computed |= set(fresh)
+    pending.computed |= set(fresh) | work.driven
     pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())

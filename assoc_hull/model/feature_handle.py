@@ -4,8 +4,8 @@ Examples
 --------
 >>> from assoc_hull.examples.wigley import wigley
 >>> from assoc_hull.model.feature_handle import features_by_name
->>> len(features_by_name(wigley(stations=5, waterlines=4)))
-0
+>>> features_by_name(wigley(stations=5, waterlines=4))["ST 2 straight"]
+<straight ST 2 straight, 2 points>
 """
 
 from __future__ import annotations

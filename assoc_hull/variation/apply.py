@@ -11,11 +11,14 @@ from typing import Literal
 
 import attrs
 
+from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.transform import Reshape, transform
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.variation.drivers import Keeps, default_drivers, keeps
+from assoc_hull.variation.features_net import Regenerated, regenerated
+from assoc_hull.variation.field import Region
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Applied", "apply"]
@@ -35,11 +38,14 @@ class Applied:
         Which planes the map keeps.
     added : int
         How many adopted points hold the drivers to their images.
+    regions : tuple of Region
+        Boxes of the profile plane in which features that were made anew change the map.
     """
 
     drivers: tuple[str, ...]
     keeps: Keeps
     added: int
+    regions: tuple[Region, ...] = ()
 
 
 def apply(
@@ -53,6 +59,7 @@ def apply(
     particulars: Mapping[str, float] | None = None,
     reshape: Reshape | None = None,
     anchors: Sequence[tuple[int, float]] = (),
+    radii: Mapping[str, float] | None = None,
 ) -> Applied:
     """Carry a net by a map, within an edit that holds nothing else.
 
@@ -78,13 +85,16 @@ def apply(
         Gives points that features own their exact places, before the drivers are cut.
     anchors : sequence of (int, float)
         Curves, and parameters on them (m) before the map, where drivers are to be exact.
+    radii : mapping of str to float or None
+        Radii (m) that are asked for of circles, by the keys of features.
 
     Raises
     ------
     BadInputError
         Nothing can drive, the map folds, or lines cannot follow it.
     """
-    state, space = edit.state, SpaceMap(vmap, vmap.jacobian)
+    state, anew = edit.state, regenerated(edit.state, vmap, radii)
+    space = SpaceMap(anew.map, anew.map.jacobian)
     kept = keeps(state, space)
     chosen = (
         default_drivers(state, kept, stations, follow=follow)
@@ -93,9 +103,22 @@ def apply(
     size = _resized(state.particulars, particulars) if particulars else None
     added = transform(
         edit, space, chosen, follow=follow, tolerance=tolerance,
-        reshape=reshape, anchors=anchors, particulars=size,
+        reshape=_both(anew, reshape), anchors=anchors, particulars=size,
     )  # fmt: skip
-    return Applied(_names(state, chosen), kept, added)
+    if edit.pending.features is not None:
+        edit.pending.features = anew.features(edit.pending.features)
+    return Applied(_names(state, chosen), kept, added, anew.map.regions())
+
+
+def _both(anew: Regenerated, reshape: Reshape | None) -> Reshape:
+    """Let features settle first, then who asks to."""
+
+    def act(work: Carried) -> None:
+        anew.settle(work)
+        if reshape is not None:
+            reshape(work)
+
+    return act
 
 
 def _resized(size: Particulars, new: Mapping[str, float]) -> Particulars:

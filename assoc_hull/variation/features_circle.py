@@ -9,6 +9,7 @@ the neighbourhood takes part in (see `features_map`).
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -27,6 +28,12 @@ _Map = Callable[[FloatArray], FloatArray]
 
 TOUCH = 1e-6
 """A plane as near as this (m) to being tangent to a circle touches it."""
+
+GAP = 5e-6
+"""A spline through points of a circle lies as near (m) to it."""
+
+_ROUNDING = 1e-13
+"""A correction by less than so many radii is rounding."""
 
 _LARGEST = 0.1
 """A circle may lie off the image by so many of its radii."""
@@ -112,6 +119,8 @@ class Redrawn:
         The map.
     slope : callable
         Its Jacobian.
+    gap : float, m
+        Places as near as this to the circle lie on it.
     """
 
     name: str
@@ -119,6 +128,25 @@ class Redrawn:
     after: Circle
     image: _Map
     slope: _Map
+    gap: float = GAP
+
+    @cached_property
+    def carried(self) -> bool:
+        """Whether the map itself makes the circle, so that nothing is to be corrected."""
+        return self.most() <= _ROUNDING * self.after.radius
+
+    @property
+    def idle(self) -> bool:
+        """Whether the map leaves the circle where it is, and nothing else is asked for."""
+        places = self.before.at(self._around())
+        same = (self.before.centre == self.after.centre).all()
+        same &= self.before.radius == self.after.radius
+        return bool(same) and bool((self.image(places) == places).all())
+
+    def _around(self, count: int = 72) -> FloatArray:
+        one, two = _across(self.before.normal)
+        angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[:, None]
+        return np.asarray(np.cos(angle) * one + np.sin(angle) * two)
 
     def correction(self, unit: FloatArray) -> FloatArray:
         """Give what is to be added to the image (n, 3), m, in directions (n, 3)."""
@@ -126,9 +154,7 @@ class Redrawn:
 
     def most(self) -> float:
         """Give how far the new circle lies off the image at most, m."""
-        one, two = _across(self.before.normal)
-        angle = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)[:, None]
-        step = self.correction(np.cos(angle) * one + np.sin(angle) * two)
+        step = self.correction(self._around())
         return float(np.sqrt((step * step).sum(axis=1)).max())
 
     def turning(self, unit: FloatArray) -> FloatArray:
@@ -145,6 +171,7 @@ def redraw(
     *,
     radius: float | None = None,
     centre: ArrayLike | None = None,
+    gap: float = GAP,
 ) -> Redrawn:
     """Draw a circle again after a map.
 
@@ -160,6 +187,8 @@ def redraw(
         Asked for; else the circle gets the area of its image: r sqrt|det J| in its plane.
     centre : (3,) or None, m
         Asked for; else the image of the centre.
+    gap : float, m
+        How far places of the circle may lie off it.
 
     Raises
     ------
@@ -179,7 +208,8 @@ def redraw(
     where = f"of the feature '{name}'"
     middle = image(before.centre[None])[0] if centre is None else place(centre, "centre", where)
     size = _same_area(before, slope) if radius is None else positive(radius, "radius", where)
-    found = Redrawn(name, before, Circle.of(middle, size, before.normal), image, slope)
+    after = Circle.of(middle, size, before.normal)
+    found = Redrawn(name, before, after, image, slope, gap)
     _refuse_far(found)
     return found
 

@@ -24,7 +24,7 @@ from assoc_hull.variation.blend import QUINTIC
 from assoc_hull.variation.features_circle import Redrawn
 from assoc_hull.variation.field import Region
 
-__all__ = ["JOIN", "FeatureMap", "corrected", "fade"]
+__all__ = ["JOIN", "FeatureMap", "acting", "fade"]
 
 JOIN = 6.0
 """A correction fades within so many radii of its circle."""
@@ -73,17 +73,20 @@ class FeatureMap:
     circles: tuple[Redrawn, ...]
 
     def __call__(self, xyz: FloatArray) -> FloatArray:
-        """Map places (n, 3), m."""
+        """Map places (n, 3), m; those on a circle to the bits of the new one."""
         found = self.image(xyz)
         away = self._away(xyz)
         for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
-            some = np.flatnonzero(self._near(away)[i])
-            circle, weight = self.circles[i], self._weight(i, away[:, some])[0]
-            unit = circle.before.unit(xyz[some])[0]
-            on = away[i, some] == 0.0
-            # A place on the circle goes to the new one as it is drawn, to the last bit.
-            moved = found[some] + weight[:, None] * circle.correction(unit)
-            found[some] = np.where(on[:, None], circle.after.at(unit), moved)
+            some, circle = np.flatnonzero(self._near(away)[i]), self.circles[i]
+            unit, size = circle.before.unit(xyz[some])
+            moved = found[some]
+            if not circle.carried:
+                weight = self._weight(i, away[:, some])[0][:, None]
+                moved = moved + weight * circle.correction(unit)
+            moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
+            level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
+            moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
+            found[some] = moved
         return found
 
     def jacobian(self, xyz: FloatArray) -> FloatArray:
@@ -93,6 +96,8 @@ class FeatureMap:
         for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
             some = np.flatnonzero(self._near(away)[i])
             circle, (weight, turn) = self.circles[i], self._weight(i, away[:, some])
+            if circle.carried:
+                continue
             unit, size = circle.before.unit(xyz[some])
             about = np.eye(3) - circle.before.normal[:, None] * circle.before.normal
             about = about - unit[:, :, None] * unit[:, None, :]
@@ -105,7 +110,7 @@ class FeatureMap:
 
     def regions(self) -> tuple[Region, ...]:
         """Give the boxes of the profile plane in which features change the map."""
-        return tuple(_region(each) for each in self.circles)
+        return tuple(_region(each) for each in self.circles if not each.carried)
 
     def _away(self, xyz: FloatArray) -> FloatArray:
         """Give how far places lie from each circle, (c, n), m."""
@@ -141,10 +146,9 @@ class FeatureMap:
 
 
 def _distance(circle: Redrawn, xyz: FloatArray) -> FloatArray:
-    """Give how far places lie from a circle; nil where rounding is all that they lie off."""
+    """Give how far places lie from a circle; nil for those that count as on it."""
     away = circle.before.foot(xyz)[1]
-    rounding = 16.0 * np.finfo(np.float64).eps * (float(np.abs(circle.before.centre).max()) + 1.0)
-    return np.asarray(np.where(away <= rounding, 0.0, away))
+    return np.asarray(np.where(away <= circle.gap, 0.0, away))
 
 
 def _region(circle: Redrawn) -> Region:
@@ -153,6 +157,6 @@ def _region(circle: Redrawn) -> Region:
     return Region(circle.name, (x - reach, x + reach), (z - reach, z + reach))
 
 
-def corrected(circles: Sequence[Redrawn], rounding: float = 1e-12) -> tuple[Redrawn, ...]:
-    """Leave out circles that the map carries to what is drawn: there is nothing to add."""
-    return tuple(each for each in circles if each.most() > rounding)
+def acting(circles: Sequence[Redrawn]) -> tuple[Redrawn, ...]:
+    """Leave out circles that stay as they are: what is on them keeps its bits."""
+    return tuple(each for each in circles if not each.idle)

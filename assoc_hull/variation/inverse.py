@@ -37,7 +37,10 @@ _MOST = 128.0
 
 _STEPS = 40
 _HALVINGS = 40
-_DOUBLINGS = 60
+_DOUBLINGS = 64
+
+_FAR = 1e6
+"""A bracket reaches so far at most, m: beyond, no place has a meaning."""
 
 _BLOCKS: dict[type, tuple[Axes, ...]] = {
     AdditiveLayer: ((0,), (1, 2)),
@@ -134,31 +137,36 @@ def _residual(layer: Layer, image: FloatArray, found: FloatArray, axes: Axes) ->
 def _newton(
     layer: Layer, image: FloatArray, found: FloatArray, axes: Axes, enough: FloatArray
 ) -> IntArray:
-    """Step by Newton's rule; give the rows that it does not solve."""
+    """Step by Newton's rule; give the rows that it does not solve.
+
+    Those it solves make one step more, if that still lessens the residual: it costs little, and
+    roundings of several layers add up.
+    """
     away = _residual(layer, image, found, axes)
     open_ = np.flatnonzero(~(np.abs(away).sum(axis=1) <= enough))
     stalled = list[IntArray]()
     for _ in range(_STEPS):
         if not len(open_):
             break
-        slope = layer.jacobian(found[open_])[:, axes][:, :, axes]
-        step = _cramer(slope, away[open_])
-        better = _damped(layer, image, found, axes, open_, step, away)
+        better = _damped(layer, image, found, axes, open_, away, _HALVINGS)
         stalled.append(open_[~better])
         open_ = open_[better]
         open_ = open_[~(np.abs(away[open_]).sum(axis=1) <= enough[open_])]
+    size = np.abs(away).sum(axis=1)
+    _damped(layer, image, found, axes, np.flatnonzero((size > 0.0) & (size <= enough)), away, 1)
     return np.sort(np.concatenate([*stalled, open_]))
 
 
 def _damped(
     layer: Layer, image: FloatArray, found: FloatArray, axes: Axes, open_: IntArray,
-    step: FloatArray, away: FloatArray,
+    away: FloatArray, trials: int,
 ) -> np.typing.NDArray[np.bool_]:  # fmt: skip
     """Take the largest of the halved steps that lessen the residual; tell where there is one."""
+    step = _cramer(layer.jacobian(found[open_])[:, axes][:, :, axes], away[open_])
     before = np.abs(away[open_]).sum(axis=1)
     better = np.zeros(len(open_), bool)
     left, part = np.flatnonzero(np.isfinite(step).all(axis=1)), 1.0
-    for _ in range(_HALVINGS):
+    for _ in range(trials):
         if not len(left):
             break
         rows = open_[left]
@@ -209,7 +217,7 @@ def _nested(
     high, at_high = low.copy(), at_low.copy()
     reach = np.where(at_low >= 0.0, -1.0, 1.0) * (np.abs(at_low) + enough)
     for _ in range(_DOUBLINGS):
-        rows = np.flatnonzero((at_low >= 0.0) == (at_high >= 0.0))
+        rows = np.flatnonzero(((at_low >= 0.0) == (at_high >= 0.0)) & (np.abs(reach) < _FAR))
         if not len(rows):
             break
         high[rows] += reach[rows]

@@ -31,8 +31,14 @@ def shaft_height(parent: Parent, asked: float, layout: Layout) -> Share:
         anchors = [("shaft-r", z - r, change), ("shaft+r", z + r, change)]
         rigid = ("shaft-r", "shaft+r") if layout.rigid else ()
     anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
-    field = hat(name, anchors, _fade(parent, layout, x), blend=layout.curve, outward=rigid)
+    fade = _fade(parent, layout, _cylinder(parent, x))
+    field = hat(name, anchors, fade, blend=layout.curve, outward=rigid)
     return Share.at(name, "z", change, boss, field)
+
+
+def _cylinder(parent: Parent, x: float) -> float:
+    """Give where the cylinder ends that the bossing, which ends at x, begins with."""
+    return max(x, float(parent.places["boss fore"][0])) if parent.has("boss fore") else x
 
 
 def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
@@ -41,7 +47,7 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
     x, h, y = float(boss[0]), float(boss[2]), float(side[1])
     r = float(top[2]) - h
-    fade = _fade(parent, layout, x, layout.bossing * r)
+    fade = _fade(parent, layout, _cylinder(parent, x), layout.bossing * r)
     names = [f"boss{each}r" for each in ("-4", "-", "+", "+5")]
     walls = stack(names, [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
     wide, high = asked / y - 1.0, asked / r - 1.0

@@ -44,6 +44,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         if anchor.value is not None:
             places.update(_PLACES.get(anchor.name, _nothing)(anchor))
     places.update(_terminals(state))
+    places.update(_cylinder(state, places.get("boss side")))
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
     top = float(every[:, 2].max())
@@ -78,6 +79,16 @@ def _shaft(anchor: Anchor) -> dict[str, FloatArray]:
 def _bossing(anchor: Anchor) -> dict[str, FloatArray]:
     r = float(anchor.value or 0.0)
     return {"boss side": anchor.places[0] + _place(0.0, r, 0.0)}
+
+
+def _cylinder(state: HullState, side: FloatArray | None) -> dict[str, FloatArray]:
+    """Give where the bossing ceases to be the cylinder that it ends as: its foremost circle."""
+    found = [] if side is None else [
+        np.array(each.centre) for each in state.features
+        if each.kind == "circle" and each.centre is not None and each.radius is not None
+        and abs(each.radius - side[1]) <= _LEVEL and abs(each.centre[2] - side[2]) <= _LEVEL
+    ]  # fmt: skip
+    return {"boss fore": max(found, key=lambda place: float(place[0]))} if found else {}
 
 
 def _bulb(anchor: Anchor) -> dict[str, FloatArray]:

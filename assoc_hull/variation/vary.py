@@ -121,7 +121,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
         for name, value in ask.values.items()
     )
     return vmap, VariationReport(
-        targets, rounds, vmap.regions(), applied.drivers, applied.added, report
+        targets, rounds, (*vmap.regions(), *applied.regions), applied.drivers, applied.added, report
     )
 
 
@@ -162,11 +162,24 @@ def _apply(document: Document, vmap: VMap, parent: Parent, ask: Ask) -> tuple[Ap
         applied = apply(
             edit, vmap, drivers=drivers, stations=ask.stations, tolerance=ask.tolerance,
             particulars=_particulars(document.state, vmap, parent, ask),
+            radii=_radii(document.state, parent, ask),
         )  # fmt: skip
     report = edit.report
     if report is None:
         raise BadInputError("an edit is open", "in vary", "finish it before")
     return applied, report
+
+
+def _radii(state: HullState, parent: Parent, ask: Ask) -> dict[str, float]:
+    """Give the radius that is asked for of the bossing's end, by the key of the feature."""
+    if "bossing_radius" not in ask.values or not parent.has("boss"):
+        return {}
+    boss = parent.places["boss"]
+    return {
+        each.key: ask.values["bossing_radius"] for each in state.features
+        if each.centre is not None and each.kind == "circle"
+        and bool((np.abs(boss - each.centre) <= _PROMISED).all())
+    }  # fmt: skip
 
 
 def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 
-__all__ = ["HEELS", "OnError", "heels_of", "require_sound"]
+__all__ = ["HEELS", "OnError", "checked_on_error", "heels_of", "require_sound"]
 
 _WHERE = "in stability"
 
@@ -41,6 +41,11 @@ def heels_of(heels: object) -> FloatArray:
     return found
 
 
+def checked_on_error(on_error: object) -> None:
+    """Refuse what is no way to deal with doubts, before anything is computed."""
+    choice(on_error, "on_error", get_args(OnError), _WHERE)
+
+
 def require_sound(body: FloatingBody, planes: Planes, on_error: str) -> tuple[str, ...]:
     """Give the doubts about a hull.
 
@@ -49,7 +54,7 @@ def require_sound(body: FloatingBody, planes: Planes, on_error: str) -> tuple[st
     BadInputError
         There are some, and they are to be refused.
     """
-    choice(on_error, "on_error", ("refuse", "report"), _WHERE)
+    checked_on_error(on_error)
     doubts = tuple(body.doubts(planes, numbers=False))
     if doubts and on_error == "refuse":
         more = f" (and {len(doubts) - 1} more)" if len(doubts) > 1 else ""

@@ -12,7 +12,7 @@ from assoc_hull.analysis.floating import planes_of, rising
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import OnError, heels_of, require_sound
+from assoc_hull.analysis.stability.asked import OnError, checked_on_error, heels_of, require_sound
 from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
 from assoc_hull.analysis.stability.heeled import heeled
 from assoc_hull.analysis.stability.levers import TrimRule
@@ -138,6 +138,7 @@ def cross_curves(
         "rho": rho, "shell_factor": shell_factor, "kg": kg, "appendages": appendages, "date": date,
     }  # fmt: skip
     choice(trim, "trim", ("fixed", "free"), _WHERE)
+    checked_on_error(on_error)
     wanted = heels_of(heels)
     body = body_of(hull)
     header = header_of(hull, body, terms)

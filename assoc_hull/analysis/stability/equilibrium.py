@@ -18,7 +18,7 @@ from assoc_hull.analysis.floating import FloatingPosition, planes_of
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import OnError, require_sound
+from assoc_hull.analysis.stability.asked import OnError, checked_on_error, require_sound
 from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
 from assoc_hull.analysis.stability.crossings import crossings
 from assoc_hull.analysis.stability.flooding import open_deck_limit
@@ -131,6 +131,7 @@ def equilibrium(
         "rho": rho, "shell_factor": shell_factor, "kg": number(kg, "kg", _WHERE),
         "appendages": appendages, "fingerprint": "",
     }  # fmt: skip
+    checked_on_error(on_error)
     body = body_of(hull)
     header = header_of(hull, body, terms)
     ahead, aside = number(lcg, "lcg", _WHERE), number(tcg, "tcg", _WHERE)

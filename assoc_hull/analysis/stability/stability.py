@@ -13,7 +13,13 @@ from assoc_hull.analysis.floating import planes_of
 from assoc_hull.analysis.floating_body import FloatingBody
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
-from assoc_hull.analysis.stability.asked import HEELS, OnError, heels_of, require_sound
+from assoc_hull.analysis.stability.asked import (
+    HEELS,
+    OnError,
+    checked_on_error,
+    heels_of,
+    require_sound,
+)
 from assoc_hull.analysis.stability.condition import Asked, case_of, condition_of
 from assoc_hull.analysis.stability.criteria import Judged, intact_criteria
 from assoc_hull.analysis.stability.flooding import (
@@ -113,6 +119,7 @@ def stability(
         "appendages": appendages, "date": date,
     }  # fmt: skip
     choice(trim, "trim", ("fixed", "free"), _WHERE)
+    checked_on_error(on_error)
     points = all_of(flooding, FloodingPoint, "flooding", _WHERE)
     wanted = heels_of(heels)
     body = body_of(hull)

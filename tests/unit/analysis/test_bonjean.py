@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -14,10 +16,10 @@ from assoc_hull.geometry.immersed_sections import sections_and_moments_below
 from assoc_hull.geometry.isocurves import IsoCurves
 
 
-@pytest.mark.parametrize("name", ["wigley", "series60", "bulk_carrier_207k"])
-def test_areas_and_moments_never_fall(name: str) -> None:
+@pytest.mark.parametrize("name", ["wigley", "series60_70", "bulk_carrier"])
+def test_areas_and_moments_never_fall(name: str, shipped: Callable[[str], ah.Hull]) -> None:
     """As the water rises, and the centroid of what comes lies between the two planes."""
-    curves = bonjean(getattr(ah.examples, name)(), 33)
+    curves = bonjean(shipped(name), 33)
     more, turn = np.diff(curves.stations.area, axis=0), np.diff(curves.moment, axis=0)
     assert (more >= 0.0).all()
     assert np.abs(curves.stations.area[0]).max() == 0.0 == np.abs(curves.moment[0]).max()
@@ -56,9 +58,9 @@ def test_moments_of_a_heeled_rectangle_are_those_of_its_corners() -> None:
     assert moment[0, 0] == pytest.approx(exact, rel=1e-14)
 
 
-def test_moments_under_heel_are_those_of_slices() -> None:
+def test_moments_under_heel_are_those_of_slices(series60_70: ah.Hull) -> None:
     """The moment below an inclined plane is the sum of those of slices parallel to it."""
-    body = flotation(ah.examples.series60().state)
+    body = flotation(series60_70.state)
     slope = np.tan(np.radians(12.0))
 
     def planes(height: np.ndarray) -> Planes:

@@ -36,15 +36,12 @@ from assoc_hull.errors import (
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.hull import Hull
-from assoc_hull.sources import examples
 from tests.stepped import Floats
 
-HULLS: dict[str, Callable[[], Hull]] = {
-    "wigley": examples.wigley,
-    "series 60, 0.60": lambda: examples.series60(cb=0.60),
-    "series 60, 0.70": lambda: examples.series60(cb=0.70),
-    "carrier": examples.bulk_carrier_207k,
-}
+HULLS = {
+    "wigley": "wigley", "series 60, 0.60": "series60_60", "series 60, 0.70": "series60_70",
+    "carrier": "bulk_carrier",
+}  # fmt: skip
 POINTS = {
     "wigley": ["WL 2.5 x ST 7", "ST 6 x profile", "WL 5 x ST 19"],
     "series 60, 0.60": ["BTK 0.52 x ST 12", "WL 0.92 x ST 16.5", "ST 16 x deck edge"],
@@ -58,9 +55,9 @@ WHERE = {"even": (0.873, 0.873, 0.0), "inclined": (0.951, 0.813, 7.0)}
 
 
 @pytest.fixture(scope="module")
-def hulls() -> dict[str, Hull]:
+def hulls(shipped: Callable[[str], Hull]) -> dict[str, Hull]:
     """All hulls that ship."""
-    return {name: make() for name, make in HULLS.items()}
+    return {name: shipped(fixture) for name, fixture in HULLS.items()}
 
 
 def stretch(hull: Hull) -> Deformation:
@@ -267,9 +264,9 @@ def test_the_volume_changes_by_what_the_surface_sweeps(name: str, hulls: dict[st
     assert_allclose(found.of("volume")[0], swept, rtol=5e-3)
 
 
-def test_they_are_those_of_a_whole_edit() -> None:
+def test_they_are_those_of_a_whole_edit(shipped: Callable[[str], Hull]) -> None:
     """The points that an edit moves, as it moves them; or one point, and the others follow."""
-    hull, point, step = examples.series60(cb=0.60), "WL 0.75 x ST 2", 2e-5
+    hull, point, step = shipped("series60_60"), "WL 0.75 x ST 2", 2e-5
     floats, terms = at(hull, "inclined")
     rows, place = hull.state.rows, hull.points[point].y
     values, places = [], []

@@ -48,11 +48,11 @@ def test_a_section_coefficient_above_one_is_told(bulk_carrier: ah.Hull) -> None:
     assert ah.form_parameters(bulk_carrier, only=["Cm"])["Cm"].warning is None
 
 
-def test_a_blunt_bow_warns_of_its_angle(bulk_carrier: ah.Hull) -> None:
+def test_a_blunt_bow_warns_of_its_angle(bulk_carrier: ah.Hull, series60_60: ah.Hull) -> None:
     """Where the angle hangs on the place at which it is read, the value says so; a fine bow not."""
     blunt = ah.form_parameters(bulk_carrier, draught=14.4, only=["Eangle"])["Eangle"]
     assert "0.02 B from the centre plane" in (blunt.warning or "")
-    fine = ah.form_parameters(ah.examples.series60(cb=0.60), only=["Eangle"])["Eangle"]
+    fine = ah.form_parameters(series60_60, only=["Eangle"])["Eangle"]
     assert fine.warning is None
 
 

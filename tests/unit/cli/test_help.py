@@ -92,11 +92,10 @@ def test_the_page_names_every_argument_of_a_command(name: str) -> None:
         assert callable(make_parser().parse_args(words).run)
 
 
-def test_the_edits_that_are_shown_can_be_made() -> None:
+def test_the_edits_that_are_shown_can_be_made(series60_70: ah.Hull) -> None:
     """Those of the page and of the help, on the hull that the other examples are about."""
-    ship = ah.examples.series60(cb=0.70)
     blocks = re.findall(r"^    (\[\{?$.*?^ *\]|\[\{.*?\}\])$", SECTIONS["edit"], _ACROSS)
     (helped,) = re.findall(r"edits\.json: (\[.*?\}\])", COMMANDS["edit"].epilog or "", re.DOTALL)
     assert len(blocks) == 2
     for text in (*blocks, helped):
-        assert ship.preview(json.loads(text)).refused == ()
+        assert series60_70.preview(json.loads(text)).refused == ()

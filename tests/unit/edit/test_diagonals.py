@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +16,10 @@ from tests.independent import lost_meetings, trouble
 PLACES = ((4.0, 30.0), (6.0, 45.0), (2.0, -10.0))
 
 
-@pytest.fixture(params=["wigley", "series60"])
-def hull(request: pytest.FixtureRequest) -> ah.Hull:
+@pytest.fixture(params=["wigley", "series60_70"], ids=["wigley", "series60"])
+def hull(request: pytest.FixtureRequest, shipped: Callable[[str], ah.Hull]) -> ah.Hull:
     """A hull of its own, with three diagonals."""
-    hull: ah.Hull = getattr(ah.examples, request.param)()
+    hull = shipped(request.param)
     for place in PLACES:
         with hull.edit("diagonal") as edit:
             edit.add_line("diagonals", place)
@@ -81,12 +82,14 @@ def test_a_diagonal_is_addressed_like_any_line(hull: ah.Hull) -> None:
     assert point.name == "DIA 6 45 x ST 7"
 
 
-def test_undo_takes_diagonals_and_their_group_back(hull: ah.Hull) -> None:
+def test_undo_takes_diagonals_and_their_group_back(
+    hull: ah.Hull, shipped: Callable[[str], ah.Hull]
+) -> None:
     """To the bit, back and forth."""
     after = hull.fingerprint
     hull.undo(3)
     assert "diagonals" not in hull.groups
-    fresh = ah.examples.wigley() if hull.particulars.length == 100.0 else ah.examples.series60()
+    fresh = shipped("wigley" if hull.particulars.length == 100.0 else "series60_70")
     assert hull.fingerprint == fresh.fingerprint
     hull.redo(3)
     assert hull.fingerprint == after

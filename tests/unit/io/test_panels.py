@@ -17,6 +17,7 @@ from assoc_hull.analysis.panels.quality import panel_report
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.panel_clip import below_water
 from assoc_hull.geometry.panel_mesh import PanelMesh
+from assoc_hull.hull import Hull
 from assoc_hull.io.panels_file import PANEL_FORMS, panel_bytes, read_panels, write_panels
 from assoc_hull.sources import examples
 
@@ -24,9 +25,9 @@ TEXT = ("nemoh", "wamit", "hams", "stl-text")
 
 
 @pytest.fixture(scope="module")
-def mesh() -> PanelMesh:
+def mesh(series60_70: Hull) -> PanelMesh:
     """Half a ship with a few triangles."""
-    return panels(examples.series60(0.70), count=200)
+    return panels(series60_70, count=200)
 
 
 @pytest.mark.parametrize("form", ["nemoh", "wamit", "hams"])

@@ -20,8 +20,8 @@ from assoc_hull.model.state import HullState
 
 
 def small() -> HullState:
-    """A small hull without features."""
-    return wigley(stations=5, waterlines=4)
+    """A small hull, its features taken away."""
+    return give(wigley(stations=5, waterlines=4))
 
 
 def on_line(state: HullState, place: int, kind: str = "straight", **more: Any) -> Feature:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from assoc_hull.analysis.panels.build import panels
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.panel_mesh import PanelMesh
+from assoc_hull.hull import Hull
 from assoc_hull.plot.panels import panel_plan
 from assoc_hull.plot.paper import PAPERS
 from assoc_hull.sources import examples
@@ -18,11 +19,11 @@ Boxes = Callable[[Figure], dict[str, FloatArray]]
 
 
 @pytest.fixture(scope="module")
-def meshes() -> dict[str, PanelMesh]:
+def meshes(series60_70: Hull) -> dict[str, PanelMesh]:
     """A slender ship upright, a full one heeled."""
     return {
         "upright": panels(examples.wigley(), count=120),
-        "heeled": panels(examples.series60(0.70), heel_deg=15.0, count=240),
+        "heeled": panels(series60_70, heel_deg=15.0, count=240),
     }
 
 

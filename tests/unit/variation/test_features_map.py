@@ -7,7 +7,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.features_circle import Circle, Redrawn, redraw
-from assoc_hull.variation.features_map import FeatureMap, fade
+from assoc_hull.variation.features_map import FeatureMap, acting, fade
 from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.hat import hat
 from assoc_hull.variation.vmap import VMap
@@ -105,3 +105,17 @@ def _changes(reach: float) -> int:
     bend = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])[3:-3]
     sign = np.sign(bend[np.abs(bend) > 1e-9])
     return int((sign[1:] != sign[:-1]).sum())
+
+
+def test_a_circle_that_stays_is_left_alone() -> None:
+    """A map elsewhere adds nothing to it, and its places keep their bits."""
+    circle = Circle.of([80.0, 0.0, 5.0], 0.725, [1.0, 0.0, 0.0])
+    far = redraw("far", circle, MAP, MAP.jacobian)
+    assert far.idle
+    assert acting([*CIRCLES, far]) == CIRCLES
+
+
+def test_the_centre_of_a_circle_goes_to_the_centre() -> None:
+    """To the bit, so that what was measured from it is measured from the new one."""
+    for each in CIRCLES:
+        assert np.array_equal(FEATURES(each.before.centre[None])[0], each.after.centre)
