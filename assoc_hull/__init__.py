@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.sources import examples, open, read
     from assoc_hull.tolerance import Tolerances
+    from assoc_hull.variants import vary
+    from assoc_hull.variation.anchors import measure
 
 __all__ = [
     "Appendage",
@@ -90,10 +92,12 @@ __all__ = [
     "hydrostatic_table",
     "hydrostatics",
     "immersion",
+    "measure",
     "open",
     "panels",
     "read",
     "stability",
+    "vary",
 ]
 
 __version__ = "0.1.0"
@@ -134,6 +138,8 @@ _HOMES = {
     "model.state": ("Association", "Ends", "Particulars"),
     "sources": ("examples", "open", "read"),
     "tolerance": ("Tolerances",),
+    "variants": ("vary",),
+    "variation.anchors": ("measure",),
 }
 """Modules and what is public of them."""
 

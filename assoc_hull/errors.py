@@ -18,6 +18,7 @@ from __future__ import annotations
 import attrs
 
 __all__ = [
+    "AbsentParameterError",
     "AssocHullError",
     "BadInputError",
     "CoincidentPointsError",
@@ -69,6 +70,11 @@ class BadInputError(AssocHullError, ValueError):
 @attrs.define(slots=False, eq=False)
 class WrongTypeError(BadInputError, TypeError):
     """A value of another type than can be used."""
+
+
+@attrs.define(slots=False, eq=False)
+class AbsentParameterError(BadInputError, KeyError):
+    """A parameter was asked for that this hull does not have."""
 
 
 @attrs.define(slots=False, eq=False)

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from assoc_hull.edit.view import OnlyName
     from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.saving import Saved
+    from assoc_hull.model.feature_handle import FeatureHandle
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Hull"]
@@ -117,6 +118,13 @@ class Hull:
         book, table = AddressBook(self.state), self.state.rows
         live = [row for row in self.state.live("rows").tolist() if table.curve.data[row, 1] >= 0]
         return Named("crossing", {book.address(i): Crossing.of(self.state, i) for i in live})
+
+    @property
+    def features(self) -> Mapping[str, FeatureHandle]:
+        """Circles, arcs, flats, straight runs, knuckle lines and joins by name."""
+        from assoc_hull.model.feature_handle import features_by_name
+
+        return features_by_name(self.state)
 
     @property
     def history(self) -> tuple[EditReport, ...]:

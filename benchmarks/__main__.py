@@ -12,7 +12,9 @@ from datetime import UTC, datetime
 
 from benchmarks.clock import Figure
 
-NAMES = ("full_reloft", "one_edit", "drags", "start", "session", "hydrostatics")
+NAMES = (
+    "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
+)  # fmt: skip
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

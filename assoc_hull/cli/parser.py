@@ -22,6 +22,7 @@ from assoc_hull.cli import (
     shell,
     stability,
     transform,
+    vary,
     why,
 )
 from assoc_hull.cli.problems import UsageError
@@ -68,7 +69,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, plot, export, shell,
+        stability, transform, panels, vary, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.arguments import all_of, instance
 from assoc_hull.edit.adoption_report import AdoptionReport, LineReport, report_lines
+from assoc_hull.edit.find_features import find_features
 from assoc_hull.edit.match import Contact, Meeting, find_contacts, find_meetings
 from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thin import thin
@@ -85,6 +86,7 @@ def adopt(
     notes += _loft(maker)
     ride_links(state, state.live("curves"), journal)
     set_limits(state, journal)
+    maker.features(find_features(state, [float(np.max(each.tolerance)) for each in ordered]))
     lines = report_lines(net)
     return state, AdoptionReport(lines, (*notes, *_over_notes(net, thinned, lines)))
 

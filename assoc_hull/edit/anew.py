@@ -6,6 +6,7 @@ plane is met with them, and crossings with drivers that are still there keep the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -14,9 +15,11 @@ from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.marks import find_marks
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.shift import cut_anew, rows_of
+from assoc_hull.edit.touching import Touch, clear, with_touches
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.crossing import meet_planes
-from assoc_hull.model.family import Role
+from assoc_hull.model.family import BoundaryKind, Role
+from assoc_hull.model.state import HullState
 
 __all__ = ["bring_back", "take_out"]
 
@@ -32,10 +35,16 @@ def take_out(edit: Transaction, work: Carried) -> None:
         put(state.rows.xyz, placed, work.image[placed])
         put(state.curves.alive, mine, False)
         put(state.lines.alive, [line], False)
-        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line]))
+        touches = work.touched(line)
+        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line], touches))
 
 
-def bring_back(edit: Transaction, line: int, known: dict[tuple[int, int], int]) -> None:
+def bring_back(
+    edit: Transaction,
+    line: int,
+    known: dict[tuple[int, int], int],
+    touches: Sequence[Touch] = (),
+) -> None:
     """Cut a line that was taken out from the others as they are now.
 
     Raises
@@ -47,9 +56,18 @@ def bring_back(edit: Transaction, line: int, known: dict[tuple[int, int], int]) 
     edit.document.refresh()
     normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
     marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+    if touches:
+        marks = with_touches(state, marks, line, touches)
+        clear(edit.maker, [each for each in touches if _bounds(state, each)])
     put(state.lines.alive, [line], True)
     put(state.curves.alive, state.lines.curves.data[line], True)
     cut_anew(edit, line, marks, _still_there(edit, line, known))
+
+
+def _bounds(state: HullState, touch: Touch) -> bool:
+    """Tell whether a touch is of a boundary curve that lines end on."""
+    kind = state.lines.boundary.data[state.line_of(touch.curve)]
+    return bool(kind == BoundaryKind.END)
 
 
 def _still_there(

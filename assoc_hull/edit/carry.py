@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.carry_planes import PLANE, Planes, flat_borders, heights, into_planes
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.touching import Touch
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
 from assoc_hull.geometry.spline import derivative
@@ -66,6 +67,8 @@ class Carried:
         Where each point goes.
     direct : (r,) bool
         Whether its image lies in the planes of its lines.
+    still : (r,) bool
+        Whether the mapping leaves it and all around it where it is, to the last bit.
     known : (r,) bool
         Whether `value` is final.
     slid : (r,) bool
@@ -74,6 +77,8 @@ class Carried:
         Curves whose points are chosen.
     gone : set of int
         Points that have no place any more.
+    watched : set of int
+        Crossings of drivers with followers that come to pass them within the tolerance only.
     come : list of (int, (3,) array)
         Followers with places at which a driver has come to meet their planes.
     contacts : list of (int, int)
@@ -81,6 +86,12 @@ class Carried:
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
         Crossings with drivers by the driver and the meeting, counted along it.
+    touches : dict of (int, int) to Touch
+        Where planes are tangent to features, by the curve of the feature and the line.
+    fine : dict of int to float, m
+        Drivers that are features, and how far they may leave their exact shape.
+    driven : set of int
+        Crossings that a driver has come to drive, as they slid onto another of its points.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -92,13 +103,18 @@ class Carried:
     image: FloatArray
     value: FloatArray
     direct: BoolArray
+    still: BoolArray
     known: BoolArray
     slid: BoolArray
     made: dict[int, Through] = attrs.field(factory=dict)
     gone: set[int] = attrs.field(factory=set)
+    watched: set[int] = attrs.field(factory=set)
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
+    fine: dict[int, float] = attrs.field(factory=dict)
+    driven: set[int] = attrs.field(factory=set)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -111,7 +127,7 @@ class Carried:
         self.image = np.concatenate([self.image, place[None]])
         self.value = np.concatenate([self.value, place[None]])
         self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
-        self.slid = np.append(self.slid, True)
+        self.slid, self.still = np.append(self.slid, True), np.append(self.still, False)
 
     def piece(self, line: int, place: FloatArray) -> int:
         """Give the curve of a line whose carried points come nearest to a place."""
@@ -131,6 +147,11 @@ class Carried:
         curves = self.state.rows.curve.data[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 
+    def touched(self, line: int) -> tuple[Touch, ...]:
+        """Give the touches of a line, by curve."""
+        found = sorted(key for key in self.touches if key[1] == line)
+        return tuple(self.touches[key] for key in found)
+
     def other(self, row: int, curve: int) -> int:
         """Give the curve on the other side of a crossing, -1 if there is none."""
         one, two = self.state.rows.curve.data[row].tolist()
@@ -149,7 +170,12 @@ def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArra
     live = state.live("rows")
     image = state.rows.xyz.data.copy()
     image[live] = space.places(state.rows.xyz.data[live])
-    _refuse_folds(state, space, live)
+    slope = space.jacobians(state.rows.xyz.data[live])
+    _refuse_folds(state, live, slope)
+    still = np.zeros(state.rows.count, bool)
+    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (
+        image[live] == state.rows.xyz.data[live]
+    ).all(axis=1)
     table = state.rows
     line = np.where(table.curve.data >= 0, state.curves.line.data[table.curve.data], -1)
     direct = np.ones(table.count, bool)
@@ -166,14 +192,13 @@ def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArra
     crossing = table.sort.data == Sort.CROSSING
     known = np.where(crossing, direct, drives & direct)
     return Carried(
-        maker, space, planes, driver, image, value, direct, known, np.zeros(table.count, bool)
-    )
+        maker, space, planes, driver, image, value, direct, still, known,
+        np.zeros(table.count, bool),
+    )  # fmt: skip
 
 
-def _refuse_folds(state: HullState, space: SpaceMap, live: IntArray) -> None:
+def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
     """See that the mapping keeps right- and left-handed apart at every point."""
-    xyz = state.rows.xyz.data[live]
-    j = space.jacobians(xyz)
     volume = (
         j[:, 0, 0] * (j[:, 1, 1] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 1])
         - j[:, 0, 1] * (j[:, 1, 0] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 0])
@@ -181,7 +206,7 @@ def _refuse_folds(state: HullState, space: SpaceMap, live: IntArray) -> None:
     )
     worst = int(volume.argmin())
     if not volume[worst] > 0.0:
-        x, y, z = xyz[worst].tolist()
+        x, y, z = state.rows.xyz.data[live[worst]].tolist()
         raise BadInputError(
             f"the mapping folds: its Jacobian determinant is {volume[worst]:.3g}",
             f"at ({x:.3f}, {y:.3f}, {z:.3f}) m in transform", "make it smaller or smoother",

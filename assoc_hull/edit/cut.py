@@ -26,6 +26,7 @@ from assoc_hull.edit.planes import new_plane, ready_group
 from assoc_hull.edit.remeet import enter_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
+from assoc_hull.edit.touching import NO_ROOT
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.order import folds
@@ -302,6 +303,9 @@ def _roles(state: HullState, line: int, marks: Marks, keep: float) -> list[Role]
     rank = state.family(line).rank
     roles: list[Role] = []
     for i, curve in enumerate(marks.curve.tolist()):
+        if marks.root[i] == NO_ROOT:
+            roles.append(Role.SHARED)
+            continue
         old = state.line_of(curve)
         lower = state.family(old).rank < rank
         old_gives, new_gives = generates(state, old, line)

@@ -7,11 +7,15 @@ more than the tolerance, adopted points hold it.
 
 from __future__ import annotations
 
+from bisect import bisect
+from collections.abc import Sequence
+
 import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
 from assoc_hull.edit.image import Image, Roots, misfit
+from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
@@ -22,11 +26,17 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.make import CrossingSpec
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["cut_drivers", "hold_images"]
+__all__ = ["cut_drivers", "hold_anchors", "hold_images"]
 
 _ROUNDS = 8
 _LEAST = 0.1
 """Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
+
+_LEAST_FINE = 0.01
+"""The same of a feature, of which it is known how it is to turn."""
+
+_SAME = 1e-3
+"""A point as near as this (m) to an anchor stands for it."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
@@ -43,7 +53,8 @@ def cut_drivers(work: Carried, index: Index) -> Image:
     state = work.state
     mine = [curve for curve in state.live("curves").tolist() if work.drives(curve)]
     curves = np.array(sorted(mine, key=lambda c: str(state.curves.key.data[c])), np.int64)
-    image = Image.of(work.space, SplineBatch.join([state.spline(c) for c in curves.tolist()]))
+    batch = SplineBatch.join([state.spline(c) for c in curves.tolist()])
+    image = Image.of(work.space, batch, tuple(curves.tolist()))
     slid: dict[int, float] = {}
     for line in _followers(work):
         some = _partners(work, index, line, curves)
@@ -82,7 +93,11 @@ def _cut_with(
     planes, table = work.planes, work.state.lines
     normal, offset = planes.normal[line], float(planes.offset[line])
     new = image.changed(normal, float(table.offset.data[line]), offset, PLANE)
-    needed = [local for local in some.tolist() if new[local] or _off(work, curves[local], line)]
+    needed = [
+        local for local in some.tolist()
+        if new[local] or _off(work, curves[local], line)
+        or (int(curves[local]), line) in work.touches
+    ]  # fmt: skip
     if not needed:
         return
     roots = image.meet(normal, offset)
@@ -109,6 +124,8 @@ def _pairs(
     meets: Meets = work.state.curves.meets.data[curve]
     old = np.flatnonzero(meets.line == line)
     new = np.flatnonzero(roots.curve == local)
+    touch = work.touches.get((curve, line))
+    new = new[without_double(roots.xyz[new], touch.xyz if touch else None)]
     carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
     return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
@@ -118,6 +135,8 @@ def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots)
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
+    if bool(touch_rows(state, curve, line)) != ((curve, line) in work.touches):
+        return True
     old, new, pairs = _pairs(work, curve, line, local, roots)
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     rows: IntArray = state.curves.meets.data[curve].row[old[lost]]
@@ -132,6 +151,9 @@ def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -
         row = int(meets.row[old[one]])
         if row >= 0:
             work.anew[line][curve, other] = row
+    if (curve, line) in work.touches:
+        for row in touch_rows(work.state, curve, line):
+            work.anew[line][curve, NO_ROOT] = row
 
 
 def _match(
@@ -140,6 +162,10 @@ def _match(
     """Say which crossing each meeting of one image with one plane is."""
     meets: Meets = work.state.curves.meets.data[curve]
     old, new, pairs = _pairs(work, curve, line, local, roots)
+    if (curve, line) in work.touches:
+        for row in touch_rows(work.state, curve, line):
+            work.value[row] = work.touches[curve, line].xyz
+            work.known[row] = work.slid[row] = True
     for one, other in pairs:
         row = int(meets.row[old[one]])
         if row >= 0 and not work.direct[row]:
@@ -212,6 +238,9 @@ def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float])
     drop = _crowded(state, work, order) if any(row in slid for row in order) else set[int]()
     work.gone |= drop
     kept = [each for each in kept if each[2] not in drop]
+    if any(row in slid for row in order):
+        held = _doubled(work, curve, [row for _, _, row in kept], slid)
+        kept = [each for each in kept if each[2] not in held]
     work.made[curve] = Through(
         [row for _, _, row in kept],
         [work.value[row].copy() for _, _, row in kept],
@@ -237,6 +266,28 @@ def _settle(work: Carried, curve: int, row: int) -> None:
         work.gone.add(row)
 
 
+def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]) -> set[int]:
+    """Let a driver drive crossings that slid onto another of its points, instead of passing it.
+
+    Two points of a curve cannot lie at one place. The follower is made through the crossing as
+    before, which is now computed from the driver.
+    """
+    table, place = work.state.rows, work.value[order]
+    step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
+    found: set[int] = set()
+    for i in np.flatnonzero(step < work.state.tolerances.coincident).tolist():
+        for row in (order[i], order[i + 1]):
+            first, other = table.curve.data[row].tolist()
+            if row in slid and first == curve and other >= 0 and not table.contact.data[row]:
+                found.add(row)
+                break
+    if found:
+        rows = np.array(sorted(found), np.int64)
+        work.maker.roles(rows, np.full(len(rows), int(Role.DRIVES_B)))
+        work.driven |= found
+    return found
+
+
 def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
     """Give the smooth adopted points that a crossing has slid beside."""
     place = work.value[order]
@@ -250,6 +301,40 @@ def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
     return found
 
 
+def hold_anchors(work: Carried, image: Image, anchors: Sequence[tuple[int, float]]) -> int:
+    """Give drivers adopted points where they are to be exact.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    image : Image
+        The images of the drivers.
+    anchors : sequence of (int, float)
+        Curves, and parameters on them (m) before the mapping; followers have none.
+
+    Returns
+    -------
+    int
+        How many points were added.
+    """
+    added = 0
+    for curve, t in anchors:
+        if not work.drives(curve):
+            continue
+        part = work.made[curve]
+        local = image.curves.index(curve)
+        place = image.at(np.array([local]), np.array([t]))[0]
+        before = bisect(part.at, t)
+        if min(abs(t - each) for each in part.at) <= _SAME or before in (0, len(part.at)):
+            continue
+        part.row.insert(before, -1)
+        part.place.insert(before, _in_plane(work, curve, place))
+        part.at.insert(before, t)
+        added += 1
+    return added
+
+
 def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     """Give drivers adopted points until they stay within the tolerance of their images.
 
@@ -261,6 +346,8 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
     keys = work.state.curves.key.data
     curves = sorted((c for c in work.made if work.drives(c)), key=lambda curve: str(keys[curve]))
     added = 0
+    limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
+    least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
     for _ in range(_ROUNDS):
         batch = loft(through(work, curves), [str(keys[curve]) for curve in curves])
         at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
@@ -268,7 +355,7 @@ def hold_images(work: Carried, image: Image, tolerance: float) -> int:
         count = np.diff(batch.start) - 1
         owner = np.repeat(np.arange(len(curves)), count)
         chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
-        wide = np.flatnonzero((away > tolerance) & (chord > _LEAST))
+        wide = np.flatnonzero((away > limit[owner]) & (chord > least[owner]))
         if not len(wide):
             break
         places = image.at(owner[wide], middle[wide])

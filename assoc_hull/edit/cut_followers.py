@@ -95,11 +95,12 @@ def _carry_own(work: Carried, curve: int) -> None:
     if not _slides(work, curve):
         work.known[mine] = True
         return
-    ends = rows[[0, -1]]
+    work.known[mine[work.still[mine]]] = True
     smooth = (work.state.rows.sort.data[mine] == Sort.ADOPTED) & (
         work.state.rows.kind.data[mine, 0] == PointKind.SMOOTH
     )
-    work.gone |= set(mine[smooth & ~np.isin(mine, ends)].tolist())
+    drop = smooth & ~work.still[mine] & ~np.isin(mine, rows[[0, -1]])
+    work.gone |= set(mine[drop].tolist())
     _carry_free_ends(work, rows)
 
 
@@ -135,6 +136,9 @@ def _points(work: Carried, curve: int) -> Through:
     order = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
     if not _slides(work, curve):
         return Through(order, [work.value[row].copy() for row in order], [])
+    order = [row for row in order if row not in work.watched]
+    loose = _loose(work, curve, order)
+    order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
     base = _base(work, curve, order)
     found = Through(base, [work.value[row].copy() for row in base], [])
@@ -145,8 +149,59 @@ def _points(work: Carried, curve: int) -> Through:
     for row in new:
         _direct(work, curve, found, row)
     _bring_along(work, curve, found)
+    _tie(work, curve, found, loose)
     _hold(work, curve, found)
     return found
+
+
+def _loose(work: Carried, curve: int, order: list[int]) -> list[int]:
+    """Give the crossings that a follower need not pass: where drivers slid that rank behind.
+
+    The family of least rank among the drivers that define it is what it is cut from.
+    """
+    state = work.state
+    rank = {
+        row: state.family(state.line_of(work.other(row, curve))).rank
+        for row in order
+        if work.other(row, curve) >= 0 and work.drives(work.other(row, curve))
+        and not state.rows.contact.data[row]
+    }  # fmt: skip
+    least = min(rank.values(), default=0)
+    return [row for row in order if rank.get(row, least) > least and work.slid[row]]
+
+
+def _tie(work: Carried, curve: int, found: Through, loose: list[int]) -> None:
+    """Tie a follower to lines of higher rank where it needs them, or passes them anyway.
+
+    Lines of two families agree where they cross, and within the tolerance of adoption between:
+    a line through new crossings with both would waver between them.
+    """
+    state = work.state
+    left = list(loose)
+    for _ in range(_ROUNDS):
+        if not left:
+            return
+        work.made[curve] = found
+        spline = loft(through(work, [curve]))
+        at, _, away = closest(spline, 0, work.value[left])
+        segment = np.searchsorted(spline.knot, at, side="right")
+        wide = np.flatnonzero(away > 0.5 * state.tolerances.adoption)
+        if not len(wide):
+            break
+        wide = wide[np.argsort(-away[wide], kind="stable")]
+        first = np.unique(segment[wide], return_index=True)[1]
+        for i in sorted(wide[first].tolist()):
+            _insert(found, left[i], work.value[left[i]])
+        left = [row for i, row in enumerate(left) if i not in set(wide[first].tolist())]
+    else:
+        for row in left:
+            _insert(found, row, work.value[row])
+        return
+    for row, off in zip(left, away.tolist(), strict=True):
+        if off <= state.tolerances.keep:
+            _insert(found, row, work.value[row])
+        else:
+            work.watched.add(row)
 
 
 def _bring_along(work: Carried, curve: int, found: Through) -> None:

@@ -65,5 +65,6 @@ def set_end(
     if new == old and edit.state.curves.state.data[curve] == State.CLEAN:
         return
     edit.journal.set(edit.state.curves.ends, [curve], [new])
+    edit.pending.by_hand.add((int(edit.state.curves.rows.data[curve][-at]), curve))
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)

@@ -12,6 +12,7 @@ import numpy as np
 from assoc_hull.edit.carry_planes import heights
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.false_position import false_position
 from assoc_hull.geometry.segments import segment_start
 from assoc_hull.geometry.spline import derivative, evaluate
 
@@ -19,12 +20,6 @@ __all__ = ["Image", "Roots", "misfit"]
 
 _SAMPLES = 16
 """Places a segment at which the side of a plane is asked."""
-
-_ROUNDS = 80
-"""Steps of a bracketed root, seldom more than ten."""
-
-_ENOUGH = 1e-13
-"""A root is found where the height (m) or the bracket is as small as this."""
 
 _PROBES = 5
 """Places an interval at which a curve is compared with the image."""
@@ -64,6 +59,8 @@ class Image:
         The mapping.
     batch : SplineBatch
         The curves before it.
+    curves : tuple of int
+        Which curves of the hull these are.
     owner, t : (n,) int, (n,), m
         Sampled places: curve of the batch and parameter.
     before, after : (n, 3), m
@@ -72,13 +69,14 @@ class Image:
 
     space: SpaceMap
     batch: SplineBatch
+    curves: tuple[int, ...]
     owner: IntArray
     t: FloatArray
     before: FloatArray
     after: FloatArray
 
     @classmethod
-    def of(cls, space: SpaceMap, batch: SplineBatch) -> Image:
+    def of(cls, space: SpaceMap, batch: SplineBatch, curves: tuple[int, ...]) -> Image:
         """Sample a batch of curves and map the samples."""
         first = segment_start(batch)
         part = np.arange(_SAMPLES) / _SAMPLES
@@ -90,7 +88,7 @@ class Image:
         order = np.lexsort((t, owner))
         owner, t = owner[order], t[order]
         before = evaluate(batch, owner, t)
-        return cls(space, batch, owner, t, before, space.places(before))
+        return cls(space, batch, curves, owner, t, before, space.places(before))
 
     def at(self, curve: IntArray, t: FloatArray) -> FloatArray:
         """Give places of the image, (k, 3), m, by curve and parameter before the mapping."""
@@ -118,35 +116,12 @@ class Image:
         above = level >= 0.0
         low = np.flatnonzero((above[1:] != above[:-1]) & (self.owner[1:] == self.owner[:-1]))
         curve, sign = self.owner[low], np.where(above[low], -1, 1).astype(np.int8)
-        t = self._solve(curve, self.t[low], self.t[low + 1], level[low], level[low + 1],
-                        normal, offset)  # fmt: skip
+        t = false_position(
+            lambda rows, at: heights(self.at(curve[rows], at), normal) - offset,
+            self.t[low], self.t[low + 1], level[low], level[low + 1],
+        )  # fmt: skip
         xyz = self.at(curve, t) if len(t) else np.zeros((0, 3))
         return Roots(curve, t, xyz, sign)
-
-    def _solve(
-        self, curve: IntArray, a: FloatArray, b: FloatArray, fa: FloatArray, fb: FloatArray,
-        normal: FloatArray, offset: float,
-    ) -> FloatArray:  # fmt: skip
-        """Find the roots in brackets by the Illinois rule, all at once."""
-        a, b, fa, fb = a.copy(), b.copy(), fa.copy(), fb.copy()
-        best = np.where(np.abs(fa) <= np.abs(fb), a, b)
-        least = np.minimum(np.abs(fa), np.abs(fb))
-        for _ in range(_ROUNDS):
-            open_ = np.flatnonzero((least > _ENOUGH) & (np.abs(b - a) > _ENOUGH))
-            if not len(open_):
-                break
-            x, y, fx, fy = a[open_], b[open_], fa[open_], fb[open_]
-            mid = x - fx * (y - x) / (fy - fx)
-            mid = np.where((mid > np.minimum(x, y)) & (mid < np.maximum(x, y)), mid, 0.5 * (x + y))
-            value = heights(self.at(curve[open_], mid), normal) - offset
-            good = np.abs(value) < least[open_]
-            best[open_], least[open_] = (
-                np.where(good, mid, best[open_]), np.where(good, np.abs(value), least[open_])
-            )  # fmt: skip
-            same = (value >= 0.0) == (fy >= 0.0)
-            a[open_], fa[open_] = np.where(same, x, y), np.where(same, 0.5 * fx, fy)
-            b[open_], fb[open_] = mid, value
-        return best
 
 
 def misfit(

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import attrs
 
+from assoc_hull.edit.carry_features import CarriedFeatures
 from assoc_hull.edit.field import Field
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run import Policy
@@ -64,6 +65,10 @@ class Pending:
         What is done to the structure when the main pass has run.
     carried, cut_again : list of str
         Keys of the lines that a mapping carried, and of those that followed it.
+    by_hand : set of (int, int)
+        Points that were inserted, taken out or given another kind, each with the curve.
+    features : CarriedFeatures or None
+        The features as a mapping carried them; as they are in the tables if None.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -82,6 +87,8 @@ class Pending:
     after: list[Callable[[], None]] = attrs.field(factory=list)
     carried: list[str] = attrs.field(factory=list)
     cut_again: list[str] = attrs.field(factory=list)
+    by_hand: set[tuple[int, int]] = attrs.field(factory=set)
+    features: CarriedFeatures | None = None
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

@@ -114,6 +114,7 @@ def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
     row = int(edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
     index = interval_of(state.rows.xyz.data[rows], xyz)
     edit.maker.define(curve, np.insert(rows, index, row))
+    edit.pending.by_hand.add((row, curve))
     _changed(edit, curve)
     return row
 
@@ -151,6 +152,7 @@ def delete(edit: Transaction, row: int) -> None:
     edit.maker.define(curve, rows[rows != row])
     edit.maker.remove_rows([row])
     edit.pending.values.pop(row, None)
+    edit.pending.by_hand.add((row, curve))
     _changed(edit, curve)
 
 
@@ -197,6 +199,7 @@ def set_kind(
     kinds[side], directions[side] = PointKind[kind.upper()], given
     edit.journal.put(state.rows.kind, [row], kinds[None])
     edit.journal.put(state.rows.direction, [row], directions[None])
+    edit.pending.by_hand.add((row, curve))
     edit.pending.curves.add(curve)
     edit.pending.moved_curves.add(curve)
 

@@ -59,7 +59,18 @@ def _rename_line(edit: Transaction, line: int, name: str) -> None:
     }
     if name in others | _fixed(state) | _labels(state, -1):
         raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
+    _rename_features(edit, str(state.lines.key.data[line]), state.lines.name.data[line], name)
     edit.journal.set(state.lines.name, [line], [name])
+
+
+def _rename_features(edit: Transaction, key: str, old: str, new: str) -> None:
+    """Let the features of a line that are named after it be so still."""
+    edit.maker.features(
+        attrs.evolve(each, name=new + each.name[len(old) :])
+        if key in each.lines and (each.name == old or each.name.startswith(f"{old} "))
+        else each
+        for each in edit.state.features
+    )
 
 
 def _rename_point(edit: Transaction, row: int, name: str) -> None:

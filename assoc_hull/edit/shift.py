@@ -18,6 +18,7 @@ from assoc_hull.edit.planes import shifted_plane
 from assoc_hull.edit.remeet import enter_line, strike_line
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import unmeet
+from assoc_hull.edit.touching import NO_ROOT
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
@@ -154,6 +155,8 @@ def _bring_along(edit: Transaction, line: int, known: dict[tuple[int, int], int]
     first = np.searchsorted(met.curve, np.arange(len(others))).tolist()
     start = dict(zip(others, first, strict=True))
     for (other, root), row in sorted(known.items()):
+        if root == NO_ROOT:
+            continue
         place = met.xyz[start[other] + root]
         edit.journal.put(state.rows.spot, [row], [[place, place]])
 

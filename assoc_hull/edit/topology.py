@@ -6,6 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.thread import thread
+from assoc_hull.edit.touching import slips
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.align import Alignment
@@ -128,7 +129,7 @@ def bear(
     """
     state = maker.state
     meets: Meets = state.curves.meets.data[curve]
-    if meets.row[spot] >= 0:
+    if meets.row[spot] >= 0 or slips(state, curve, spot):
         return None
     best: tuple[float, int, int] | None = None
     least = 0.0
@@ -138,6 +139,7 @@ def bear(
         for there in free.tolist():
             gap, apart = meeting_gap(state, (curve, spot), (other, there))
             near = gap <= 2.0 * state.tolerances.adoption and apart <= ONE_PLACE
+            near = near and not slips(state, other, there)
             if near and (best is None or gap + 0.01 * apart < best[0]):
                 best, least = (gap + 0.01 * apart, other, there), gap
     if best is None:

@@ -8,15 +8,16 @@ the images, roles and kinds stay, and what the designer placed is carried by the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import attrs
 import numpy as np
 
 from assoc_hull.edit.anew import take_out
 from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
-from assoc_hull.edit.cut_drivers import cut_drivers, hold_images
+from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.topology import unmeet
@@ -26,9 +27,12 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.make import PointSpec
 from assoc_hull.model.network import bits_differ
-from assoc_hull.model.state import HullState, Meets
+from assoc_hull.model.state import HullState, Meets, Particulars
 
-__all__ = ["transform"]
+__all__ = ["Reshape", "transform"]
+
+Reshape = Callable[[Carried], None]
+"""Gives points that features own their exact places, before the drivers are cut."""
 
 _TOLERANCE = 2e-3
 """How far (m) a driver may leave its exact image between the points it is made through."""
@@ -44,7 +48,11 @@ def transform(
     *,
     follow: bool = False,
     tolerance: float = _TOLERANCE,
-) -> None:
+    reshape: Reshape | None = None,
+    anchors: Sequence[tuple[int, float]] = (),
+    particulars: Particulars | None = None,
+    keep_features: bool = False,
+) -> int:
     """Carry driving lines by a mapping and cut the others again.
 
     Parameters
@@ -60,6 +68,21 @@ def transform(
         Whether the planes of followers move where the mapping sends them to parallel ones.
     tolerance : float, m
         How far a driver may leave its exact image; at least 0.1 mm.
+    reshape : callable or None
+        Is given the transformation when all points have been carried; what it settles there
+        takes the place of their images.
+    anchors : sequence of (int, float)
+        Curves with parameters on them (m) before the mapping, where drivers are to be exact.
+    particulars : Particulars or None
+        Those of the hull afterwards; None leaves them.
+    keep_features : bool
+        Whether features stay whose points the mapping bends off them: for who makes them anew
+        right after.
+
+    Returns
+    -------
+    int
+        How many adopted points were added to drivers.
 
     Raises
     ------
@@ -76,20 +99,28 @@ def transform(
     edit.pending.alone = True
     planes = carry_planes(state, space, np.flatnonzero(driver), follow)
     work = carry_points(edit.maker, space, planes, driver)
+    size = state.particulars
+    if particulars is not None:
+        edit.journal.set(state.settings.particulars, [0], [particulars])
     if not _anything(state, work):
-        _tell(edit, work, 0)
-        return
+        _tell(edit, work, 0, size)
+        return 0
     edit.pending.structural = True
+    edit.pending.features = carry_features(state, space, np.inf if keep_features else tolerance)
     turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
+    if reshape is not None:
+        reshape(work)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
     cut_followers(work)
-    added = hold_images(work, image, tolerance)
+    _watch(edit, work)
+    added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
     let_go(edit, work)
     take_out(edit, work)
     _move_planes(edit, planes)
     _publish(edit, work, turned)
-    _tell(edit, work, added)
+    _tell(edit, work, added, size)
+    return added
 
 
 def _drivers(edit: Transaction, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
@@ -154,12 +185,31 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
     fresh = [row for _, row in work.contacts]
-    pending.computed |= set(fresh)
+    pending.computed |= set(fresh) | work.driven
     pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())
     pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
     pending.relink |= set(state.live("curves").tolist())
+
+
+def _watch(edit: Transaction, work: Carried) -> None:
+    """Let crossings define neither of their curves any more."""
+    rows = np.array(sorted(work.watched), np.int64)
+    if not len(rows):
+        return
+    edit.maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
+    limit = 2.0 * edit.state.tolerances.adoption
+    edit.journal.put(edit.state.rows.limit, rows, np.full(len(rows), limit))
+    for curve, part in work.made.items():
+        if work.drives(curve):
+            kept = [i for i, row in enumerate(part.row) if row not in work.watched]
+            part.row, part.place = [part.row[i] for i in kept], [part.place[i] for i in kept]
+            part.at = [part.at[i] for i in kept]
+    edit.pending.notes.append(
+        f"{len(rows)} crossings of lines that a mapping carried with lines that were cut again "
+        "are watched now: there the two agree within the tolerance of adoption"
+    )
 
 
 def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> None:
@@ -197,7 +247,7 @@ def _remove(edit: Transaction, work: Carried) -> None:
     ]
 
 
-def _tell(edit: Transaction, work: Carried, added: int) -> None:
+def _tell(edit: Transaction, work: Carried, added: int, before: Particulars) -> None:
     """Put into the report what was carried and what was cut again."""
     state, pending = edit.state, edit.pending
     lines = sorted(state.live("lines").tolist(), key=lambda line: str(state.lines.key.data[line]))
@@ -211,7 +261,8 @@ def _tell(edit: Transaction, work: Carried, added: int) -> None:
     if added:
         pending.notes.append(f"{added} adopted points hold the drivers to their images")
     size = state.particulars
+    said = "stay as they are" if size == before else "are now"
     pending.notes.append(
-        f"the particulars stay as they are: length {size.length:g}, breadth {size.breadth:g}, "
+        f"the particulars {said}: length {size.length:g}, breadth {size.breadth:g}, "
         f"depth {size.depth:g}, draught {size.draught:g} m"
     )

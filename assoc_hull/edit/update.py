@@ -28,6 +28,7 @@ from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.rejoin import rejoin
 from assoc_hull.edit.ride import rebase, ride_links
+from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.topology import latent_meetings, settle
 from assoc_hull.edit.work import Work
@@ -88,6 +89,7 @@ def update(
         raise RefusedEditError(name, (str(error),)) from error
     if findings:
         raise RefusedEditError(name, findings)
+    settle_features(work, rows)
     work.seconds |= {"run": ran - begin, "check": time.perf_counter() - ran}
     return step_of(work, rows, away)
 

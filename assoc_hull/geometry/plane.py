@@ -19,7 +19,7 @@ from assoc_hull.arguments import choice, number, shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["AXES", "Axis", "Plane", "as_plane", "unit_normal"]
+__all__ = ["AXES", "Axis", "Plane", "as_plane", "plane_axes", "unit_normal"]
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, Axis, Axis] = ("x", "y", "z")
@@ -64,6 +64,33 @@ def unit_normal(normal: FloatArray) -> FloatArray:
         )
     freeze(vector)
     return vector
+
+
+def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give two unit vectors in a plane that are a right-handed set with its normal.
+
+    Parameters
+    ----------
+    normal : (3,)
+        Unit normal.
+
+    Returns
+    -------
+    (3,), (3,)
+        Coordinate axes where the normal is one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.plane import plane_axes
+    >>> [axis.tolist() for axis in plane_axes(np.array([1.0, 0.0, 0.0]))]
+    [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    main = int(np.argmax(np.abs(normal)))
+    guess = np.eye(3)[(main + 1) % 3]
+    first = guess - float(normal[(main + 1) % 3]) * normal
+    first = first / np.sqrt((first * first).sum())
+    return first + 0.0, np.cross(normal, first) + 0.0
 
 
 def _offset(value: object) -> float:

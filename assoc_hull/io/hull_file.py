@@ -57,6 +57,7 @@ from assoc_hull.io.hull_file_steps import (
     write_step,
 )
 from assoc_hull.io.hull_file_tables import (
+    WRITTEN,
     put_rows,
     read_revisions,
     require_counts,
@@ -219,7 +220,7 @@ class HullFile:
     def _put(self, change: Change, rows: IntArray, curves: IntArray) -> None:
         """Write the rows of the tables that a change touched, as they are now."""
         also = {"rows": rows, "curves": np.union1d(change.curves, curves)}
-        for table in ("groups", "lines", "curves", "rows"):
+        for table in WRITTEN:
             touched = np.union1d(change.touched(table), also.get(table, rows[:0]))
             put_rows(self.database, self.state, table, touched)
         if any(name.startswith("settings.") for name in change.objects):

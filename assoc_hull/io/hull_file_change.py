@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import Change
+from assoc_hull.model.feature import Feature
 from assoc_hull.model.places_on_curves import PlacesOn
 from assoc_hull.model.state import Association, Ends, Particulars
 
@@ -191,12 +192,21 @@ def _ends_of(value: Any) -> Ends:
     return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
 
 
+def _plain(feature: Feature | None) -> Any:
+    return None if feature is None else attrs.asdict(feature)
+
+
+def _feature(said: Any) -> Feature | None:
+    return None if said is None else Feature(**said)
+
+
 _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "curves.rows": (_numbers, _frozen),
     "curves.side": (_numbers, _frozen),
     "curves.ends": (lambda ends: [_numbers(ends.kind), ends.vector], _ends_of),
     "lines.curves": (_numbers, tuple),
     "settings.failed": (_numbers, tuple),
+    "featured.feature": (_plain, _feature),
     "settings.particulars": (attrs.asdict, lambda said: Particulars(**said)),
     "settings.associations": (
         lambda links: [[each.a, each.b, each.two_way] for each in links],

@@ -25,7 +25,7 @@ __all__ = ["APPLICATION", "MIGRATIONS", "SCHEMA", "TABLES", "create", "migrate"]
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 4
+SCHEMA = 5
 
 TABLES = """
 CREATE TABLE hull (
@@ -67,6 +67,11 @@ CREATE TABLE points (
     birth INTEGER NOT NULL, state INTEGER NOT NULL, revision INTEGER NOT NULL,
     anchor_a INTEGER NOT NULL, anchor_b INTEGER NOT NULL, xyz BLOB NOT NULL,
     direction BLOB, gap_limit BLOB, gap BLOB, base BLOB, anchor_from BLOB, anchor_weight BLOB
+);
+CREATE TABLE features (
+    number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, kind TEXT NOT NULL,
+    name TEXT NOT NULL, lines TEXT NOT NULL, points BLOB NOT NULL, centre BLOB, radius BLOB,
+    normal BLOB, plane_offset BLOB, direction BLOB, side INTEGER NOT NULL, gap BLOB NOT NULL
 );
 CREATE TABLE associations (
     a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL, PRIMARY KEY (a, b)
@@ -112,7 +117,19 @@ def _tell_deck(database: sqlite3.Connection) -> None:
     database.execute("ALTER TABLE hull ADD COLUMN deck TEXT NOT NULL DEFAULT 'open'")
 
 
-MIGRATIONS: Mapping[int, Migration] = {1: _sign_labels, 2: _remember_gone, 3: _tell_deck}
+def _tell_features(database: sqlite3.Connection) -> None:
+    """From 4 to 5: features; older hulls have none."""
+    database.execute(
+        "CREATE TABLE features (number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, "
+        "key TEXT NOT NULL, kind TEXT NOT NULL, name TEXT NOT NULL, lines TEXT NOT NULL, "
+        "points BLOB NOT NULL, centre BLOB, radius BLOB, normal BLOB, plane_offset BLOB, "
+        "direction BLOB, side INTEGER NOT NULL, gap BLOB NOT NULL)"
+    )
+
+
+MIGRATIONS: Mapping[int, Migration] = {
+    1: _sign_labels, 2: _remember_gone, 3: _tell_deck, 4: _tell_features,
+}  # fmt: skip
 """By version: what brings a file of it to the next one."""
 
 

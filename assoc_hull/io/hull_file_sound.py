@@ -67,6 +67,7 @@ def _faults(state: HullState) -> Iterator[str]:
         yield "a kind of boundary means nothing"
     yield from _lists(state)
     yield from _settings(state)
+    yield from _features(state)
 
 
 def _live(state: HullState, table: str, column: str) -> Any:
@@ -123,6 +124,17 @@ def _texts(state: HullState) -> Iterator[str]:
 
 def _names(values: Collection[object]) -> bool:
     return all(isinstance(each, str) for each in values)
+
+
+def _features(state: HullState) -> Iterator[str]:
+    """Features own points and lie on lines that there are; keys and names stand once."""
+    features, live = state.features, set(state.live("rows").tolist())
+    lines = {state.lines.key.data[line] for line in state.live("lines").tolist()}
+    if len({each.key for each in features}) < len(features):
+        yield "a key of the features stands there twice"
+    for each in features:
+        if not (live.issuperset(each.points) and lines.issuperset(each.lines)):
+            yield f"the feature {each.name!r} owns a point or lies on a line that is not there"
 
 
 def _settings(state: HullState) -> Iterator[str]:

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
+from assoc_hull.io.hull_file_features import feature_of, feature_row
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import shape_curves
 from assoc_hull.model.family import State
@@ -35,6 +36,7 @@ from assoc_hull.model.state import Association, Ends, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
+    "WRITTEN",
     "put_rows",
     "read_revisions",
     "read_state",
@@ -56,8 +58,11 @@ _REALS = {
 """Columns of points that may be left out, holding the fill value, and their names in the file."""
 
 _PAIRS = ("curve", "kind", "reader", "anchor")
-_NAMES = {"rows": "points"}
+_NAMES = {"rows": "points", "featured": "features"}
 """Tables that the file calls otherwise."""
+
+WRITTEN = ("groups", "lines", "curves", "rows", "featured")
+"""Tables of which each row is a row of the file, too."""
 
 _WHOLES = ("alive", "sort", "role", "override", "driver", "contact", "sign", "birth", "state")
 
@@ -75,7 +80,7 @@ def write_state(
     )  # fmt: skip
     write_settings(database, state)
     write_births(database, dict(state.births))
-    for table in ("groups", "lines", "curves", "rows"):
+    for table in WRITTEN:
         put_rows(database, state, table, np.arange(getattr(state, table).count))
     for table, known in (("rows", state.revision_row), ("curves", state.revision_curve)):
         count = getattr(state, table).count
@@ -198,7 +203,16 @@ def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     return [None if each == nothing else each for each in found]
 
 
-_GIVE = {"groups": _group_rows, "lines": _line_rows, "curves": _curve_rows, "rows": _point_rows}
+def _feature_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    table = state.featured
+    for i in numbers.tolist():
+        yield feature_row(i, bool(table.alive.data[i]), table.feature.data[i])
+
+
+_GIVE = {
+    "groups": _group_rows, "lines": _line_rows, "curves": _curve_rows, "rows": _point_rows,
+    "featured": _feature_rows,
+}  # fmt: skip
 
 
 def read_state(database: sqlite3.Connection) -> HullState:
@@ -222,6 +236,7 @@ def read_state(database: sqlite3.Connection) -> HullState:
     _read_lines(state, _rows(database, "lines"))
     _read_points(state, _rows(database, "points"))
     _read_curves(state, _rows(database, "curves"))
+    _read_features(state, _rows(database, "features"))
     state.revision_row, state.revision_curve = read_revisions(database)
     return state
 
@@ -327,6 +342,13 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
     shape_curves(state, np.arange(len(rows)), splines)
 
 
+def _read_features(state: HullState, rows: Sequence[Row]) -> None:
+    table = state.featured
+    table.resize(len(rows))
+    table.feature.data[:] = [feature_of(row) for row in rows]
+    _whole(table.alive, [row[1] for row in rows])
+
+
 def _ends(said: list[Any]) -> Ends:
     (first, last), (start, finish) = said
     return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
@@ -359,8 +381,8 @@ def require_counts(database: sqlite3.Connection, state: HullState) -> None:
     ValueError
         Naming the first such table.
     """
-    for table in ("groups", "lines", "curves", "rows"):
-        name, count = "points" if table == "rows" else table, getattr(state, table).count
+    for table in WRITTEN:
+        name, count = _NAMES.get(table, table), getattr(state, table).count
         found = database.execute(f"SELECT count(*) FROM {name}").fetchone()[0]
         if found != count:
             raise ValueError(f"the table {name} has {found} rows, and the hull {count}")

@@ -14,6 +14,7 @@ array([], dtype=int64)
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import attrs
@@ -28,6 +29,7 @@ __all__ = [
     "Column",
     "Places",
     "curve_columns",
+    "feature_columns",
     "line_columns",
     "meet_columns",
     "meet_turn",
@@ -209,6 +211,28 @@ def spline_columns(state: HullState, order: Places) -> dict[str, Column]:
         "xyz": np.concatenate([empty, *(part.xyz for part in parts)]),
         "leave": np.concatenate([empty, *(part.leave for part in parts)]),
         "arrive": np.concatenate([empty, *(part.arrive for part in parts)]),
+    }
+
+
+def feature_columns(state: HullState, order: Places) -> dict[str, Column]:
+    """Give the features by key; lines and points one feature behind the other, nil for None."""
+    found = state.features
+    points = [np.array(each.points, np.int64) for each in found]
+    lines = [list(each.lines) for each in found]
+    nil = (0.0, 0.0, 0.0)
+    vectors = [(each.centre, each.normal, each.direction) for each in found]
+    reals = [(each.radius, each.offset) for each in found]
+    return {
+        "key": [each.key for each in found],
+        "kind": [each.kind for each in found],
+        "name": [each.name for each in found],
+        "lines": [json.dumps(each) for each in lines],
+        "count": np.array([len(part) for part in points], np.int64),
+        "row": order.row[np.concatenate([np.zeros(0, np.int64), *points])],
+        "vectors": np.array([[v or nil for v in part] for part in vectors]).reshape(-1, 3, 3),
+        "reals": np.array([[v or 0.0 for v in part] for part in reals]).reshape(-1, 2),
+        "side": np.array([each.side for each in found], np.int64),
+        "gap": np.array([each.gap for each in found], np.float64),
     }
 
 

@@ -13,6 +13,7 @@ True
 from __future__ import annotations
 
 from assoc_hull.graph.table import ArrayColumn, ListColumn, Table
+from assoc_hull.model.change import TABLES
 from assoc_hull.model.state import HullState
 
 __all__ = ["copy_of", "put_back"]
@@ -27,7 +28,7 @@ def copy_of(state: HullState) -> HullState:
 
 def put_back(found: HullState, state: HullState) -> None:
     """Give tables the content of a copy; they stay the same objects, so handles on them hold."""
-    for name in ("groups", "lines", "curves", "rows", "settings"):
+    for name in TABLES:
         _copy(getattr(state, name), getattr(found, name))
     found.settings.births.data[0] = dict(state.births)
     found.revision_row, found.revision_curve = dict(state.revision_row), dict(state.revision_curve)

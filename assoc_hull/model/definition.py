@@ -36,6 +36,7 @@ from assoc_hull.model.canonical import (
     Column,
     Places,
     curve_columns,
+    feature_columns,
     line_columns,
     meet_columns,
     places,
@@ -81,15 +82,17 @@ def definition(state: HullState) -> dict[str, object]:
     dict
         ``particulars`` and ``tolerances`` (m, degrees), and lists sorted by key or name:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
-        line, how many crossings the pair ever had) and ``retired`` (keys that must not come
-        back). What has its default is left out: an open deck, notes, labels, free ends, directions
-        of nil, smooth passage, overrides, nil signs.
+        line, how many crossings the pair ever had), ``retired`` (keys that must not come
+        back) and, of a hull that has any, ``features``. What has its default is left out: an
+        open deck, notes, labels, free ends, directions of nil, smooth passage, overrides, nil
+        signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sense of
         each meeting and the crossing it is, or None. ``value`` of a point (x, y, z; m)
         stands only where nothing else gives it; a ``riding`` point has ``anchors``,
         ``base``, ``from`` and ``weight`` instead.
     """
     order = places(state)
+    features = list(_feature_records(state))
     return {
         "particulars": _plain(state.particulars),
         "tolerances": _plain(state.tolerances),
@@ -103,6 +106,7 @@ def definition(state: HullState) -> dict[str, object]:
         "points": list(_point_records(state, order)),
         "births": _births(state),
         "retired": retired(state),
+        **({"features": features} if features else {}),
     }
 
 
@@ -230,6 +234,18 @@ def _shape(state: HullState, curve: int, *, with_xyz: bool = False) -> Record:
     return {name: getattr(spline, name).tolist() for name in names}
 
 
+def _feature_records(state: HullState) -> Iterator[Record]:
+    keys = state.rows.key.data
+    for each in state.features:
+        record: Record = {"key": each.key, "kind": each.kind, "name": each.name}
+        record |= {"lines": list(each.lines), "points": [str(keys[row]) for row in each.points]}
+        record |= {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in each.parameters.items()
+        }
+        yield record | {name: v for name, v in (("side", each.side), ("gap", each.gap)) if v}
+
+
 def _point_records(state: HullState, order: Places) -> Iterator[Record]:
     columns = point_columns(state, order)
     keys = _Keys(state, order)
@@ -330,6 +346,8 @@ def fingerprint_parts(
         "value": value_columns(state, order),
         "spline": spline_columns(state, order),
     }
+    if state.features:
+        tables["feature"] = feature_columns(state, order)
     for title, columns in tables.items():
         for column, values in columns.items():
             name = f"{title}.{column}"

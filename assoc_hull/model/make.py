@@ -7,7 +7,7 @@ birth for that pair, a placed or adopted point's from its curve and first place.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import attrs
 import numpy as np
@@ -17,6 +17,7 @@ from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.feature import Feature
 from assoc_hull.model.state import Association, Ends, HullState
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
@@ -238,6 +239,30 @@ class Maker:
         freeze(chosen, side)
         self.journal.set(self.state.curves.rows, [curve], [chosen])
         self.journal.set(self.state.curves.side, [curve], [side])
+
+    def features(self, wanted: Iterable[Feature]) -> None:
+        """Let a hull have these features and no others; what stays as it is, is not written.
+
+        Parameters
+        ----------
+        wanted : iterable of Feature
+            By their keys they take the place of those that are there.
+        """
+        table, live = self.state.featured, self.state.live("featured").tolist()
+        there = {table.feature.data[number].key: number for number in live}
+        by_key = {each.key: each for each in wanted}
+        gone = [number for key, number in there.items() if key not in by_key]
+        self.journal.put(table.alive, gone, False)
+        known = [key for key in sorted(by_key) if key in there]
+        changed = [key for key in known if by_key[key] != table.feature.data[there[key]]]
+        if changed:
+            numbers = [there[key] for key in changed]
+            self.journal.set(table.feature, numbers, [by_key[key] for key in changed])
+        fresh = [key for key in sorted(by_key) if key not in there]
+        if fresh:
+            rows = self.journal.grow(table, len(fresh))
+            self.journal.set(table.feature, rows.tolist(), [by_key[key] for key in fresh])
+            self.journal.put(table.alive, rows, True)
 
     def remove_rows(self, rows: ArrayLike) -> None:
         """Take points out; their keys are never used again."""

@@ -22,6 +22,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, PointKind
 from assoc_hull.model.definition import words
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.feature import FEATURE_KINDS
 from assoc_hull.model.form import (
     COUNT,
     NAME,
@@ -110,6 +111,26 @@ _POINT = record(
 )
 
 
+_FEATURE = record(
+    {
+        "key": NAME,
+        "kind": one_of(FEATURE_KINDS),
+        "name": NAME,
+        "lines": told(listed(TEXT, 1), "keys of the lines that it lies on"),
+        "points": told(listed(TEXT, 1), "keys of the points that it owns, along the line"),
+    },
+    {
+        "centre": _VECTOR,
+        "radius": POSITIVE,
+        "normal": _VECTOR,
+        "offset": told(REAL, "normal . place on its plane, m"),
+        "direction": _VECTOR,
+        "side": told(one_of((1, -1)), "1: centre or region lies left of its points, -1: right"),
+        "gap": told(NOT_NEGATIVE, "how far its points lie off it at most, m"),
+    },
+)
+
+
 def _fields(cls: type, form: Form, leave: Collection[str] = ()) -> Mapping[str, Form]:
     """Give the forms of an attrs class of numbers, and perhaps a name."""
     names = [each.name for each in attrs.fields(cls) if each.name not in leave]
@@ -141,7 +162,8 @@ DEFINITION = record(
             record(dict.fromkeys(("lines", "curves", "points"), listed(NAME))),
             "keys that must not come back",
         ),
-    }
+    },
+    {"features": told(listed(_FEATURE), "circles, arcs, flats and so on; none if not told")},
 )
 PUBLISHED = record(
     {

@@ -21,6 +21,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.table import Table
 from assoc_hull.model.family import FAMILIES, Family
+from assoc_hull.model.feature import Feature
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -219,6 +220,10 @@ def _lines() -> Table:
     )
 
 
+def _featured() -> Table:
+    return Table(alive=(bool, ()), feature=(object, None))
+
+
 def _settings() -> Table:
     return Table(
         associations=(object, ()),
@@ -240,6 +245,8 @@ class HullState:
         Part of the definition.
     rows, curves, lines, groups : Table
         The objects.
+    featured : Table
+        One row per feature, which it holds whole: see `features`.
     settings : Table
         One row: the associations (`associations`) and how many crossings of each pair of
         lines were ever born (`births`), so that a dead id never comes back; the name may
@@ -259,6 +266,7 @@ class HullState:
     groups: Any = attrs.field(
         factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
     )
+    featured: Any = attrs.field(factory=_featured)
     settings: Any = attrs.field(factory=_settings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
@@ -281,6 +289,13 @@ class HullState:
         """The declared associations."""
         found: tuple[Association, ...] = self.settings.associations.data[0]
         return found
+
+    @property
+    def features(self) -> tuple[Feature, ...]:
+        """The features that are alive, by key."""
+        table = self.featured
+        found = [table.feature.data[number] for number in self.live("featured").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
 
     @property
     def failed(self) -> tuple[int, ...]:

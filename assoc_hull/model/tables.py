@@ -25,6 +25,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.model.definition import words
 from assoc_hull.model.family import BoundaryKind, Sort, State
 from assoc_hull.model.filling import Keys, fill, wrong
+from assoc_hull.model.filling_features import put_features
 from assoc_hull.model.filling_points import put_defining, put_points
 from assoc_hull.model.meetings import put_meetings
 from assoc_hull.model.state import Association, Ends, HullState, Particulars
@@ -71,6 +72,7 @@ def make_tables(definition: Record) -> HullState:
     put_defining(state, journal, parts[1], keys)
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
+    put_features(state, journal, definition.get("features", ()), keys)
     _retire(state, journal, gone)
     return state
 

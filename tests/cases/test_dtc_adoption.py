@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
@@ -79,3 +80,13 @@ def test_curves_off_or_wavier_than_their_lines_are_few_and_named(dtc: ah.Hull) -
     assert len(over) <= 6
     assert max(over.values(), default=0.0) <= 2.0
     assert all(any(note.startswith(f"{line} ") for note in report.notes) for line in over)
+
+
+def test_bilge_arcs_amidships_are_features_that_tell_their_gap(dtc: ah.Hull) -> None:
+    """The scanned bilge is a circle of 4.7 m within a few millimetres where flats bound it."""
+    arcs = [each for each in dtc.features.values() if each.kind == "arc"]
+    print(f"\n{[(each.name, each.parameters['radius'], each.gap) for each in arcs]}")
+    assert len(arcs) >= 2
+    assert all(each.parameters["radius"] == pytest.approx(4.71, abs=0.01) for each in arcs)
+    assert all(1e-6 < each.gap < 0.003 for each in arcs)
+    assert {"flat of side", "flat of bottom"} <= set(dtc.features)

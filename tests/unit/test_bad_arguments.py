@@ -212,6 +212,11 @@ FLOATING: dict[str, Given] = {
         "further": (),
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
+    "measure": {"only": None},
+    "vary": {
+        "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
+        "stations": "number", "tolerance": 2e-3, "name": None, "in_place": False,
+    },
 }  # fmt: skip
 
 
@@ -348,7 +353,7 @@ def make(method: str, given: Given) -> None:
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(FLOATING))
-def test_a_hull_is_floated_by_good_values(
+def test_a_hull_is_measured_by_good_values(
     hull: ah.Hull, method: str, given: Given, name: str
 ) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
@@ -360,7 +365,7 @@ def test_a_hull_is_floated_by_good_values(
 
 
 @pytest.mark.parametrize("method", FLOATING)
-def test_what_is_floated_is_a_hull(hull: ah.Hull, method: str) -> None:
+def test_what_is_measured_is_a_hull(hull: ah.Hull, method: str) -> None:
     """Anything else is of the wrong type: its tables, and the class, too."""
     function = getattr(ah, method)
     assert not call(lambda: function(hull, **FLOATING[method]), {})

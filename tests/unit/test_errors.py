@@ -23,6 +23,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["name is None", "in rename", "give text"],
     ),
     (
+        errors.AbsentParameterError("cannot measure 'TH'", "in measure", "ask for another"),
+        KeyError,
+        ["cannot measure 'TH'", "in measure", "ask for another"],
+    ),
+    (
         errors.OutOfRangeError("draught", 19.5, "at heel 10 deg", "drowns the deck", 0.5, 9.0, "m"),
         ValueError,
         ["draught of 19.5 m", "at heel 10 deg", "drowns the deck", "from 0.5 to 9 m"],

@@ -13,9 +13,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.strip_spans import Spans
 
-__all__ = ["LargestSection", "largest_section", "parallel_body"]
+__all__ = ["EQUAL", "LargestSection", "largest_section", "parallel_body"]
 
-_EQUAL = 1e-4
+EQUAL = 1e-4
 """Areas of sections of the parallel middle body differ by less, in parts of the largest."""
 
 _SHORT = 0.02
@@ -23,7 +23,7 @@ _SHORT = 0.02
 
 _WIDE = 1e-2
 _RATIO = 0.25
-"""The top of a parabola that is level to `_WIDE` over some length is level to `_EQUAL` over 1/10
+"""The top of a parabola that is level to `_WIDE` over some length is level to `EQUAL` over 1/10
 of it; a stretch that is more than so much of it does not come from a rounded top."""
 
 _SAME = 1e-12
@@ -95,7 +95,7 @@ def _along(shape: Shape, plane: Planes) -> LargestSection:
     largest = float(area.max())
     near = np.where(area >= (1.0 - _SAME) * largest, np.abs(x - 0.5 * shape.length), np.inf)
     place = float(x[near.argmin()])
-    least = (1.0 - np.array([_EQUAL, _WIDE])) * largest
+    least = (1.0 - np.array([EQUAL, _WIDE])) * largest
     level, wide = _level(areas, x, area, least)
     length = level[1] - level[0]
     parallel = length >= _SHORT * shape.length and length >= _RATIO * (wide[1] - wide[0])
@@ -128,7 +128,7 @@ def _tops(area: FloatArray) -> IntArray:
     low = np.minimum(around[:-2], around[2:])
     high = np.maximum(around[:-2], around[2:])
     same = _SAME * most
-    top = (area >= (1.0 - _EQUAL) * most) & (area >= high - same) & (area > low + same)
+    top = (area >= (1.0 - EQUAL) * most) & (area >= high - same) & (area > low + same)
     return np.flatnonzero(top) if top.any() else np.array([int(area.argmax())])
 
 

@@ -13,7 +13,7 @@ from assoc_hull.geometry.segments import power
 
 __all__ = [
     "LEAST_BULB", "NO_PROFILE", "area_before_fp", "bulb_tip", "profile_at", "profile_curves",
-    "slope_deg",
+    "slope_deg", "tips",
 ]  # fmt: skip
 
 NO_PROFILE = Absent("no profile drawn")
@@ -23,6 +23,9 @@ LEAST_BULB = 1e-3
 
 _MEET = 1e-4
 """Ends of curves so near to one another (m) are one place."""
+
+_TURN = 1e-6
+"""A profile that runs back by less (m) does not turn."""
 
 
 def profile_curves(shape: Shape) -> SplineBatch | None:
@@ -54,12 +57,25 @@ def bulb_tip(shape: Shape) -> FloatArray | Absent:
     curves = shape.take(profile_curves)
     if curves is None:
         return NO_PROFILE
-    places = _tips(_chained(list(turning_places(curves, 0))))
+    places = tips(curves)
     low = places[places[:, 2] < shape.header.draught]
     if not len(low) or low[:, 0].max() <= shape.length + LEAST_BULB:
         return Absent("no bulb")
     tip: FloatArray = low[int(low[:, 0].argmax())]
     return tip
+
+
+def tips(curves: SplineBatch, sense: float = 1.0) -> FloatArray:
+    """Give the places of a profile from which it runs back both ways, (k, 3), m.
+
+    Parameters
+    ----------
+    curves : SplineBatch
+        Of the centre plane, in any order and sense; curves that meet at their ends are one.
+    sense : float
+        1: it runs aft from there both ways, as from the nose of a bulb; -1: forward.
+    """
+    return _tips(_chained(list(turning_places(curves, 0))), sense)
 
 
 def _chained(runs: list[FloatArray]) -> list[FloatArray]:
@@ -84,15 +100,27 @@ def _chained(runs: list[FloatArray]) -> list[FloatArray]:
     return found
 
 
-def _tips(runs: list[FloatArray]) -> FloatArray:
+def _tips(runs: list[FloatArray], sense: float) -> FloatArray:
     """Give places, (k, 3), before which a run of turning places advances and then goes back."""
     found = [np.zeros((0, 3))]
     for run in runs:
         moved = np.concatenate([[True], np.abs(np.diff(run[:, 0])) > 0.0])
         clear = run[moved]
-        step = np.diff(clear[:, 0])
-        found.append(clear[1:-1][(step[:-1] > 0.0) & (step[1:] < 0.0)])
+        ahead = sense * clear[:, 0]
+        step = np.diff(ahead)
+        tops = np.flatnonzero((step[:-1] > 0.0) & (step[1:] < 0.0)) + 1
+        true = [i for i in tops.tolist() if _falls(ahead[i::-1]) and _falls(ahead[i:])]
+        found.append(clear[true])
     return np.concatenate(found)
+
+
+def _falls(ahead: FloatArray) -> bool:
+    """Tell whether a run goes back from where it begins, before it goes on beyond that.
+
+    Where a run only passes a knot, rounding may make it turn.
+    """
+    beyond, back = ahead > ahead[0], ahead < ahead[0] - _TURN
+    return bool(back.any() and not beyond[: int(back.argmax())].any())
 
 
 def area_before_fp(shape: Shape, height: float, tan_trim: float) -> float:

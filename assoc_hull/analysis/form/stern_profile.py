@@ -9,13 +9,17 @@ from assoc_hull.analysis.form.profile import NO_PROFILE, profile_at, profile_cur
 from assoc_hull.analysis.form.section_shape import section_at
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent
+from assoc_hull.analysis.net.gather import Net
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.places import turning_places
 
-__all__ = ["Boss", "aft_end", "boss", "bottom_at", "height_above", "leaves_boss", "transom"]
+__all__ = [
+    "Boss", "aft_end", "boss", "boss_curve", "bottom_at", "height_above", "leaves_boss", "transom",
+    "transom_curves",
+]  # fmt: skip
 
 _AT_END = 1e-3
 """A flat end so near to the aftmost place of the lines (m) is the transom."""
@@ -24,17 +28,29 @@ _LEVEL = 1e-4
 """Places that differ in height by less (m) are level."""
 
 
-def _flat_ends(shape: Shape) -> list[int]:
+def _flat_ends(net: Net, length: float) -> list[int]:
     """Give the curves of the net that are flat ends of the after body."""
-    net = shape.body.net
-    return np.flatnonzero(net.end & (net.x < 0.5 * shape.length)).tolist()
+    return np.flatnonzero(net.end & (net.x < 0.5 * length)).tolist()
+
+
+def transom_curves(net: Net, length: float) -> list[int]:
+    """Give the curves of the transom's edge: a flat end across the ship aft of all lines.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    length : float, m
+        Lpp.
+    """
+    aftmost = float(net.batch.xyz[:, 0].min())
+    return [i for i in _flat_ends(net, length) if net.x[i] <= aftmost + _AT_END]
 
 
 def transom(shape: Shape) -> SplineBatch | Absent:
     """Give the edge of the transom: a flat end across the ship at the aft end of all lines."""
     net = shape.body.net
-    aftmost = float(net.batch.xyz[:, 0].min())
-    chosen = [i for i in _flat_ends(shape) if net.x[i] <= aftmost + _AT_END]
+    chosen = transom_curves(net, shape.length)
     if not chosen:
         return Absent("no transom")
     return SplineBatch.join([net.batch.part(i, i + 1) for i in chosen])
@@ -60,19 +76,36 @@ class Boss:
     diameter: float
 
 
+def boss_curve(net: Net, length: float) -> int | None:
+    """Give the edge of a boss end: a flat end from the centre plane to it, not the transom.
+
+    Parameters
+    ----------
+    net : Net
+        The lines.
+    length : float, m
+        Lpp.
+    """
+    edge = transom_curves(net, length)
+    aft = float(net.batch.part(edge[0], edge[0] + 1).xyz[0, 0]) if edge else np.nan
+    for i in _flat_ends(net, length):
+        ends = net.batch.part(i, i + 1).xyz[[0, -1], 1]
+        if net.x[i] != aft and np.abs(ends).max() <= CENTRE:
+            return i
+    return None
+
+
 def boss(shape: Shape) -> Boss | None:
     """Give the boss end: a flat end that begins and ends on the centre plane, not the transom."""
-    net, edge = shape.body.net, shape.take(transom)
-    aft = np.nan if isinstance(edge, Absent) else float(edge.xyz[0, 0])
-    for i in _flat_ends(shape):
-        one = net.batch.part(i, i + 1)
-        if net.x[i] != aft and np.abs(one.xyz[[0, -1], 1]).max() <= CENTRE:
-            places = sample(one)[1][:, 1:]
-            both = np.concatenate([places, places * [-1.0, 1.0]])
-            edge_of = fit_circle(both)
-            top = float(one.xyz[[0, -1], 2].max())
-            return Boss(float(net.x[i]), top, float(edge_of.centre[1]), 2.0 * edge_of.radius)
-    return None
+    net = shape.body.net
+    i = boss_curve(net, shape.length)
+    if i is None:
+        return None
+    one = net.batch.part(i, i + 1)
+    places = sample(one)[1][:, 1:]
+    edge_of = fit_circle(np.concatenate([places, places * [-1.0, 1.0]]))
+    top = float(one.xyz[[0, -1], 2].max())
+    return Boss(float(net.x[i]), top, float(edge_of.centre[1]), 2.0 * edge_of.radius)
 
 
 def leaves_boss(shape: Shape, end: Boss) -> float | Absent:

@@ -27,7 +27,8 @@ from tests.strategies import wigley_sources
 __all__ = ["HULL_FILE"]
 
 TABLES = (
-    "hull", "groups", "lines", "curves", "points", "associations", "births", "labels", "steps",
+    "hull", "groups", "lines", "curves", "points", "features", "associations", "births", "labels",
+    "steps",
 )  # fmt: skip
 CELLS: tuple[object, ...] = (
     0, 1, -1, 2, 7, 2**31, -(2**63), 10_000, None, "", "x", "[]", "{}", "[1, 2]", "null", 0.5,

@@ -1,0 +1,173 @@
+"""The command that varies a hull by named parameters."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.cli.arguments import (
+    HULL_ENDINGS,
+    Commands,
+    add_command,
+    add_hull,
+    add_json,
+    add_replace,
+    add_wait,
+)
+from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
+from assoc_hull.cli.words import edit_words
+from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.sources import open as open_hull
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Add ``vary``."""
+    parser = add_command(
+        commands, "vary", "vary a hull by named parameters; exit 1 if it is refused", _vary,
+        """assoc-hull vary ship.hull --list
+        assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
+        assoc-hull vary ship.hull --set breadth=51.5 --stations x --json
+        assoc-hull vary ship.hull --script larger_screw.json -o larger.hull
+
+        larger_screw.json: {"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
+        "layout": {"stern": 0.3}, "name": "larger screw"}
+        (m, or degrees where a name ends in _deg; x from AP, z from the base line)""",
+    )  # fmt: skip
+    add_hull(parser)
+    parser.add_argument(
+        "--set", metavar="NAME=VALUE", action="append", default=[],
+        help="a named parameter and the value it is to have; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--layout", metavar="NAME=VALUE", action="append", default=[],
+        help="how far the fields reach; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument("--script", metavar="FILE.json", type=Path, help="all of it as a file")
+    parser.add_argument(
+        "--drivers", metavar="NAME", nargs="+",
+        help="groups or lines that are carried as they are (default: all whose planes stay planes)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--stations", choices=("number", "x"), default=None,
+        help="sections keep their numbers and move, or stay where they are (default: number)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tolerance", type=float, metavar="M",
+        help="how far a driver may leave its exact image, m (default: 0.002)",
+    )  # fmt: skip
+    parser.add_argument("--name", help="name of the step in the history")
+    parser.add_argument(
+        "--list",
+        action="store_true",
+        help="show present values and what may be asked; write nothing",
+    )
+    parser.add_argument(
+        "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
+    )
+    add_wait(parser)
+    add_replace(parser)
+    add_json(parser)
+
+
+def _vary(arguments: argparse.Namespace) -> int:
+    if arguments.list:
+        return _list(arguments)
+    script = _script(arguments)
+    try:
+        return _carry_out(arguments, script)
+    except RefusedEditError as error:
+        facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
+        emit(arguments, facts, "\n".join(error.findings))
+        print(f"refused: {error.edit!r}; the hull is unchanged", file=sys.stderr)
+        return 1
+
+
+def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
+    from assoc_hull.variants import vary_by
+
+    target: Path = arguments.out or arguments.hull
+    apart = is_apart(arguments.out, arguments.hull)
+    check_target(target, HULL_ENDINGS)
+    if apart:
+        check_hull_target(target, replace=arguments.replace)
+    hull = open_hull(arguments.hull, wait=arguments.wait)
+    if apart:
+        hull.detach()
+    with progress("varying"):
+        found = vary_by(hull, script, in_place=True)
+    report = found.report
+    facts = {
+        "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
+        "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
+        "refused": False, "saved": str(target),
+    }  # fmt: skip
+    told = [report.edit.name, *(f"  {each}" for each in report.targets)]
+    told += [edit_words(hull, report.edit), f"written: {target}"]
+    if apart or hull.path is None:
+        hull.save(target, replace=arguments.replace)
+    emit(arguments, facts, "\n".join(told))
+    return 0
+
+
+def _list(arguments: argparse.Namespace) -> int:
+    from assoc_hull.variation.listing import listing
+
+    hull = open_hull(arguments.hull)
+    with progress("looking for what may be asked"):
+        found = listing(hull.state)
+    emit(arguments, {"parameters": found}, "\n".join(str(each) for each in found))
+    return 0
+
+
+def _script(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Put together what is asked for; options go before what the file says."""
+    script: dict[str, Any] = _read(arguments.script) if arguments.script else {}
+    for key in ("set", "layout"):
+        given = _pairs(getattr(arguments, key), key)
+        if given:
+            script[key] = {**script.get(key, {}), **given}
+    for key in ("drivers", "stations", "tolerance", "name"):
+        value = getattr(arguments, key)
+        if value is not None:
+            script[key] = value
+    if arguments.script and "name" not in script:
+        script["name"] = arguments.script.stem
+    return script
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise BadInputError(f"{path} is no JSON: {error}", "in vary", "mend it") from error
+    if not isinstance(found, dict):
+        raise BadInputError(f"{path} holds a {type(found).__name__}", "in vary", "give an object")
+    return found
+
+
+def _pairs(given: list[str], option: str) -> dict[str, Any]:
+    """Take ``NAME=VALUE``; what is no number is a word."""
+    found: dict[str, Any] = {}
+    for each in given:
+        name, equals, value = each.partition("=")
+        if not equals or not name or not value:
+            raise UsageError(f"--{option} {each}: give NAME=VALUE")
+        if name in found:
+            raise UsageError(f"--{option} {name} is given twice")
+        found[name] = _value(value)
+    return found
+
+
+def _value(text: str) -> float | bool | str:
+    if text in ("true", "false"):
+        return text == "true"
+    try:
+        return float(text)
+    except ValueError:
+        return text

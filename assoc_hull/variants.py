@@ -1,0 +1,149 @@
+"""Variants: a new hull from a parent, by named parameters and fields.
+
+Examples
+--------
+>>> import assoc_hull as ah
+>>> parent = ah.examples.wigley()
+>>> variant = ah.vary(parent, set={"breadth": 11.0})
+>>> variant.hull.half_breadth(50.0, 6.25), parent.half_breadth(50.0, 6.25)
+(5.5, 5.0)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import attrs
+
+from assoc_hull.analysis.measured_hull import state_of
+from assoc_hull.arguments import flag
+from assoc_hull.hull import Hull
+from assoc_hull.model.copy import copy_of
+from assoc_hull.model.handles import Group, Line
+from assoc_hull.variation.ask import Ask, Stations, ask_from
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.vary import VariationReport, vary_document
+from assoc_hull.variation.vmap import VMap
+
+__all__ = ["Variation", "vary", "vary_by"]
+
+
+@attrs.frozen(eq=False)
+class Variation:
+    """A varied hull.
+
+    Attributes
+    ----------
+    hull : Hull
+        The variant; undo gives the parent back.
+    report : VariationReport
+        What was asked, reached and changed.
+    map : VMap
+        The map that carries places of the parent to those of the variant, m.
+    """
+
+    hull: Hull
+    report: VariationReport
+    map: VMap
+
+    def __str__(self) -> str:
+        return str(self.report)
+
+
+def vary(
+    hull: Hull,
+    *,
+    set: Mapping[str, float] | None = None,
+    layers: Sequence[object] = (),
+    layout: Mapping[str, Any] | Layout | None = None,
+    drivers: Sequence[Group | Line | str] | None = None,
+    stations: Stations = "number",
+    tolerance: float = 2e-3,
+    name: str | None = None,
+    in_place: bool = False,
+) -> Variation:
+    """Vary a hull so that named parameters have asked values; all its lines follow.
+
+    The map is certified not to fold, the lines that drive are carried exactly, all others are
+    cut again from them, and the asked values are measured on the lines of the result to 1e-6.
+
+    Parameters
+    ----------
+    hull : Hull
+        The parent.
+    set : mapping of str to float
+        Values by name, m, or degrees where the name ends in ``_deg``; x from AP forward, z from
+        the base line up. `measure` gives the names and the present values.
+    layers : sequence
+        Raw layers that act after those of the named parameters: objects with `displacement` and
+        `jacobian`, or lists of fields as data (see `assoc_hull.variation.raw`).
+    layout : mapping or Layout
+        How far the fields reach; see `assoc_hull.variation.layout.Layout`.
+    drivers : sequence of Group, Line or str
+        Lines whose images are taken exactly; boundary curves always are. By default all lines
+        whose planes the map keeps.
+    stations : {"number", "x"}
+        Sections go with the map and keep their numbers, or stay where they are.
+    tolerance : float, m
+        How far a driver may leave its exact image.
+    name : str
+        Of the step in the history; by default it tells the values.
+    in_place : bool
+        Vary this hull, as a step that can be undone; else a copy of it.
+
+    Returns
+    -------
+    Variation
+        The hull, what was reached, and the map.
+
+    Raises
+    ------
+    UnknownNameError
+        No such parameter.
+    BadInputError
+        The parent has not what is asked for; two parameters contradict each other; the map
+        folds, with the interval that is admissible. The hull is unchanged.
+    RefusedEditError
+        A line would fold or lose its order. The hull is unchanged.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> variant = ah.vary(ah.examples.wigley(), set={"breadth": 11.0, "draught": 7.0})
+    >>> [target.reached for target in variant.report.targets]
+    [11.0, 7.0]
+    """
+    ask = Ask.of(
+        set, layers=layers, layout=layout, drivers=drivers, stations=stations,
+        tolerance=tolerance, name=name,
+    )  # fmt: skip
+    return _carry_out(hull, ask, in_place=flag(in_place, "in_place", "in vary"))
+
+
+def vary_by(hull: Hull, script: Mapping[str, Any], *, in_place: bool = False) -> Variation:
+    """Vary a hull by a script, the same arguments as data; see `assoc_hull.variation.ask`.
+
+    The same parent and the same script give the same hull, to the last bit.
+
+    Raises
+    ------
+    AssocHullError
+        As `vary`.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.variants import vary_by
+    >>> str(vary_by(ah.examples.wigley(), {"set": {"breadth": 11.0}}).report.targets[0])
+    'breadth 10 -> 11 m'
+    """
+    return _carry_out(hull, ask_from(script), in_place=flag(in_place, "in_place", "in vary"))
+
+
+def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:
+    state_of(hull)
+    hull.document.require_ended("vary")
+    varied = hull if in_place else Hull(copy_of(hull.state))
+    vmap, report = vary_document(varied.document, ask)
+    return Variation(varied, report, vmap)

@@ -1,0 +1,1 @@
+"""Variation of a parent hull: fields, maps, named parameters, features, shifts."""

@@ -1,0 +1,137 @@
+"""A map carries a net: which lines drive, which follow, and what changes with them.
+
+Drivers are by default all lines whose planes the map keeps: their images are exact. A line
+whose plane would bend is cut again, at its own plane, from the drivers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+import attrs
+
+from assoc_hull.edit.carry import Carried
+from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.transform import Reshape, transform
+from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.variation.drivers import Keeps, default_drivers, keeps
+from assoc_hull.variation.features_net import Regenerated, regenerated
+from assoc_hull.variation.field import Region
+from assoc_hull.variation.vmap import VMap
+
+__all__ = ["Applied", "apply"]
+
+Stations = Literal["number", "x"]
+
+
+@attrs.frozen
+class Applied:
+    """How a map was applied to a net.
+
+    Attributes
+    ----------
+    drivers : tuple of str
+        Names of the lines that drove, boundary curves among them.
+    keeps : Keeps
+        Which planes the map keeps.
+    added : int
+        How many adopted points hold the drivers to their images.
+    regions : tuple of Region
+        Boxes of the profile plane in which features that were made anew change the map.
+    """
+
+    drivers: tuple[str, ...]
+    keeps: Keeps
+    added: int
+    regions: tuple[Region, ...] = ()
+
+
+def apply(
+    edit: Transaction,
+    vmap: VMap,
+    *,
+    drivers: Sequence[int] | None = None,
+    stations: Stations = "number",
+    follow: bool = False,
+    tolerance: float = 2e-3,
+    particulars: Mapping[str, float] | None = None,
+    reshape: Reshape | None = None,
+    anchors: Sequence[tuple[int, float]] = (),
+    radii: Mapping[str, float] | None = None,
+) -> Applied:
+    """Carry a net by a map, within an edit that holds nothing else.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit: one undo step, refused as a whole.
+    vmap : VMap
+        The map.
+    drivers : sequence of int or None
+        Numbers of the driving lines; None for all whose planes the map keeps.
+    stations : {"number", "x"}
+        Whether sections go with the map and keep their numbers, or stay where they are along
+        the ship and are cut again. Where the map moves x by more than x, they stay.
+    follow : bool
+        Whether waterlines and buttocks go where the map sends their planes to parallel ones;
+        else they stay at their heights and half-breadths.
+    tolerance : float, m
+        How far a driver may leave its exact image.
+    particulars : mapping of str to float or None
+        Those of ``length``, ``breadth``, ``depth``, ``draught`` (m) that change.
+    reshape : callable or None
+        Gives points that features own their exact places, before the drivers are cut.
+    anchors : sequence of (int, float)
+        Curves, and parameters on them (m) before the map, where drivers are to be exact.
+    radii : mapping of str to float or None
+        Radii (m) that are asked for of circles, by the keys of features.
+
+    Raises
+    ------
+    BadInputError
+        Nothing can drive, the map folds, or lines cannot follow it.
+    """
+    state, anew = edit.state, regenerated(edit.state, vmap, radii)
+    space = SpaceMap(anew.map, anew.map.jacobian)
+    kept = keeps(state, space)
+    chosen = (
+        default_drivers(state, kept, stations, follow=follow)
+        if drivers is None else tuple(sorted(drivers))
+    )  # fmt: skip
+    size = _resized(state.particulars, particulars) if particulars else None
+    added = transform(
+        edit, space, chosen, follow=follow, tolerance=tolerance,
+        reshape=_both(anew, reshape), anchors=anchors, particulars=size,
+    )  # fmt: skip
+    if edit.pending.features is not None:
+        edit.pending.features = anew.features(edit.pending.features)
+    return Applied(_names(state, chosen), kept, added, anew.map.regions())
+
+
+def _both(anew: Regenerated, reshape: Reshape | None) -> Reshape:
+    """Let features settle first, then who asks to."""
+
+    def act(work: Carried) -> None:
+        anew.settle(work)
+        if reshape is not None:
+            reshape(work)
+
+    return act
+
+
+def _resized(size: Particulars, new: Mapping[str, float]) -> Particulars:
+    return attrs.evolve(
+        size,
+        length=new.get("length", size.length),
+        breadth=new.get("breadth", size.breadth),
+        depth=new.get("depth", size.depth),
+        draught=new.get("draught", size.draught),
+    )
+
+
+def _names(state: HullState, lines: Sequence[int]) -> tuple[str, ...]:
+    boundary = state.live("lines")[state.lines.boundary.data[state.live("lines")] >= 0]
+    every = sorted({*lines, *boundary.tolist()}, key=lambda line: str(state.lines.key.data[line]))
+    return tuple(str(state.lines.name.data[line]) for line in every)

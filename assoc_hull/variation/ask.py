@@ -1,0 +1,169 @@
+"""What a variation is asked for, checked and frozen; also as data, for a script file.
+
+{"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
+ "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
+ "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, Literal, get_args
+
+import attrs
+
+from assoc_hull.arguments import choice, number, positive, text
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.model.handles import Group, Line
+from assoc_hull.variation.catalogue import CATALOGUE, NAMES
+from assoc_hull.variation.layer import Layer
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.raw import layers_from
+
+__all__ = ["Ask", "Stations", "ask_from"]
+
+Stations = Literal["number", "x"]
+
+
+@attrs.frozen(eq=False)
+class Ask:
+    """What a variation is asked for.
+
+    Attributes
+    ----------
+    values : mapping of str to float
+        Named parameters, m or degrees.
+    layers : tuple of Layer
+        Raw layers, which act after those of the named parameters.
+    layout : Layout
+        How far the fields of named parameters reach.
+    drivers : tuple of Group, Line, str, or None
+        Groups or lines, or their names; None for those whose planes the map keeps.
+    stations : {"number", "x"}
+        Whether sections keep their numbers and go with the map, or stay where they are.
+    tolerance : float, m
+        How far drivers may leave their exact images.
+    name : str
+        Of the step in the history.
+    """
+
+    values: Mapping[str, float]
+    layers: tuple[Layer, ...] = ()
+    layout: Layout = attrs.field(factory=Layout)
+    drivers: tuple[Group | Line | str, ...] | None = None
+    stations: Stations = "number"
+    tolerance: float = 2e-3
+    name: str = "vary"
+
+    @classmethod
+    def of(
+        cls,
+        values: Mapping[str, float] | None = None,
+        *,
+        layers: Sequence[object] = (),
+        layout: Mapping[str, Any] | Layout | None = None,
+        drivers: Sequence[Group | Line | str] | None = None,
+        stations: str = "number",
+        tolerance: float = 2e-3,
+        name: str | None = None,
+    ) -> Ask:
+        """Take what a designer gives.
+
+        Raises
+        ------
+        UnknownNameError
+            No such parameter, or no such reach of a field.
+        BadInputError
+            A value that is no number or has no meaning; nothing is asked for.
+        """
+        found = _values(values)
+        if not found and not layers:
+            raise BadInputError(
+                "nothing is asked for", "in vary", "give values of named parameters, or fields"
+            )
+        wanted = choice(stations, "stations", get_args(Stations), "in vary")
+        return cls(
+            MappingProxyType(found), _layers(layers), Layout.of(layout), _drivers(drivers),
+            "x" if wanted == "x" else "number", positive(tolerance, "tolerance", "in vary"),
+            _title(found) if name is None else text(name, "the name", "in vary"),
+        )  # fmt: skip
+
+
+def ask_from(data: object) -> Ask:
+    """Take what a script file says.
+
+    Raises
+    ------
+    UnknownNameError
+        A key that is none.
+    WrongTypeError, BadInputError
+        A part of another form.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.ask import ask_from
+    >>> dict(ask_from({"set": {"breadth": 51.5}}).values)
+    {'breadth': 51.5}
+    """
+    if not isinstance(data, Mapping):
+        raise WrongTypeError(
+            f"a variation is {type(data).__name__}", "in vary", "give a mapping with 'set'"
+        )
+    known = ("set", "layers", "layout", "drivers", "stations", "tolerance", "name")
+    for key in data:
+        if key not in known:
+            raise UnknownNameError("part of a variation", str(key), known)
+    return Ask.of(
+        data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
+        drivers=data.get("drivers"), stations=data.get("stations", "number"),
+        tolerance=data.get("tolerance", 2e-3), name=data.get("name"),
+    )  # fmt: skip
+
+
+def _values(given: object) -> dict[str, float]:
+    """Take values by name, in the order of the catalogue."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise WrongTypeError(
+            f"set is {type(given).__name__}", "in vary", "give values by the names of parameters"
+        )
+    for name in given:
+        if name not in CATALOGUE:
+            raise UnknownNameError("named parameter", str(name), NAMES)
+    found = {name: number(given[name], name, "in vary") for name in NAMES if name in given}
+    for name, value in found.items():
+        if CATALOGUE[name].positive and not value > 0.0:
+            raise BadInputError(f"{name} is {value:g} m", "in vary", "give a length above 0")
+    return found
+
+
+def _layers(given: object) -> tuple[Layer, ...]:
+    """Take layers as they are, or lists of fields as data."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        raise WrongTypeError(
+            f"layers is {type(given).__name__}", "in vary", "give a list of layers"
+        )
+    made = list[Layer]()
+    for i, each in enumerate(given):
+        if hasattr(each, "displacement") and hasattr(each, "jacobian"):
+            made.append(each)
+        else:
+            made += [attrs.evolve(one, name=f"raw fields {i + 1}") for one in layers_from([each])]
+    return tuple(made)
+
+
+def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
+    if given is None:
+        return None
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        raise WrongTypeError(
+            f"drivers is {type(given).__name__}", "in vary", "give a list of groups or lines"
+        )
+    return tuple(given)
+
+
+def _title(values: Mapping[str, float]) -> str:
+    words = ", ".join(f"{name}={value:g}" for name, value in values.items())
+    return f"vary {words}" if words else "vary by fields"

@@ -1,0 +1,111 @@
+"""The named parameters: what they are, and what lays out their fields."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+
+from assoc_hull.variation import layouts_bilge, layouts_body, layouts_bow, layouts_stern
+from assoc_hull.variation.layer import Layer
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.share import Share
+
+__all__ = ["CATALOGUE", "NAMES", "NamedParameter"]
+
+_SIGNED = frozenset(
+    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+)
+"""Parameters that may be nil or negative."""
+
+_Lays = Callable[[Parent, float, Layout], Share | Layer]
+
+
+@attrs.frozen
+class NamedParameter:
+    """A parameter of a hull that a designer can ask for by name.
+
+    Attributes
+    ----------
+    name, short : str
+        In full, and as a formula has it.
+    unit : {"m", "deg"}
+    meaning : str
+        What is measured; x from AP, z from the base line.
+    lays : callable or None
+        Gives its share in the layer of local fields, or its own layer; None if it scales the
+        hull as a whole.
+    field : str
+        What its field is, in words.
+    """
+
+    name: str
+    short: str
+    unit: str
+    meaning: str
+    lays: _Lays | None
+    field: str
+
+    @property
+    def positive(self) -> bool:
+        """Whether only values above 0 have a meaning."""
+        return not (self.amplitude or self.name in _SIGNED)
+
+    @property
+    def amplitude(self) -> bool:
+        """Whether it is a movement, present value 0, and no measure of the hull."""
+        return self.name.endswith("_shift")
+
+
+def _entries() -> tuple[NamedParameter, ...]:
+    entry = NamedParameter
+    body, stern, bow, bilge = layouts_body, layouts_stern, layouts_bow, layouts_bilge
+    return (
+        entry("length", "Lpp", "m", "length between perpendiculars", None,
+              "ratio of x about the AP, everywhere"),
+        entry("breadth", "B", "m", "greatest breadth of the net", None,
+              "ratio of y, everywhere"),
+        entry("draught", "T", "m", "design draught", None,
+              "ratio of z up to T, shift above 1.6 T"),
+        entry("depth", "D", "m", "height of the deck edge amidships", body.depth,
+              "ratio of z from the deck up, nothing below T"),
+        entry("deck_height", "z_deck", "m", "height of the deck edge amidships", body.deck_height,
+              "shift of z from the deck up, nothing below T"),
+        entry("shaft_height", "h", "m", "height of the centre of the bossing end",
+              stern.shaft_height, "hat of z over base, bossing and T"),
+        entry("bossing_radius", "r_b", "m", "radius of the circle of the bossing end",
+              stern.bossing_radius, "ratio of y in a tube, of z about the centre"),
+        entry("transom_height", "z_t", "m", "lowest point of the transom", stern.transom_height,
+              "hat of z; what lies above moves along"),
+        entry("transom_half_breadth", "y_t", "m", "greatest half-breadth of the transom",
+              stern.transom_half_breadth, "ratio of y from the transom's foot up"),
+        entry("bulb_height", "z_b", "m", "height of the foremost point of the bulb",
+              bow.bulb_height, "hat of z over base, tip and 1.25 T"),
+        entry("bulb_half_breadth", "y_b", "m", "greatest half-breadth at the FP below T",
+              bow.bulb_half_breadth, "ratio of y from the tip down"),
+        entry("bulb_length", "l_b", "m", "from the FP to the foremost point of the bulb",
+              bow.bulb_length, "shift of x below the bulb's top"),
+        entry("bilge_radius", "r", "m", "radius of the bilge amidships", bilge.bilge_radius,
+              "stretch about the corner of side and bottom"),
+        entry("deadrise_deg", "beta", "deg", "rise of the bottom at the side of the keel",
+              bilge.deadrise_deg, "shear of z outward from the keel"),
+        entry("flat_of_bottom", "y_f", "m", "half-breadth of the flat bottom amidships",
+              bilge.flat_of_bottom, "stretch of y about the corner of side and bottom"),
+        entry("parallel_body_start", "x_s", "m", "x of the after end of the parallel body",
+              body.parallel_body_start, "shift of x, nothing at AP and at the fore end"),
+        entry("parallel_body_end", "x_e", "m", "x of the fore end of the parallel body",
+              body.parallel_body_end, "shift of x, nothing at the after end and at FP"),
+        entry("stem_rake_deg", "rake", "deg", "rake of the stem from T to its top",
+              bow.stem_rake_deg, "ramp of x above T"),
+        entry("fore_shift", "c_f", "m", "largest movement of the fore stations, + forward",
+              body.fore_shift, "bump of x between parallel body and rising profile"),
+        entry("aft_shift", "c_a", "m", "largest movement of the after stations, + forward",
+              body.aft_shift, "bump of x between rising profile and parallel body"),
+    )  # fmt: skip
+
+
+CATALOGUE = {each.name: each for each in _entries()}
+"""All named parameters, in the order in which they are listed."""
+
+NAMES = tuple(CATALOGUE)

@@ -1,0 +1,163 @@
+"""Bilge arcs with rise of floor, flats and straight runs: drawn anew from what they are."""
+
+from __future__ import annotations
+
+import math
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import number, place, places, positive
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["Bilge", "bilge", "on_chord", "onto_plane"]
+
+
+@attrs.frozen(eq=False)
+class Bilge:
+    """A bilge circle between a floor and a flat side.
+
+    Attributes
+    ----------
+    y, z : float, m
+        The centre.
+    radius : float, m
+    floor : (2,), m
+        y and z at which it leaves the floor.
+    side : (2,), m
+        y and z at which it comes onto the side.
+    """
+
+    y: float
+    z: float
+    radius: float
+    floor: FloatArray
+    side: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.floor, self.side)
+
+    def at(self, part: ArrayLike) -> FloatArray:
+        """Give places y, z (n, 2), m, at parts of the arc, 0 on the floor and 1 on the side.
+
+        The ends are exactly the tangent points.
+        """
+        t = np.asarray(part, np.float64)
+        first = math.atan2(float(self.floor[1]) - self.z, float(self.floor[0]) - self.y)
+        angle = first * (1.0 - t)
+        inner = np.column_stack([np.cos(angle), np.sin(angle)]) * self.radius
+        inner = inner + np.array([self.y, self.z])
+        inner = np.where((t == 0.0)[:, None], self.floor, inner)
+        return np.where((t == 1.0)[:, None], self.side, inner)
+
+
+def bilge(
+    half_breadth: float, radius: float, deadrise_deg: float = 0.0, keel: float = 0.0,
+    base: float = 0.0,
+) -> Bilge:  # fmt: skip
+    """Draw a bilge circle that is tangent to the floor and to the side.
+
+    Parameters
+    ----------
+    half_breadth : float, m
+        y of the flat side.
+    radius : float, m
+    deadrise_deg : float
+        By how much the floor rises outward, degrees.
+    keel : float, m
+        Half-width of the keel, from where the floor rises.
+    base : float, m
+        z of the keel.
+
+    Raises
+    ------
+    BadInputError
+        Not finite, or an arc that begins within the keel's half-width.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.features_bilge import bilge
+    >>> arc = bilge(25.0, 2.4, deadrise_deg=2.0, keel=1.0)
+    >>> round(arc.z, 10), arc.floor.round(10).tolist()
+    (3.1557515273, [22.6837587921, 0.7572135425])
+    """
+    where = "in the bilge"
+    side, foot = positive(half_breadth, "half_breadth", where), number(keel, "keel", where)
+    r, low = positive(radius, "radius", where), number(base, "base", where)
+    beta = math.radians(number(deadrise_deg, "deadrise_deg", where))
+    if not 0.0 <= beta < math.pi / 2.0:
+        raise BadInputError(
+            f"deadrise_deg is {deadrise_deg:g}", where, "give an angle from 0 to below 90 degrees"
+        )
+    y = side - r
+    z = low + math.tan(beta) * (y - foot) + r / math.cos(beta)
+    floor = np.array([y + r * math.sin(beta), z - r * math.cos(beta)])
+    if beta == 0.0:
+        floor[1] = low
+    if float(floor[0]) < foot:
+        raise BadInputError(
+            f"bilge: radius {r:.1f} m leaves no bottom (keel half-width {foot:.1f})", "in vary",
+            "make the radius smaller",
+        )  # fmt: skip
+    return Bilge(y, z, r, floor, np.array([side, z]))
+
+
+def onto_plane(xyz: FloatArray, normal: ArrayLike, offset: float) -> FloatArray:
+    """Put points of a flat onto it: a coordinate is assigned, not computed.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+    normal : (3,)
+        Unit normal of the flat.
+    offset : float, m
+        normal . place on the flat.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.features_bilge import onto_plane
+    >>> onto_plane(np.array([[3.0, 24.9999999, 9.0]]), [0, 1, 0], 25.0).tolist()
+    [[3.0, 25.0, 9.0]]
+    """
+    across = place(normal, "normal", "in a flat")
+    level = number(offset, "offset", "in a flat")
+    exact = np.abs(across) == 1.0
+    if exact.any():
+        return np.where(exact, level * across, xyz)
+    off = (xyz * across).sum(axis=1) - level
+    return np.asarray(xyz - off[:, None] * across)
+
+
+def on_chord(before: ArrayLike, first: ArrayLike, last: ArrayLike) -> FloatArray:
+    """Lay the points of a straight run on the chord of its new ends.
+
+    Each stays at its part of the length; ends are the new ends to the last bit.
+
+    Parameters
+    ----------
+    before : (n, 3), m
+        The points before, in order, the ends first and last.
+    first, last : (3,), m
+        The new ends.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.features_bilge import on_chord
+    >>> on_chord([[0, 0, 0], [1, 0, 0], [4, 0, 0]], [0, 0, 1], [8, 0, 1]).tolist()
+    [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [8.0, 0.0, 1.0]]
+    """
+    old = places(before, "before", "in a straight run")
+    begin, end = (place(each, "an end", "in a straight run") for each in (first, last))
+    chord = old[-1] - old[0]
+    length = float((chord * chord).sum())
+    if length == 0.0:
+        raise BadInputError("its ends are one place", "in a straight run", "give two ends")
+    part = ((old - old[0]) * chord).sum(axis=1)[:, None] / length
+    found = begin + part * (end - begin)
+    # Along an axis that the run is level in, no arithmetic may move it.
+    found = np.where(begin == end, begin, found)
+    found[0], found[-1] = begin, end
+    return np.asarray(found)

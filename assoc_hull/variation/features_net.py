@@ -1,0 +1,149 @@
+"""The features of a hull that a variation makes anew, and what touches them.
+
+Circles are drawn anew about where the map sends their centres. What the map does to flats,
+straight runs and knuckle lines their points tell: they stay features where it leaves them so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.carry import Carried
+from assoc_hull.edit.carry_features import CarriedFeatures
+from assoc_hull.edit.touching import Touch
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.feature import Feature
+from assoc_hull.model.feature_shape import host_curve
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.features_circle import GAP, Circle, Redrawn, redraw, touch
+from assoc_hull.variation.features_map import FeatureMap, acting
+from assoc_hull.variation.vmap import VMap
+
+__all__ = ["Regenerated", "regenerated"]
+
+_ROUND = 1e-6
+"""A curve that is a circle leaves it by no more (m)."""
+
+_OBLATE = 1.2
+"""A circle that is stretched by more one way than the other is meant to be an oval."""
+
+_END = 1e-3
+"""A touch as near as this (m) to an end of the curve is that end."""
+
+
+@attrs.frozen(eq=False)
+class Regenerated:
+    """A map that makes the circles of a hull anew.
+
+    Attributes
+    ----------
+    map : FeatureMap
+    keys : tuple of str
+        The features that the circles are.
+    hosts : tuple of int
+        The curves that they are, one each.
+    """
+
+    map: FeatureMap
+    keys: tuple[str, ...]
+    hosts: tuple[int, ...]
+
+    def settle(self, work: Carried) -> None:
+        """Tell a transformation which curves are circles, and which planes touch them."""
+        for curve, circle in zip(self.hosts, self.map.circles, strict=True):
+            work.fine[curve] = _ROUND
+            for found in _touches(work, curve, circle.after):
+                work.touches[curve, found.line] = found
+
+    def features(self, carried: CarriedFeatures) -> CarriedFeatures:
+        """Give carried features the centres and radii that the circles are drawn with."""
+        drawn = dict(zip(self.keys, self.map.circles, strict=True))
+        found = tuple(
+            attrs.evolve(
+                each, centre=drawn[each.key].after.centre.tolist(), radius=drawn[each.key].after.radius
+            )
+            if each.key in drawn else each
+            for each in carried.features
+        )  # fmt: skip
+        return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
+
+
+def regenerated(
+    state: HullState, vmap: VMap, radii: Mapping[str, float] | None = None
+) -> Regenerated:
+    """Draw the circles of a hull anew for a map.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables, before the map.
+    vmap : VMap
+        The map.
+    radii : mapping of str to float, m, or None
+        Radii that are asked for, by the keys of features.
+
+    Raises
+    ------
+    BadInputError
+        The map leaves a circle too far from any.
+    """
+    wanted = radii or {}
+    features = [each for each in state.features if each.kind == "circle"]
+    drawn = {
+        each.key: _redrawn(each, vmap, wanted.get(each.key))
+        for each in features
+        if each.key in wanted or not _stretched(each, vmap)
+    }
+    some = acting(list(drawn.values()))
+    chosen = [each for each in features if drawn.get(each.key) in some]
+    return Regenerated(
+        FeatureMap(vmap, vmap.jacobian, tuple(drawn[each.key] for each in chosen)),
+        tuple(each.key for each in chosen),
+        tuple(host_curve(state, each) for each in chosen),
+    )
+
+
+def _stretched(feature: Feature, vmap: VMap) -> bool:
+    """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
+    normal = np.array(feature.parameters["normal"])
+    slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
+    across = slope - np.outer(slope @ normal, normal)
+    size = np.linalg.svd(across, compute_uv=False)
+    return bool(size[0] > _OBLATE * size[1])
+
+
+def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
+    places = feature.parameters
+    before = Circle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
+    gap = max(GAP, 2.0 * feature.gap)
+    return redraw(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
+
+
+def _touches(work: Carried, curve: int, circle: Circle) -> list[Touch]:
+    """Give the touches of a circle with the planes of lines that are cut again."""
+    state, planes = work.state, work.planes
+    line = state.lines
+    lines = state.live("lines")
+    lines = lines[~work.driver[lines] & planes.planar[lines] & (line.boundary.data[lines] < 0)]
+    found: list[Touch] = []
+    for each in sorted(lines.tolist(), key=lambda number: str(line.key.data[number])):
+        place = touch(circle, planes.normal[each], float(planes.offset[each]))
+        if place is not None and _within(work, curve, place):
+            found.append(Touch(curve, each, place))
+    return found
+
+
+def _within(work: Carried, curve: int, place: FloatArray) -> bool:
+    """Tell whether a place of a circle is one of the curve, and none of its ends."""
+    rows = work.state.curves.rows.data[curve]
+    image = work.image[rows]
+    step = np.sqrt(((image - place) ** 2).sum(axis=1))
+    if min(step[0], step[-1]) <= _END:
+        return False
+    chord = np.sqrt((np.diff(image, axis=0) ** 2).sum(axis=1))
+    near = int(np.argmin(step))
+    beside = chord[max(near - 1, 0) : near + 1]
+    return bool(step[near] <= float(beside.max()))

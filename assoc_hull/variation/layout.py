@@ -1,0 +1,134 @@
+"""How far the fields of named parameters reach: a number for each rule, to be changed at will."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import attrs
+
+from assoc_hull.arguments import positive, shown
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
+
+__all__ = ["Layout"]
+
+
+@attrs.frozen
+class Layout:
+    """Reaches of the fields of named parameters.
+
+    Lengths are parts of Lpp (``stern``, ``bow_from``, ``bilge_length``), of the draught or of
+    the radius they belong to.
+
+    Attributes
+    ----------
+    blend : {"quintic", "cubic"}
+        How pieces go over into each other.
+    rigid : bool
+        Whether the bossing end moves as a whole, windows outward; else its circle is rounded at
+        the windows, and made a circle again.
+    stern : float
+        Fields of the stern fade over this part of Lpp forward of where they are measured.
+    bossing : float
+        That of the bossing's radius fades over this many radii.
+    tube : float
+        It widens nothing beyond this many radii from the centre plane.
+    bow_from : float
+        Fields of the bow begin at this part of Lpp.
+    bulb_top : float
+        The bulb's height fades up to this part of the draught.
+    bulb_side : float
+        The bulb's half-breadth fades up to this part of the draught.
+    bulb_stem : float, m
+        The bulb's length fades up to this height above the design waterline; 0 pins the stem there.
+    transom_low : float
+        The transom's height fades down to this part of the draught.
+    transom_side : float
+        The transom's half-breadth fades down to this part of the draught.
+    bilge : float
+        Bilge and flat of bottom fade at this many radii from the corner.
+    bilge_length : float
+        They fade over this part of Lpp beyond the parallel body.
+    deadrise_top : float
+        Deadrise fades up to this part of the draught.
+    draught_top : float
+        Heights are scaled up to the draught, and shifted from this part of the draught up.
+    deck : {"midship", "fore", "aft"}
+        Where ``deck_height`` holds: amidships, the whole deck with it, or at a perpendicular.
+    shift : str
+        Shape of ``fore_shift`` and ``aft_shift``.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.layout import Layout
+    >>> Layout.of({"stern": 0.3}).stern
+    0.3
+    """
+
+    blend: Literal["quintic", "cubic"] = "quintic"
+    rigid: bool = True
+    stern: float = 0.25
+    bossing: float = 20.0
+    tube: float = 6.0
+    bow_from: float = 0.9
+    bulb_top: float = 1.25
+    bulb_side: float = 1.15
+    bulb_stem: float = 2.0
+    transom_low: float = 0.3
+    transom_side: float = 0.5
+    bilge: float = 8.0
+    bilge_length: float = 0.2
+    deadrise_top: float = 0.8
+    draught_top: float = 1.6
+    deck: Literal["midship", "fore", "aft"] = "midship"
+    shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
+
+    @property
+    def curve(self) -> Blend:
+        """The blend itself."""
+        return QUINTIC if self.blend == "quintic" else CUBIC
+
+    @classmethod
+    def of(cls, given: Mapping[str, Any] | Layout | None) -> Layout:
+        """Take reaches by name; what is not named keeps its usual value.
+
+        Raises
+        ------
+        UnknownNameError
+            A name that is none of the attributes.
+        BadInputError
+            A value that cannot be used.
+        """
+        if given is None or isinstance(given, Layout):
+            return given or cls()
+        if not isinstance(given, Mapping):
+            raise WrongTypeError(f"layout is {shown(given)}", "in vary", "give reaches by name")
+        known = {field.name: field for field in attrs.fields(cls)}
+        for name, value in given.items():
+            if name not in known:
+                raise UnknownNameError("reach of a field", str(name), tuple(known))
+            _check(name, value)
+        return cls(**dict(given))
+
+
+_WORDS = {
+    "blend": ("quintic", "cubic"),
+    "deck": ("fore", "midship", "aft"),
+    "shift": ("c1", "c2", "end", "half", "lackenby"),
+}
+
+
+def _check(name: str, value: object) -> None:
+    if name in _WORDS:
+        if value not in _WORDS[name]:
+            raise BadInputError(
+                f"{name} is {value!r}", "in vary", f"give one of {', '.join(_WORDS[name])}"
+            )
+    elif name == "rigid":
+        if not isinstance(value, bool):
+            raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
+    elif name == "bulb_stem" and value == 0.0:
+        return
+    else:
+        positive(value, name, "in vary")

@@ -1,0 +1,83 @@
+"""Layouts of the named parameters of bilge and bottom: layers of their own."""
+
+from __future__ import annotations
+
+import math
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.variation.chain import Chain
+from assoc_hull.variation.corner import CornerLayer
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.shear import DeadriseLayer
+
+__all__ = ["bilge_radius", "deadrise_deg", "flat_of_bottom"]
+
+_INNER = 0.95
+"""The centre plane stays: a corner fades out within this part of the half-breadth."""
+
+
+def _range(parent: Parent, layout: Layout, name: str) -> Chain:
+    """Give 1 along the parallel body, fading beyond."""
+    start = float(parent.at("body start", name)[0])
+    end = float(parent.at("body end", name)[0])
+    reach = layout.bilge_length * parent.length
+    return Chain.through(
+        [start - reach, start, end, end + reach], [0.0, 1.0, 1.0, 0.0], layout.curve, name
+    )
+
+
+def _corner(
+    parent: Parent, layout: Layout, name: str, size: float, ratios: tuple[float, float]
+) -> CornerLayer:
+    """Stretch about the corner, full as far as `size` (m) from it."""
+    corner, low = parent.at("corner", name), parent.at("bilge low", name)
+    y, z = float(corner[1]), float(corner[2])
+    rise = math.atan2(z - float(low[2]), y - float(low[1]))
+    largest = size * max(*ratios, 1.0)
+    reach = min(layout.bilge * size, _INNER * y, _INNER * (parent.depth - z))
+    if not reach > largest:
+        raise BadInputError(
+            f"bilge: {name} of {largest:.4g} m from the corner leaves no bottom or side to fade in "
+            f"({reach:.4g} m)", "in vary", "ask for less",
+        )  # fmt: skip
+    fade = Chain.through([size, reach], [1.0, 0.0], layout.curve, name)
+    return CornerLayer(name, _range(parent, layout, name), y, z, rise, *ratios, fade)
+
+
+def bilge_radius(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
+    """Make the bilge's circle larger or smaller, touching side and bottom as before."""
+    name = "bilge_radius"
+    corner, low, high = (parent.at(each, name) for each in ("corner", "bilge low", "bilge high"))
+    along = math.dist(corner.tolist(), low.tolist())
+    up = math.dist(corner.tolist(), high.tolist())
+    rise = math.atan2(float(corner[2] - low[2]), float(corner[1] - low[1]))
+    # both tangents of a fillet are as long
+    tangent = asked * math.tan(0.5 * (0.5 * math.pi - rise))
+    return _corner(parent, layout, name, max(along, up), (tangent / along, tangent / up))
+
+
+def flat_of_bottom(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
+    """Move the edge of the flat bottom in or out; heights stay."""
+    name = "flat_of_bottom"
+    edge, corner = parent.at("flat edge", name), parent.at("corner", name)
+    y, half = float(edge[1]), float(corner[1])
+    if not 0.0 < asked < half:
+        raise BadInputError(
+            f"flat_of_bottom of {asked:.6g} m", "in vary",
+            f"ask for a half-breadth between 0 and {half:.6g} m",
+        )  # fmt: skip
+    return _corner(parent, layout, name, half - y, ((half - asked) / (half - y), 1.0))
+
+
+def deadrise_deg(parent: Parent, asked: float, layout: Layout) -> DeadriseLayer:
+    """Turn the bottom about the side of the keel; what lies above the bilge stays."""
+    name = "deadrise_deg"
+    keel, inner, outer = (parent.at(each, name) for each in ("keel side", "bottom", "bottom edge"))
+    q = math.tan(math.radians(asked)) - float((outer[2] - inner[2]) / (outer[1] - inner[1]))
+    low = float(parent.places["bilge high"][2]) if parent.has("bilge high") else 0.0
+    top = layout.deadrise_top * parent.draught
+    fade = Chain.through([low, top], [1.0, 0.0], layout.curve, name)
+    return DeadriseLayer(
+        name, _range(parent, layout, name), q, float(keel[1]), 0.0, fade, layout.curve
+    )

@@ -1,0 +1,85 @@
+"""Layouts of the named parameters of the stern: shaft, bossing, transom."""
+
+from __future__ import annotations
+
+from assoc_hull.variation.chain import Chain
+from assoc_hull.variation.field import Field, Piece, Tube, stack
+from assoc_hull.variation.hat import hat
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.share import Share
+
+__all__ = ["bossing_radius", "shaft_height", "transom_half_breadth", "transom_height"]
+
+
+def _fade(parent: Parent, layout: Layout, x: float, reach: float | None = None) -> Chain:
+    """Give 1 up to x, and 0 from a reach (m) forward of it."""
+    length = layout.stern * parent.length if reach is None else reach
+    return Chain.through([x, x + length], [1.0, 0.0], layout.curve, "stern")
+
+
+def shaft_height(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Raise the shaft: a hat over base, bossing and design waterline."""
+    name = "shaft_height"
+    boss = parent.at("boss", name)
+    x, z = float(boss[0]), float(boss[2])
+    change = asked - z
+    anchors = [("shaft", z, change)]
+    rigid: tuple[str, ...] = ()
+    if parent.has("boss top"):
+        r = float(parent.places["boss top"][2]) - z
+        anchors = [("shaft-r", z - r, change), ("shaft+r", z + r, change)]
+        rigid = ("shaft-r", "shaft+r") if layout.rigid else ()
+    anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
+    fade = _fade(parent, layout, _cylinder(parent, x))
+    field = hat(name, anchors, fade, blend=layout.curve, outward=rigid)
+    return Share.at(name, "z", change, boss, field)
+
+
+def _cylinder(parent: Parent, x: float) -> float:
+    """Give where the cylinder ends that the bossing, which ends at x, begins with."""
+    return max(x, float(parent.places["boss fore"][0])) if parent.has("boss fore") else x
+
+
+def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Widen the bossing about its own centre; psi keeps the hull beside it as it is."""
+    name = "bossing_radius"
+    side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
+    x, h, y = float(boss[0]), float(boss[2]), float(side[1])
+    r = float(top[2]) - h
+    fade = _fade(parent, layout, _cylinder(parent, x), layout.bossing * r)
+    names = [f"boss{each}r" for each in ("-4", "-", "+", "+5")]
+    walls = stack(names, [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
+    wide, high = asked / y - 1.0, asked / r - 1.0
+    none, tall = Piece.along(fade, 0.0, 0.0), Piece.along(fade, high, 0.0, h)
+    broad = Piece.along(fade, wide, 0.0)
+    out = Field(
+        name, "y", walls, (none, broad, broad, none), layout.curve,
+        Tube(y, layout.tube, layout.curve),
+    )  # fmt: skip
+    up = Field(name, "z", walls, (none, tall, tall, none), layout.curve)
+    return Share.at(name, "y", asked - y, side, out, up)
+
+
+def transom_height(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Raise the transom's lowest point; what lies above it, the deck included, moves along."""
+    name = "transom_height"
+    low = parent.at("transom", name)
+    x, z = float(low[0]), float(low[2])
+    foot = min(layout.transom_low * parent.draught, 0.5 * z)
+    anchors = [("transom foot", foot, 0.0), ("transom", z, asked - z)]
+    field = hat(name, anchors, _fade(parent, layout, x), blend=layout.curve)
+    return Share.at(name, "z", asked - z, low, field)
+
+
+def transom_half_breadth(parent: Parent, asked: float, layout: Layout) -> Share:
+    """Widen the transom by a ratio, full from its lowest point up."""
+    name = "transom_half_breadth"
+    side, low = parent.at("transom side", name), parent.at("transom", name)
+    x, y, z = float(low[0]), float(side[1]), float(low[2])
+    foot = min(layout.transom_side * parent.draught, 0.5 * z)
+    fade = _fade(parent, layout, x)
+    pieces = Piece.along(fade, 0.0, 0.0), Piece.along(fade, asked / y - 1.0, 0.0)
+    walls = stack(["transom foot", "transom"], [foot, z])
+    field = Field(name, "y", walls, pieces, layout.curve)
+    return Share.at(name, "y", asked - y, side, field)

@@ -1,0 +1,70 @@
+"""What may be asked of a parent: present values, admissible intervals, conflicts."""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.anchor import Measures
+from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.catalogue import CATALOGUE
+from assoc_hull.variation.compose import conflicts
+
+__all__ = ["Listed", "listing"]
+
+
+@attrs.frozen
+class Listed:
+    """A named parameter of one hull.
+
+    Attributes
+    ----------
+    name, unit, meaning : str
+    value : float or None
+        Present value; None where the hull has none, for the `reason`.
+    low, high : float or None
+        Between these (m or degrees) it may be asked for alone, with the usual layout.
+    conflicts : tuple of str
+        Parameters that cannot be asked for beside it.
+    reason : str or None
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    value: float | None
+    low: float | None
+    high: float | None
+    conflicts: tuple[str, ...]
+    reason: str | None
+
+    def __str__(self) -> str:
+        if self.value is None:
+            return f"{self.name:22} -          {self.reason}"
+        between = (
+            ""
+            if self.low is None or self.high is None
+            else (f"  {self.low:.4g} .. {self.high:.4g}")
+        )
+        apart = f"  not with {', '.join(self.conflicts)}" if self.conflicts else ""
+        return f"{self.name:22} {self.value:10.4f} {self.unit:3}{between}  {self.meaning}{apart}"
+
+
+def listing(state: HullState) -> tuple[Listed, ...]:
+    """List all named parameters of a hull.
+
+    Examples
+    --------
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.variation.listing import listing
+    >>> found = {each.name: each for each in listing(wigley())}
+    >>> found["breadth"].value, found["bulb_length"].reason
+    (10.0, 'no profile forward of FP below z=6.250')
+    """
+    found = measure_all(state)
+    return tuple(_listed(name, found) for name in CATALOGUE)
+
+
+def _listed(name: str, found: Measures) -> Listed:
+    entry, value, reason = CATALOGUE[name], found.get(name), found.absent.get(name)
+    return Listed(name, entry.unit, entry.meaning, value, None, None, conflicts(name), reason)

@@ -1,0 +1,222 @@
+"""A variation carried out: lay out, certify, apply, measure, and correct until all is met.
+
+A map moves the measured places exactly; the lines that are lofted again through its images do so
+within a tolerance. What is missing is added to what is asked, beside the published hull, until
+the measured values are the asked ones; then the hull is varied, in one step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.given import Given
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.model.copy import copy_of
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.anchor import Measures
+from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.apply import Applied, apply
+from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.catalogue import CATALOGUE
+from assoc_hull.variation.compose import compose
+from assoc_hull.variation.field import Region
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.vmap import VMap
+
+__all__ = ["Target", "VariationReport", "vary_document"]
+
+_MET = 1e-7
+"""A target (m, degrees) is met where it is missed by less than this; 1e-6 is promised."""
+
+_PROMISED = 1e-6
+_ROUNDS = 6
+
+
+@attrs.frozen
+class Target:
+    """A named parameter of a variation.
+
+    Attributes
+    ----------
+    name, unit : str
+    before, asked, reached : float
+        Measured on the parent, asked for, measured on the varied hull; an amplitude reaches
+        what is asked for.
+    """
+
+    name: str
+    unit: str
+    before: float
+    asked: float
+    reached: float
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.before:.6g} -> {self.reached:.9g} {self.unit}"
+
+
+@attrs.frozen
+class VariationReport:
+    """What a variation did.
+
+    Attributes
+    ----------
+    targets : tuple of Target
+    rounds : int
+        How often the map was laid out until all targets were met.
+    regions : tuple of Region
+        Boxes of the profile plane outside which no map moves anything.
+    drivers : tuple of str
+        Lines that were carried as they are; all others were cut again.
+    added : int
+        Adopted points that hold the drivers to their images.
+    edit : EditReport
+        What changed, as of any edit.
+    """
+
+    targets: tuple[Target, ...]
+    rounds: int
+    regions: tuple[Region, ...]
+    drivers: tuple[str, ...]
+    added: int
+    edit: EditReport
+
+    def __str__(self) -> str:
+        return "\n".join([*(str(each) for each in self.targets), str(self.edit)])
+
+
+def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
+    """Vary a hull in place, as one step that can be undone.
+
+    Parameters
+    ----------
+    document : Document
+        The hull.
+    ask : Ask
+        What is asked for.
+
+    Raises
+    ------
+    BadInputError, FoldError, RefusedEditError
+        What is asked for cannot be had; the hull is unchanged.
+    """
+    before = measure_all(document.state)
+    parent = parent_of(document.state, before)
+    for name in ask.values:
+        if name in before.absent:
+            raise BadInputError(
+                f"cannot vary '{name}': {before.absent[name]}", "in vary", "leave it out"
+            )
+    vmap, rounds = _settle(document.state, parent, ask)
+    applied, report = _apply(document, vmap, parent, ask)
+    was, reached = _values(before, ask), _measured(document.state, ask)
+    targets = tuple(
+        Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
+        for name, value in ask.values.items()
+    )
+    return vmap, VariationReport(
+        targets, rounds, (*vmap.regions(), *applied.regions), applied.drivers, applied.added, report
+    )
+
+
+def _settle(state: HullState, parent: Parent, ask: Ask) -> tuple[VMap, int]:
+    """Find the map whose applied values are the asked ones."""
+    aim = dict(ask.values)
+    best, least = VMap(()), np.inf
+    for rounds in range(1, _ROUNDS + 1):
+        vmap = _map(parent, aim, ask)
+        trial = Document(copy_of(state))
+        _apply(trial, vmap, parent, ask)
+        reached = _measured(trial.state, ask)
+        miss = {name: value - reached[name] for name, value in ask.values.items()}
+        worst = max((abs(each) for each in miss.values()), default=0.0)
+        if worst < least:
+            best, least = vmap, worst
+        if worst <= _MET:
+            return vmap, rounds
+        aim = {name: aim[name] + miss[name] for name in aim}
+    if least > _PROMISED:
+        name = max(miss, key=lambda each: abs(miss[each]))
+        raise BadInputError(
+            f"{name} reached {ask.values[name] - miss[name]:.7g}, asked {ask.values[name]:.7g}",
+            "in vary", "ask for less, or give a finer tolerance",
+        )  # fmt: skip
+    return best, _ROUNDS
+
+
+def _map(parent: Parent, aim: Mapping[str, float], ask: Ask) -> VMap:
+    named = compose(parent, aim, ask.layout)
+    return VMap((*named.layers, *ask.layers))
+
+
+def _apply(document: Document, vmap: VMap, parent: Parent, ask: Ask) -> tuple[Applied, EditReport]:
+    """Apply a map as one step."""
+    drivers = None if ask.drivers is None else Given(document.state).driving(ask.drivers)
+    with Transaction(document, ask.name) as edit:
+        applied = apply(
+            edit, vmap, drivers=drivers, stations=ask.stations, tolerance=ask.tolerance,
+            particulars=_particulars(document.state, vmap, parent, ask),
+            radii=_radii(document.state, parent, ask),
+        )  # fmt: skip
+    report = edit.report
+    if report is None:
+        raise BadInputError("an edit is open", "in vary", "finish it before")
+    return applied, report
+
+
+def _radii(state: HullState, parent: Parent, ask: Ask) -> dict[str, float]:
+    """Give the radius that is asked for of the bossing's end, by the key of the feature."""
+    if "bossing_radius" not in ask.values or not parent.has("boss"):
+        return {}
+    boss = parent.places["boss"]
+    return {
+        each.key: ask.values["bossing_radius"] for each in state.features
+        if each.centre is not None and each.kind == "circle"
+        and bool((np.abs(boss - each.centre) <= _PROMISED).all())
+    }  # fmt: skip
+
+
+def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:
+    """Give the principal dimensions that change with the map."""
+    ship = state.particulars
+    found = {
+        name: ask.values[name] for name in ("length", "breadth", "draught") if name in ask.values
+    }
+    deck = parent.places.get("deck", np.array([0.5 * ship.length, 0.0, ship.depth]))
+    rise = float(vmap(deck[None, :])[0, 2] - deck[2])
+    if rise != 0.0:
+        found["depth"] = ship.depth + rise
+    if "depth" in ask.values:
+        found["depth"] = ask.values["depth"] + (ship.depth - parent.depth)
+    return found
+
+
+def _values(measures: Measures, ask: Ask) -> dict[str, float]:
+    """Give measured values; that of the deck is taken where it is asked for."""
+    found = dict(measures)
+    place = {"fore": "at_FP", "aft": "at_AP"}.get(ask.layout.deck)
+    if place is not None and "deck_height" in found:
+        there = measures.anchors["deck_height"].numbers.get(place)
+        if there is None:
+            found.pop("deck_height")
+        else:
+            found["deck_height"] = there
+    return found
+
+
+def _measured(state: HullState, ask: Ask) -> dict[str, float]:
+    """Measure what was asked for; amplitudes are what was asked for."""
+    names = [name for name in ask.values if not CATALOGUE[name].amplitude]
+    found = _values(measure_all(state, names), ask)
+    lost = [name for name in names if name not in found]
+    if lost:
+        raise BadInputError(
+            f"cannot measure '{lost[0]}' on the varied hull", "in vary", "ask for less"
+        )
+    return {name: found.get(name, value) for name, value in ask.values.items()}

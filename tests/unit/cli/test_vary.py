@@ -1,0 +1,67 @@
+"""The command `vary`: named values, scripts, lists, refusals."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.cli import main
+from tests.unit.cli.conftest import Json
+
+
+def test_the_hull_is_written_with_its_new_values(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """Targets are reached, the file measures them, the parent is as it was."""
+    target = tmp_path / "broader.hull"
+    found = facts("vary", hull, "--set", "breadth=11", "--set", "draught=7", "-o", target)
+    assert [(each["name"], each["reached"]) for each in found["targets"]] == [
+        ("breadth", 11.0),
+        ("draught", 7.0),
+    ]
+    varied = ah.open(target)
+    assert varied.particulars.breadth == 11.0
+    assert ah.measure(varied)["draught"] == 7.0
+    assert varied.fingerprint == found["fingerprint"]
+    assert ah.measure(ah.open(hull))["breadth"] == 10.0
+
+
+def test_a_script_and_options_are_one_request(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """The same parent and script give the same fingerprint; the file names the step."""
+    script = tmp_path / "broad.json"
+    script.write_text(json.dumps({"set": {"breadth": 10.5}}))
+    one = facts("vary", hull, "--script", script, "-o", tmp_path / "one.hull")
+    two = facts("vary", hull, "--set", "breadth=10.5", "-o", tmp_path / "two.hull")
+    assert one["fingerprint"] == two["fingerprint"]
+    assert ah.open(tmp_path / "one.hull").history[-1].name == "broad"
+
+
+def test_the_list_has_a_line_per_parameter(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Twenty, each with its value or the reason why there is none."""
+    assert main(["vary", str(hull), "--list"]) == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert len(rows) == 20
+    assert any(row.startswith("bulb_length") and "no profile" in row for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--set", "bredth=11"], "the nearest names are 'breadth'"),
+        (["--set", "breadth"], "give NAME=VALUE"),
+        (["--set", "breadth=wide"], "breadth"),
+        (["--set", "breadth=11", "--set", "breadth=12"], "given twice"),
+        (["--set", "bossing_radius=1"], "parent has no bossing circle"),
+        (["--set", "breadth=11", "--layout", "sten=0.3"], "the nearest names are 'stern'"),
+        ([], "nothing is asked for"),
+    ],
+)
+def test_bad_requests_are_told_in_one_line(
+    hull: Path, options: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit 2, the reason, and the file unchanged."""
+    before = hull.read_bytes()
+    assert main(["vary", str(hull), *options]) == 2
+    error = capsys.readouterr().err
+    assert says in error
+    assert len(error.splitlines()) == 1
+    assert hull.read_bytes() == before

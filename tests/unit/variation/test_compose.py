@@ -1,0 +1,130 @@
+"""Named parameters laid out together: all anchors are met by one map."""
+
+import numpy as np
+import pytest
+
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.catalogue import CATALOGUE, NAMES
+from assoc_hull.variation.compose import compose, conflicts
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parent import Parent
+
+
+def at(x: float, y: float, z: float) -> FloatArray:
+    """A place."""
+    return np.array([x, y, z], np.float64)
+
+
+@pytest.fixture
+def ship() -> Parent:
+    """A bulk carrier as a layout sees it."""
+    places = {
+        "boss": at(6, 0, 5), "boss top": at(6, 0, 5.725), "boss side": at(6, 0.725, 5),
+        "transom": at(-5, 0, 18.4), "transom side": at(-5, 20, 27), "bulb tip": at(306.4, 0, 7),
+        "bulb top": at(306.4, 0, 13), "bulb side": at(300, 6, 7), "bilge low": at(150, 22.6, 0),
+        "bilge high": at(150, 25, 2.4), "corner": at(150, 25, 0), "keel side": at(150, 0, 0),
+        "bottom": at(150, 11.3, 0), "bottom edge": at(150, 22.6, 0), "flat edge": at(150, 22.6, 0),
+        "body start": at(115, 0, 0), "body end": at(205.5, 0, 0), "stem": at(300, 0, 18),
+        "stem top": at(303, 0, 27), "deck": at(150, 25, 27), "deck fore": at(300, 10, 27),
+        "deck aft": at(0, 20, 27), "aft terminal": at(14, 0, 0), "fore terminal": at(289, 0, 0),
+    }  # fmt: skip
+    return Parent(300, 50, 27, 18, 27, places)
+
+
+ASKED = {
+    "length": 306.0, "breadth": 51.5, "draught": 18.9, "depth": 28.5, "shaft_height": 6.0,
+    "bossing_radius": 1.0, "transom_height": 19.9, "transom_half_breadth": 21.5,
+    "bulb_height": 7.8, "bulb_half_breadth": 6.4, "bulb_length": 7.4, "bilge_radius": 3.0,
+    "parallel_body_start": 125.0, "parallel_body_end": 200.0, "stem_rake_deg": 22.0,
+    "fore_shift": 2.0, "aft_shift": -1.0,
+}  # fmt: skip
+
+
+def test_all_anchors_are_met_together(ship: Parent) -> None:
+    """Many parameters in one map; each anchor lies where it was asked for."""
+    vmap = compose(ship, ASKED, Layout())
+    here = {name: vmap(place[None, :])[0] for name, place in ship.places.items()}
+    found = {
+        "shaft_height": here["boss"][2], "bossing_radius": here["boss side"][1],
+        "transom_height": here["transom"][2], "transom_half_breadth": here["transom side"][1],
+        "bulb_height": here["bulb tip"][2], "bulb_half_breadth": here["bulb side"][1],
+        "bulb_length": here["bulb tip"][0] - 306.0, "depth": here["deck"][2],
+        "bilge_radius": here["bilge high"][2],
+        "parallel_body_start": here["body start"][0], "parallel_body_end": here["body end"][0],
+    }  # fmt: skip
+    for name, value in found.items():
+        assert value == pytest.approx(ASKED[name], abs=1e-12), name
+    assert here["corner"][1] == pytest.approx(25.75, abs=1e-12)
+
+
+def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
+    """Its top moves, the fore perpendicular stays."""
+    vmap = compose(ship, {"stem_rake_deg": 22.0}, Layout())
+    foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
+    assert np.degrees(np.arctan2(top[0] - foot[0], top[2] - foot[2])) == pytest.approx(22.0)
+    assert (foot == ship.places["stem"]).all()
+
+
+@pytest.mark.parametrize("name", [each for each in NAMES if each not in ("draught", "length")])
+def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, name: str) -> None:
+    """Outside its regions no place moves, and the Jacobian is the unit matrix."""
+    now = {"breadth": 50.0, "depth": 27.0, "deck_height": 27.0, "shaft_height": 5.0,
+           "bossing_radius": 0.725, "transom_height": 18.4, "transom_half_breadth": 20.0,
+           "bulb_height": 7.0, "bulb_half_breadth": 6.0, "bulb_length": 6.4, "bilge_radius": 2.4,
+           "deadrise_deg": 0.0, "flat_of_bottom": 22.6, "parallel_body_start": 115.0,
+           "parallel_body_end": 205.5, "stem_rake_deg": 18.43, "fore_shift": 0.0,
+           "aft_shift": 0.0}  # fmt: skip
+    vmap = compose(ship, {name: now[name] + 0.2}, Layout())
+    random = np.random.default_rng(7)
+    xyz = random.uniform([-5, 0, 0], [306, 25, 27], (4000, 3))
+    outside = np.ones(len(xyz), bool)
+    for region in vmap.regions():
+        (left, right), (low, high) = region.x, region.z
+        inside = (xyz[:, 0] > left) & (xyz[:, 0] < right) & (xyz[:, 2] > low) & (xyz[:, 2] < high)
+        outside &= ~inside
+    assert (vmap(xyz)[outside] == xyz[outside]).all()
+    assert (vmap.jacobian(xyz)[outside] == np.eye(3)).all()
+    assert (vmap(xyz) != xyz).any()
+
+
+@pytest.mark.parametrize(("one", "other"), [("depth", "deck_height"),
+                                            ("bilge_radius", "flat_of_bottom"),
+                                            ("bilge_radius", "deadrise_deg")])  # fmt: skip
+def test_parameters_that_contradict_each_other_are_both_named(
+    ship: Parent, one: str, other: str
+) -> None:
+    """Whatever their values are."""
+    with pytest.raises(BadInputError, match=f"'{one}' and '{other}'"):
+        compose(ship, {one: 3.0, other: 2.0}, Layout())
+    if "depth" not in (one, other):
+        assert other in conflicts(one)
+
+
+def test_two_changes_of_one_place_are_refused(ship: Parent) -> None:
+    """A hub that is the transom's foot as well: which of both is to be had is not for us to say."""
+    both = {**ship.places, "transom": at(6, 0, 5.0), "boss": at(6, 0, 5.0)}
+    del both["boss top"]
+    parent = Parent(300, 50, 27, 18, 27, both)
+    with pytest.raises(BadInputError, match="different changes of the same place"):
+        compose(parent, {"shaft_height": 5.4, "transom_height": 6.0}, Layout())
+
+
+def test_a_ratio_needs_a_grip(ship: Parent) -> None:
+    """What the parent has not is told by its reason."""
+    parent = Parent(300, 50, 27, 18, 27, {}, {"bossing_radius": "parent has no bossing circle"})
+    with pytest.raises(BadInputError, match="parent has no bossing circle"):
+        compose(parent, {"bossing_radius": 1.0}, Layout())
+
+
+@pytest.mark.parametrize("layout", [{"stern": -1.0}, {"sten": 0.2}, {"rigid": 1}, {"blend": "b3"}])
+def test_a_layout_takes_only_what_it_knows(layout: dict[str, object]) -> None:
+    """Unknown names and meaningless reaches are refused."""
+    with pytest.raises(AssocHullError):
+        Layout.of(layout)
+
+
+def test_the_catalogue_names_twenty() -> None:
+    """Eighteen measured ones and two amplitudes; one name everywhere."""
+    assert len(NAMES) == 20
+    assert [name for name in NAMES if CATALOGUE[name].amplitude] == ["fore_shift", "aft_shift"]
