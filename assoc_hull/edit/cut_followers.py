@@ -15,7 +15,15 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
-from assoc_hull.edit.tie import insert, loose_points, slip_along, tie
+from assoc_hull.edit.tie import (
+    insert,
+    into_own_plane,
+    loose_points,
+    round_turns,
+    slip_along,
+    tie,
+    tie_own,
+)
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
@@ -95,7 +103,6 @@ def _carry_own(work: Carried, curve: int) -> None:
     if not _slides(work, curve):
         work.known[mine] = True
         return
-    work.known[mine[work.still[mine]]] = True
     _carry_free_ends(work, rows)
     slip_along(work, curve)
 
@@ -144,36 +151,12 @@ def _points(work: Carried, curve: int) -> Through:
         insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
     for row in new:
         _direct(work, curve, found, row)
-    _bring_along(work, curve, found)
-    tie(work, curve, found, loose)
+    own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
+    tie(work, curve, found, [row for row in loose if row not in set(own)])
     _hold(work, curve, found)
+    tie_own(work, curve, found, own)
+    round_turns(work, curve, found)
     return found
-
-
-def _bring_along(work: Carried, curve: int, found: Through) -> None:
-    """Bring the own points of a follower to the part of the hull that is now in its plane.
-
-    Each comes to the foot of its image on the curve without it, and as far off that as it
-    was off the curve without it before.
-    """
-    state = work.state
-    rows: IntArray = state.curves.rows.data[curve]
-    own = state.rows.sort.data[rows] != Sort.CROSSING
-    mine = np.array([row for row in rows[own].tolist() if row not in work.gone], np.int64)
-    mine = mine[~work.known[mine]]
-    if not len(mine):
-        return
-    rest = rows[~own | np.isin(rows, rows[[0, -1]])]
-    work.made[curve] = Through(rest.tolist(), list(state.rows.xyz.data[rest]), [])
-    before = loft(through(work, [curve]))
-    work.made[curve] = found
-    after = loft(through(work, [curve]))
-    off = state.rows.xyz.data[mine] - closest(before, 0, state.rows.xyz.data[mine])[1]
-    foot = closest(after, 0, work.image[mine])[1]
-    work.value[mine] = into_planes(state, work.planes, mine, foot + off)
-    work.known[mine] = True
-    for row in mine.tolist():
-        insert(found, row, work.value[row])
 
 
 def _hold(work: Carried, curve: int, found: Through) -> None:
@@ -245,14 +228,6 @@ def _coming(work: Carried, curve: int) -> list[FloatArray]:
         place for other, place in work.come
         if other == line and work.piece(line, place) == curve
     ]  # fmt: skip
-
-
-def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
-    """Put a place exactly into the plane of a curve."""
-    line, out = work.state.line_of(curve), place.copy()
-    exact = work.planes.normal[line] == 1.0
-    out[exact] = work.planes.offset[line]
-    return out
 
 
 def _base(work: Carried, curve: int, order: list[int]) -> list[int]:

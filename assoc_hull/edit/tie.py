@@ -13,21 +13,30 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
+from assoc_hull.edit.shadow import Shadow, shadow_of
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.family import Sort
+from assoc_hull.model.state import Meets
 
-__all__ = ["insert", "loose_points", "slip_along", "tie"]
+__all__ = [
+    "insert",
+    "into_own_plane",
+    "loose_points",
+    "round_turns",
+    "slip_along",
+    "tie",
+    "tie_own",
+]
 
 _ROUNDS = 12
 
 _DOUBT = 0.3
 """Where a point slips to is uncertain by this part of the way."""
-
-_SHARP = 0.5
-"""Where the chords of a line make an angle of a lower cosine, its adopted points are needed."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
@@ -49,59 +58,56 @@ def _adopted(work: Carried, curve: int) -> IntArray:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve][1:-1]
     smooth = state.rows.kind.data[rows, 0] == PointKind.SMOOTH
-    found: IntArray = rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
-    return found
+    return rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
 
 
 def slip_along(work: Carried, curve: int) -> None:
-    """Let the adopted points of a follower slip over the hull as the crossings beside them.
-
-    How far a crossing has slid off its image changes slowly along the curve.
-    """
+    """Let the own points of a follower slip over the hull as the crossings beside them."""
     state = work.state
     rows: IntArray = state.curves.rows.data[curve]
-    mine = _adopted(work, curve)
-    mine = mine[~work.still[mine]]
-    given = [row for row in rows.tolist() if _gives(work, curve, row)]
+    own = rows[state.rows.sort.data[rows] != Sort.CROSSING]
+    work.known[own[work.still[own]]] = True
+    mine = own[~work.known[own]]
     if not len(mine):
         return
-    if len(given) < 2:
+    knot = dict(zip(rows.tolist(), state.spline(curve).knot.tolist(), strict=True))
+    shadow = shadow_of(work, curve)
+    if shadow is None:
         work.gone |= set(mine.tolist())
         return
-    knot = dict(zip(rows.tolist(), state.spline(curve).knot.tolist(), strict=True))
-    at = np.array([knot[row] for row in given])
-    slip = _between(at, work.value[given] - work.image[given], np.array([knot[r] for r in mine]))
-    work.value[mine] = into_planes(state, work.planes, mine, work.image[mine] + slip)
+    places = shadow.at(np.array([knot[row] for row in mine.tolist()]))
+    work.value[mine] = into_planes(state, work.planes, mine, places)
     work.known[mine] = True
 
 
-def _gives(work: Carried, curve: int, row: int) -> bool:
-    """Tell whether a crossing shows how far the hull slips: one of the family of least rank."""
-    table = work.state.rows
-    if not work.known[row] or row in work.gone or table.sort.data[row] != Sort.CROSSING:
-        return False
-    if table.contact.data[row]:
-        return row in work.state.curves.rows.data[curve][[0, -1]].tolist()
-    return True
+def round_turns(work: Carried, curve: int, found: Through) -> None:
+    """Give a follower a point on either side of where it would turn by more than 90 degrees."""
+    state = work.state
+    knot = dict(
+        zip(state.curves.rows.data[curve].tolist(), state.spline(curve).knot.tolist(), strict=True)
+    )
+    work.made[curve] = found
+    turns = folds(loft(through(work, [curve]))).knot.tolist()
+    if len(turns) <= len(folds(state.spline(curve))):
+        return
+    shadow: Shadow | None = None
+    for low in sorted({max(turn - side, 0) for turn in turns for side in (0, 1)}, reverse=True):
+        pair = [knot.get(row) for row in found.row[low : low + 2]]
+        if len(pair) < 2 or pair[0] is None or pair[1] is None or not pair[0] < pair[1]:
+            continue
+        at = np.array([0.5 * (pair[0] + pair[1])])
+        shadow = shadow or shadow_of(work, curve)
+        if shadow is not None:
+            found.row.insert(low + 1, -1)
+            found.place.insert(low + 1, into_own_plane(work, curve, shadow.at(at)[0]))
 
 
-def _between(at: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
-    """Interpolate values (k, 3) given at ascending parameters (k,): cubics with slopes (p, 3)."""
-    step = np.diff(at)
-    chord = np.diff(values, axis=0) / step[:, None]
-    slope = np.empty_like(values)
-    if len(at) > 2:
-        part = (step[1:] / (step[1:] + step[:-1]))[:, None]
-        slope[1:-1] = part * chord[:-1] + (1.0 - part) * chord[1:]
-    slope[0], slope[-1] = chord[0], chord[-1]
-    low = np.clip(np.searchsorted(at, where, side="right") - 1, 0, len(step) - 1)
-    h = step[low][:, None]
-    s = np.clip((where - at[low])[:, None] / h, 0.0, 1.0)
-    here, there = values[low], values[low + 1]
-    blend = s * s * (3.0 - 2.0 * s)
-    found: FloatArray = here + (there - here) * blend
-    found = found + h * s * (1.0 - s) * ((1.0 - s) * slope[low] - s * slope[low + 1])
-    return found
+def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
+    """Put a place exactly into the plane of a curve."""
+    line, out = work.state.line_of(curve), place.copy()
+    exact = work.planes.normal[line] == 1.0
+    out[exact] = work.planes.offset[line]
+    return out
 
 
 def loose_points(work: Carried, curve: int, order: list[int]) -> list[int]:
@@ -126,63 +132,81 @@ def loose_points(work: Carried, curve: int, order: list[int]) -> list[int]:
 
 
 def tie(work: Carried, curve: int, found: Through, loose: list[int]) -> None:
-    """Tie a follower to points that it would pass too far off, the farthest of each segment first.
+    """Tie a follower to crossings that it would pass too far off.
 
-    Crossings that it passes anyway define it too; others are watched from now on, and adopted
-    points go.
+    Those that it passes anyway define it too; the others are watched from now on.
     """
-    state, left = work.state, list(loose)
-    away = np.zeros(len(left))
-    for _ in range(_ROUNDS):
-        if not left:
-            return
-        work.made[curve] = found
-        spline = loft(through(work, [curve]))
-        at, _, away = closest(spline, 0, work.value[left])
-        segment = np.searchsorted(spline.knot, at, side="right")
-        wide = np.flatnonzero(away > _limit(work, left))
-        wide = wide[np.argsort(-away[wide], kind="stable")]
-        first = wide[np.sort(np.unique(segment[wide], return_index=True)[1])].tolist()
-        for i in first:
-            _take(work, found, left[i])
-        left = [row for i, row in enumerate(left) if i not in set(first)]
-        if not first:
-            break
-    for row, off in zip(left, away.tolist(), strict=False):
-        if state.rows.sort.data[row] == Sort.ADOPTED:
-            if _at_turn(found, work.value[row]):
-                _take(work, found, row)
-            else:
-                work.gone.add(row)
-        elif off <= state.tolerances.keep:
+    state = work.state
+    left, away = _taken(work, curve, found, loose, 0.0)
+    for row, off in zip(left, away.tolist(), strict=True):
+        if off <= state.tolerances.keep:
             insert(found, row, work.value[row])
         else:
             work.watched.add(row)
 
 
-def _at_turn(found: Through, place: FloatArray) -> bool:
-    """Tell whether a place lies beside a point at which the chords of a line turn sharply."""
-    places = np.array(found.place)
-    chord = np.diff(places, axis=0)
-    unit = chord / np.sqrt((chord * chord).sum(axis=1))[:, None]
-    cosine = np.concatenate([[1.0], (unit[1:] * unit[:-1]).sum(axis=1), [1.0]])
-    index = interval_of(places, place)
-    return bool(cosine[index - 1 : index + 1].min() < _SHARP)
+def tie_own(work: Carried, curve: int, found: Through, own: list[int]) -> None:
+    """Tie a follower to those of its adopted points that it would pass too far off.
 
-
-def _limit(work: Carried, rows: list[int]) -> FloatArray:
-    """Give how far off points may be passed, (k,), m.
-
-    Where an adopted point has slipped to is known the less the farther it slipped.
+    Where they slip to is known the less the farther they slip, so few are needed. All are,
+    where without them the follower would fold, or meet another plane more often than it may.
     """
-    slip = np.sqrt(((work.value[rows] - work.image[rows]) ** 2).sum(axis=1))
-    own = work.state.rows.sort.data[rows] == Sort.ADOPTED
-    least = 0.5 * work.state.tolerances.adoption
-    return np.asarray(least + np.where(own, _DOUBT * slip, 0.0))
+    if not own:
+        return
+    trials = list[Through]()
+    for doubt in (_DOUBT, 0.3 * _DOUBT, 0.0):
+        trials.append(Through(list(found.row), list(found.place), []))
+        _taken(work, curve, trials[-1], own, doubt)
+        if _sound(work, curve, trials[-1]):
+            break
+    trial = trials[-1] if _sound(work, curve, trials[-1]) else trials[0]
+    work.gone |= set(own) - set(trial.row)
+    found.row, found.place = trial.row, trial.place
 
 
-def _take(work: Carried, found: Through, row: int) -> None:
-    """Put a point among those of a follower; an adopted one beside another adds nothing."""
-    adopted = work.state.rows.sort.data[row] == Sort.ADOPTED
-    if not insert(found, row, work.value[row], _NEAR if adopted else 0.0):
-        work.gone.add(row)
+def _taken(
+    work: Carried, curve: int, found: Through, loose: list[int], doubt: float
+) -> tuple[list[int], FloatArray]:
+    """Take in points passed too far off, the farthest of each segment first; give the others.
+
+    An adopted point beside another one adds nothing.
+    """
+    sort = work.state.rows.sort.data
+    left, away = list(loose), np.zeros(len(loose))
+    for _ in range(_ROUNDS):
+        if not left:
+            break
+        work.made[curve] = found
+        spline = loft(through(work, [curve]))
+        at, _, away = closest(spline, 0, work.value[left])
+        slip = np.sqrt(((work.value[left] - work.image[left]) ** 2).sum(axis=1))
+        segment = np.searchsorted(spline.knot, at, side="right")
+        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption + doubt * slip)
+        wide = wide[np.argsort(-away[wide], kind="stable")]
+        first = wide[np.sort(np.unique(segment[wide], return_index=True)[1])].tolist()
+        if not first:
+            break
+        for i in first:
+            least = _NEAR if sort[left[i]] == Sort.ADOPTED else 0.0
+            insert(found, left[i], work.value[left[i]], least)
+        left = [row for i, row in enumerate(left) if i not in set(first)]
+        away = np.zeros(len(left))
+    return left, away
+
+
+def _sound(work: Carried, curve: int, found: Through) -> bool:
+    """Tell whether a follower does not fold, and meets lines that it drives as often as it may."""
+    state = work.state
+    work.made[curve] = found
+    spline = loft(through(work, [curve]))
+    if len(folds(spline)) > len(folds(state.spline(curve))):
+        return False
+    meets: Meets = state.curves.meets.data[curve]
+    here = [row for row in meets.row.tolist() if row >= 0 and row not in work.gone]
+    lines = {row: state.line_of(work.other(row, curve)) for row in here}
+    driven = sorted({lines[row] for row in here if state.rows.driver.data[row] == curve})
+    for line in driven:
+        met = meet_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
+        if met.count > sum(lines[row] == line for row in here):
+            return False
+    return True

@@ -1,0 +1,185 @@
+"""The image of a follower laid into its plane, and how far the hull lies off it there.
+
+A follower whose plane slides over the hull keeps its character: its new shape is its image,
+laid into the plane, and moved across itself by a distance that changes slowly along it. Where
+lines cut before come through the plane, that distance is known.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.carry import Carried
+from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.spline import derivative, evaluate, loft
+from assoc_hull.model.family import Sort
+from assoc_hull.model.state import Meets
+
+__all__ = ["Shadow", "shadow_of"]
+
+_SAMPLES = 4
+"""Places a segment through which the image is made."""
+
+_APART = 0.05
+"""Of places nearer than this (m) along the image one is enough."""
+
+_FAR = 4.0
+"""A foot farther along than so many slips from where it should be lies on another branch."""
+
+
+@attrs.frozen(eq=False)
+class Shadow:
+    """The image of a curve in its plane, with the distances that are known.
+
+    Attributes
+    ----------
+    spline : SplineBatch
+        The image.
+    t : (n,), m
+        Parameter on the curve before the mapping, at the knots of the image.
+    normal : (3,)
+        Of the plane.
+    knot, across : (k,), m
+        Where distances are known, by the parameter of the image, and these: to the left of it.
+    ends : (float, float), m
+        How far its two ends slide along it, + onward.
+    """
+
+    spline: SplineBatch
+    t: FloatArray
+    normal: FloatArray
+    knot: FloatArray
+    across: FloatArray
+    ends: tuple[float, float]
+
+    def at(self, t: FloatArray) -> FloatArray:
+        """Give where places of the curve come to, (k, 3), m, by the parameter before."""
+        there = self._slid(np.interp(t, self.t, self.spline.knot))
+        on = np.clip(there, 0.0, self.spline.knot[-1])
+        off = _between(self.knot, self.across, there)
+        curve = np.zeros(len(t), np.int64)
+        slope = derivative(self.spline, curve, on)
+        slope = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
+        beyond = (there - on)[:, None] * slope
+        left = _left(self.spline, self.normal, on)
+        return evaluate(self.spline, curve, on) + beyond + off[:, None] * left
+
+    def _slid(self, there: FloatArray) -> FloatArray:
+        """Let places beside an end slide with it: less and less, to the first known place."""
+        last = float(self.spline.knot[-1])
+        first, final = float(self.knot[0]), float(self.knot[-1])
+        found = there.copy()
+        inner = self.knot[(self.knot > max(self.ends[0], 0.0) + _APART)]
+        if len(inner):
+            first = float(inner[0])
+        inner = self.knot[self.knot < last + min(self.ends[1], 0.0) - _APART]
+        if len(inner):
+            final = float(inner[-1])
+        near = (there < first) & (first > 0.0)
+        found[near] += self.ends[0] * (1.0 - there[near] / first)
+        near = (there > final) & (final < last)
+        found[near] += self.ends[1] * (there[near] - final) / (last - final)
+        return found
+
+
+def shadow_of(work: Carried, curve: int) -> Shadow | None:
+    """Lay the image of a follower into its plane; None where the hull is known nowhere there."""
+    state, line = work.state, work.state.line_of(curve)
+    normal, offset = work.planes.normal[line], float(work.planes.offset[line])
+    t, before = _dense(state.spline(curve))
+    image = work.space.places(before)
+    image = image - ((image * normal).sum(axis=1) - offset)[:, None] * normal
+    spline = loft(CurveData.single(image))
+    rows, at = _known(work, curve)
+    if not len(rows):
+        return None
+    there, foot, _ = closest(spline, 0, work.value[rows])
+    step = work.value[rows] - foot
+    slip = np.sqrt(((work.value[rows] - work.space.places(_places(work, curve, at))) ** 2).sum(1))
+    good = np.abs(there - np.interp(at, t, spline.knot)) <= _FAR * slip + _APART
+    across = (step * _left(spline, normal, there)).sum(axis=1)
+    order = np.flatnonzero(good)
+    order = order[np.argsort(there[order], kind="stable")]
+    if not len(order):
+        return None
+    order = order[np.concatenate([[True], np.diff(there[order]) > _APART])]
+    ends = _ends(work, curve, spline)
+    return Shadow(spline, t, normal, there[order], across[order], ends)
+
+
+def _ends(work: Carried, curve: int, spline: SplineBatch) -> tuple[float, float]:
+    """Give how far the ends of a follower slide along its image, + onward."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    found = [0.0, 0.0]
+    for i, row in enumerate(rows[[0, -1]].tolist()):
+        if not work.known[row]:
+            continue
+        at = np.array([0.0 if i == 0 else float(spline.knot[-1])])
+        there, foot, _ = closest(spline, 0, work.value[[row]])
+        slope = derivative(spline, np.zeros(1, np.int64), there)[0]
+        step = (work.value[row] - foot[0]) * slope
+        along = float(step.sum()) / float(np.sqrt((slope * slope).sum()))
+        found[i] = float(there[0] - at[0]) + along
+    return found[0], found[1]
+
+
+def _dense(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:
+    """Sample a curve: parameters and places, knots among them, each once."""
+    part = np.arange(_SAMPLES) / _SAMPLES
+    inner = spline.knot[:-1, None] + np.diff(spline.knot)[:, None] * part
+    t = np.append(inner.ravel(), spline.knot[-1])
+    return t, evaluate(spline, np.zeros(len(t), np.int64), t)
+
+
+def _places(work: Carried, curve: int, t: FloatArray) -> FloatArray:
+    return evaluate(work.state.spline(curve), np.zeros(len(t), np.int64), t)
+
+
+def _left(spline: SplineBatch, normal: FloatArray, t: FloatArray) -> FloatArray:
+    """Give unit vectors across a curve in its plane, (k, 3)."""
+    slope = derivative(spline, np.zeros(len(t), np.int64), t)
+    left = np.cross(normal, slope)
+    found: FloatArray = left / np.sqrt((left * left).sum(axis=1))[:, None]
+    return found
+
+
+def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
+    """Give crossings of a follower with lines cut before, and their parameters on it before."""
+    state, table = work.state, work.state.rows
+    meets: Meets = state.curves.meets.data[curve]
+    own: IntArray = state.curves.rows.data[curve]
+    at = dict(zip(meets.row.tolist(), meets.parameter.tolist(), strict=True))
+    at |= dict(zip(own.tolist(), state.spline(curve).knot.tolist(), strict=True))
+    ends = set(own[[0, -1]].tolist())
+    rows = [
+        row for row in at
+        if row >= 0 and work.known[row] and row not in work.gone
+        and table.sort.data[row] == Sort.CROSSING
+        and (row in ends or not table.contact.data[row]) and _first(work, row, curve)
+    ]  # fmt: skip
+    return np.array(rows, np.int64), np.array([at[row] for row in rows])
+
+
+def _first(work: Carried, row: int, curve: int) -> bool:
+    """Tell whether the other curve of a crossing is known before this one."""
+    other = work.other(row, curve)
+    return work.drives(other) or work.state.rank(other) < work.state.rank(curve)
+
+
+def _between(at: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
+    """Interpolate values (k,) given at ascending parameters by cubics; constant beyond."""
+    if len(at) == 1:
+        return np.full(len(where), float(values[0]))
+    step = np.diff(at)
+    chord = np.diff(values) / step
+    slope = np.empty_like(values)
+    part = step[1:] / (step[1:] + step[:-1])
+    slope[1:-1] = part * chord[:-1] + (1.0 - part) * chord[1:]
+    slope[0], slope[-1] = chord[0], chord[-1]
+    low = np.clip(np.searchsorted(at, where, side="right") - 1, 0, len(step) - 1)
+    s = np.clip((where - at[low]) / step[low], 0.0, 1.0)
+    found: FloatArray = values[low] + (values[low + 1] - values[low]) * (s * s * (3.0 - 2.0 * s))
+    turn = (1.0 - s) * slope[low] - s * slope[low + 1]
+    return np.asarray(found + step[low] * s * (1.0 - s) * turn)
