@@ -25,9 +25,8 @@ from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.additive import AdditiveLayer
-from assoc_hull.variation.additive_fold import additive_fold
 from assoc_hull.variation.apply import apply
+from assoc_hull.variation.certify import certify
 from assoc_hull.variation.fairness_of import DEAD_BAND
 from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.vmap import VMap
@@ -260,8 +259,6 @@ def _apart(hull: ah.Hull, task: Task, cloud: FloatArray, rounds: int) -> list[Fi
     """Time what is no mapping: laying out, computing weights, certifying, lofting again."""
     named = {"field": _FIELD, "additive": "additive, quintic", "FFD": "FFD 5 x 5 x 5"}
     layers = {key: METHODS[name][0](task, METHODS[name][1]) for key, name in named.items()}
-    additive = layers["additive"]
-    assert isinstance(additive, AdditiveLayer)
     box = np.stack([cloud.min(axis=0), cloud.max(axis=0)])
     frame = lattice(task)
     jobs: dict[str, Callable[[], object]] = {
@@ -269,7 +266,8 @@ def _apart(hull: ah.Hull, task: Task, cloud: FloatArray, rounds: int) -> list[Fi
         "lattice": lambda: LatticePlan.of(frame, cloud, 2),
         "map": lambda: VMap((layers["field"],))(cloud),
         "FFD map": lambda: VMap((layers["FFD"],))(cloud),
-        "fold, additive": lambda: additive_fold(additive, box),
+        "fold": lambda: certify(layers["field"], box),
+        "fold, additive": lambda: certify(layers["additive"], box),
     }
     jobs |= {f"loft, {key}": partial(_reloft, hull, VMap((each,))) for key, each in layers.items()}
     times = _fastest(jobs, rounds)
@@ -277,6 +275,7 @@ def _apart(hull: ah.Hull, task: Task, cloud: FloatArray, rounds: int) -> list[Fi
         Figure("weights of the places: field", 1e3 * times["weights"], "ms"),
         Figure("weights of the places: FFD / field", times["lattice"] / times["weights"], "x"),
         Figure("the map, no weights kept: FFD / field", times["FFD map"] / times["map"], "x"),
+        Figure("apart: fold check, field", 1e3 * times["fold"], "ms"),
         Figure("apart: fold check, additive", 1e3 * times["fold, additive"], "ms"),
         *(
             Figure(f"apart: net lofted and cut again, {key}", 1e3 * times[f"loft, {key}"], "ms")
