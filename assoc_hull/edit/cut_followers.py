@@ -15,12 +15,12 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
-from assoc_hull.edit.thread import interval_of
+from assoc_hull.edit.tie import insert, loose_points, slip_along, tie
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import Meets
@@ -96,12 +96,8 @@ def _carry_own(work: Carried, curve: int) -> None:
         work.known[mine] = True
         return
     work.known[mine[work.still[mine]]] = True
-    smooth = (work.state.rows.sort.data[mine] == Sort.ADOPTED) & (
-        work.state.rows.kind.data[mine, 0] == PointKind.SMOOTH
-    )
-    drop = smooth & ~work.still[mine] & ~np.isin(mine, rows[[0, -1]])
-    work.gone |= set(mine[drop].tolist())
     _carry_free_ends(work, rows)
+    slip_along(work, curve)
 
 
 def _carry_free_ends(work: Carried, rows: IntArray) -> None:
@@ -137,71 +133,21 @@ def _points(work: Carried, curve: int) -> Through:
     if not _slides(work, curve):
         return Through(order, [work.value[row].copy() for row in order], [])
     order = [row for row in order if row not in work.watched]
-    loose = _loose(work, curve, order)
+    loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
     base = _base(work, curve, order)
     found = Through(base, [work.value[row].copy() for row in base], [])
     for row in [*new, *(each for each in order if each not in set(base))]:
-        _insert(found, row, work.value[row])
+        insert(found, row, work.value[row])
     for place in _coming(work, curve):
-        _insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
+        insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
     for row in new:
         _direct(work, curve, found, row)
     _bring_along(work, curve, found)
-    _tie(work, curve, found, loose)
+    tie(work, curve, found, loose)
     _hold(work, curve, found)
     return found
-
-
-def _loose(work: Carried, curve: int, order: list[int]) -> list[int]:
-    """Give the crossings that a follower need not pass: where drivers slid that rank behind.
-
-    The family of least rank among the drivers that define it is what it is cut from.
-    """
-    state = work.state
-    rank = {
-        row: state.family(state.line_of(work.other(row, curve))).rank
-        for row in order
-        if work.other(row, curve) >= 0 and work.drives(work.other(row, curve))
-        and not state.rows.contact.data[row]
-    }  # fmt: skip
-    least = min(rank.values(), default=0)
-    return [row for row in order if rank.get(row, least) > least and work.slid[row]]
-
-
-def _tie(work: Carried, curve: int, found: Through, loose: list[int]) -> None:
-    """Tie a follower to lines of higher rank where it needs them, or passes them anyway.
-
-    Lines of two families agree where they cross, and within the tolerance of adoption between:
-    a line through new crossings with both would waver between them.
-    """
-    state = work.state
-    left = list(loose)
-    for _ in range(_ROUNDS):
-        if not left:
-            return
-        work.made[curve] = found
-        spline = loft(through(work, [curve]))
-        at, _, away = closest(spline, 0, work.value[left])
-        segment = np.searchsorted(spline.knot, at, side="right")
-        wide = np.flatnonzero(away > 0.5 * state.tolerances.adoption)
-        if not len(wide):
-            break
-        wide = wide[np.argsort(-away[wide], kind="stable")]
-        first = np.unique(segment[wide], return_index=True)[1]
-        for i in sorted(wide[first].tolist()):
-            _insert(found, left[i], work.value[left[i]])
-        left = [row for i, row in enumerate(left) if i not in set(wide[first].tolist())]
-    else:
-        for row in left:
-            _insert(found, row, work.value[row])
-        return
-    for row, off in zip(left, away.tolist(), strict=True):
-        if off <= state.tolerances.keep:
-            _insert(found, row, work.value[row])
-        else:
-            work.watched.add(row)
 
 
 def _bring_along(work: Carried, curve: int, found: Through) -> None:
@@ -227,12 +173,13 @@ def _bring_along(work: Carried, curve: int, found: Through) -> None:
     work.value[mine] = into_planes(state, work.planes, mine, foot + off)
     work.known[mine] = True
     for row in mine.tolist():
-        _insert(found, row, work.value[row])
+        insert(found, row, work.value[row])
 
 
 def _hold(work: Carried, curve: int, found: Through) -> None:
     """Hold a follower where lines cut before it pass its plane without defining it."""
-    places = _passed(work, curve)
+    rows = _passed(work, curve)
+    places = work.value[rows]
     for _ in range(_ROUNDS):
         if not len(places):
             return
@@ -240,24 +187,42 @@ def _hold(work: Carried, curve: int, found: Through) -> None:
         spline = loft(through(work, [curve]))
         at, _, away = closest(spline, 0, places)
         segment = np.searchsorted(spline.knot, at, side="right")
-        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption)
+        limit = 0.5 * work.state.tolerances.adoption * _share(work, curve, rows, spline, at)
+        wide = np.flatnonzero(away > limit)
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = np.unique(segment[wide], return_index=True)[1]
         added = [
-            _insert(found, -1, into_own_plane(work, curve, places[i]), least=_NEAR)
+            insert(found, -1, into_own_plane(work, curve, places[i]), least=_NEAR)
             for i in wide[np.sort(first)].tolist()
         ]
         if not any(added):
             return
 
 
-def _passed(work: Carried, curve: int) -> FloatArray:
-    """Give the places (k, 3), m, where lines cut before a follower pass its plane unheard."""
+def _share(
+    work: Carried, curve: int, rows: IntArray, spline: SplineBatch, at: FloatArray
+) -> FloatArray:
+    """Give how much less than usual a follower may pass off places that it drives, (k,).
+
+    Where it runs along the plane of the line there, a little off is far along that line.
+    """
+    state = work.state
+    share = np.ones(len(rows))
+    for i in np.flatnonzero(state.rows.driver.data[rows] == curve).tolist():
+        slope = derivative(spline, np.zeros(1, np.int64), at[[i]])[0]
+        normal = work.planes.normal[state.line_of(work.other(int(rows[i]), curve))]
+        sine = abs(float((slope * normal).sum())) / float(np.sqrt((slope * slope).sum()))
+        share[i] = min(1.0, sine)
+    return share
+
+
+def _passed(work: Carried, curve: int) -> IntArray:
+    """Give the crossings at which lines cut before a follower pass its plane unheard."""
     table, meets = work.state.rows, work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
     kept = [row for row in rows.tolist() if row not in work.gone and _before(work, row, curve)]
-    return np.array(work.value[kept]).reshape(-1, 3)
+    return np.array(kept, np.int64)
 
 
 def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
@@ -288,17 +253,6 @@ def into_own_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
     exact = work.planes.normal[line] == 1.0
     out[exact] = work.planes.offset[line]
     return out
-
-
-def _insert(found: Through, row: int, place: FloatArray, least: float = 0.0) -> bool:
-    """Put a point where it makes the least detour, unless one is nearer than `least`."""
-    places = np.array(found.place)
-    if least and float(np.sqrt(((places - place) ** 2).sum(axis=1)).min()) < least:
-        return False
-    index = interval_of(places, place)
-    found.row.insert(index, row)
-    found.place.insert(index, place.copy())
-    return True
 
 
 def _base(work: Carried, curve: int, order: list[int]) -> list[int]:

@@ -20,6 +20,7 @@ from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.stand_ins import settle_stand_ins
 from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.unplane import bend_lines, let_go
@@ -112,6 +113,7 @@ def transform(
         reshape(work)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
+    settle_stand_ins(work)
     cut_followers(work)
     _watch(edit, work)
     added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
