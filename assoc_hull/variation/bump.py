@@ -126,10 +126,12 @@ class Bump:
         low, high = np.asarray(low, np.float64), np.asarray(high, np.float64)
         first, last = give(low), give(high)
         least, most = np.minimum(first, last), np.maximum(first, last)
+        # a place as near to a terminal as this may round to it, where the slope jumps
+        near = 4.0 * float(np.finfo(np.float64).eps) * (abs(self.begin) + abs(self.end))
         for xi in turns.tolist():
             place = self.begin + xi * (self.end - self.begin)
             found = float(value(np.array(xi)))
-            inside = (low <= place) & (place <= high)
+            inside = (low <= place + near) & (place - near <= high)
             least = np.where(inside, np.minimum(least, found), least)
             most = np.where(inside, np.maximum(most, found), most)
         return least, most

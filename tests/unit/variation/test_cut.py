@@ -42,23 +42,24 @@ def line(*xyz: tuple[float, float, float]) -> SplineBatch:
     return loft(CurveData.single(np.array(xyz, np.float64)))
 
 
-def crossings(vmap: VMap, batch: SplineBatch, row: int, value: float) -> int:
-    """How often the image of one curve changes sides, by 20,000 samples."""
-    t = np.linspace(0.0, batch.knot[-1], 20_001)
+def passed(vmap: VMap, batch: SplineBatch, row: int, value: float, t: FloatArray) -> FloatArray:
+    """Between which places of one curve its image changes sides, (n - 1,) 0 or 1."""
     above = vmap(evaluate(batch, np.zeros(len(t), np.int64), t))[:, row] >= value
-    return int((above[1:] != above[:-1]).sum())
+    return np.asarray(above[1:] != above[:-1], np.float64)
 
 
 @pytest.mark.parametrize("axis", AXES)
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(vmap=maps(), knots=places(5), part=st.floats(0.05, 0.95))
 def test_every_crossing_is_found(axis: Axis, vmap: VMap, knots: FloatArray, part: float) -> None:
-    """As many as dense samples show, each in the plane and on the image."""
+    """An odd number wherever dense samples change sides; each in the plane and on the image."""
     batch, row = loft(CurveData.single(knots)), "xyz".index(axis)
     image = vmap(knots)[:, row]
     value = float(image.min() + part * np.ptp(image))
     found = cut(vmap, batch, axis, value)
-    assert len(found.t) == crossings(vmap, batch, row, value)
+    t = np.linspace(0.0, batch.knot[-1], 5001)
+    count, _ = np.histogram(found.t, t)
+    assert (count % 2 == passed(vmap, batch, row, value, t)).all()
     assert_allclose(found.xyz[:, row], value, rtol=0, atol=1e-12)
     assert (vmap(evaluate(batch, found.curve, found.t)) == found.xyz).all()
     assert (np.diff(found.t) > 0.0).all()
@@ -104,6 +105,7 @@ def test_curves_of_a_batch_keep_their_own_crossings() -> None:
     assert_allclose(found.xyz[:, 2], 5.0, rtol=0, atol=1e-13)
 
 
+@settings(max_examples=20)
 @given(layer=field_layers(), knots=places(5), value=st.floats(2.0, 12.0))
 def test_the_source_of_a_plane_cuts_the_parent_alike(
     layer: FieldLayer, knots: FloatArray, value: float
@@ -120,6 +122,7 @@ def test_the_source_of_a_plane_cuts_the_parent_alike(
 
 
 @pytest.mark.parametrize("axis", AXES)
+@settings(max_examples=20)
 @given(vmap=maps(), xyz=places(), value=st.floats(1.0, 12.0))
 def test_the_source_of_a_plane_is_mapped_into_it(
     axis: Axis, vmap: VMap, xyz: FloatArray, value: float
