@@ -15,6 +15,8 @@ True
 
 from __future__ import annotations
 
+import math
+
 import attrs
 
 __all__ = [
@@ -24,6 +26,7 @@ __all__ = [
     "CoincidentPointsError",
     "DamagedFileError",
     "FileBusyError",
+    "FoldError",
     "ForeignPointError",
     "FreedomError",
     "HullFileError",
@@ -311,6 +314,71 @@ class RefusedEditError(AssocHullError, RuntimeError):
     def __str__(self) -> str:
         more = f" (and {len(self.findings) - 1} more)" if len(self.findings) > 1 else ""
         return f"edit {self.edit!r} refused, the hull is unchanged: {self.findings[0]}{more}"
+
+
+@attrs.define(slots=False, eq=False)
+class FoldError(AssocHullError, ValueError):
+    """A map would fold the hull, or come too near to it; nothing was changed.
+
+    Attributes
+    ----------
+    reason : {"folds", "thin", "undecided"}
+    minor : str
+        The minor of the Jacobian that is too small: ``"Z_z"`` is by how much heights stretch.
+    least, margin : float
+        Its value at the witness, and what it must reach.
+    witness : (float, float, float), m
+        Where.
+    layer, field : str
+        Of the map; the field is empty if there is none.
+    between : tuple of (str, float)
+        Boundary curves of the field below and above the witness, with their heights, m.
+    node : float or None, m
+        The nearest node along the ship.
+    admissible : (float, float) or None
+        Range of the field's displacement that is allowed.
+    """
+
+    reason: str
+    minor: str
+    least: float
+    margin: float
+    witness: tuple[float, float, float]
+    layer: str
+    field: str = ""
+    between: tuple[tuple[str, float], ...] = ()
+    node: float | None = None
+    admissible: tuple[float, float] | None = None
+
+    def __str__(self) -> str:
+        x, y, z = self.witness
+        across = f" y={y:.3f}" if y else ""
+        parts = [
+            f"variation: '{self.field or self.layer}' {self._verdict()} at x={x:.3f}{across} "
+            f"z={z:.3f} ({self.minor}={self.least:.3f})"
+        ]
+        if self.between:
+            walls = " and ".join(f"'{name}' ({height:.3f})" for name, height in self.between)
+            parts[0] += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
+        if self.node is not None:
+            parts[0] += f", node x={self.node:.3f}"
+        parts.append(self._remedy())
+        return "; ".join(parts)
+
+    def _verdict(self) -> str:
+        if self.reason == "folds":
+            return "folds"
+        if self.reason == "thin":
+            return f"leaves less than {self.margin:g}"
+        return "is not decided: bounds too wide"
+
+    def _remedy(self) -> str:
+        if self.admissible is None:
+            return "ask for less, or let the field reach further"
+        low, high = (math.trunc(1e3 * each) / 1e3 for each in self.admissible)
+        if low == -high:
+            return f"admissible +-{high:.3f} m"
+        return f"admissible {low:.3f} to {high:.3f} m"
 
 
 @attrs.define(slots=False, eq=False)

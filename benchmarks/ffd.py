@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.variation.field import Region
 
 __all__ = ["DEGREE", "Lattice", "LatticeLayer", "LatticePlan"]
 
@@ -64,6 +65,16 @@ class LatticeLayer:
     lattice: Lattice
     moves: FloatArray
     """(5, 5, 5, 3), m"""
+
+    @property
+    def name(self) -> str:
+        """For reports."""
+        return "lattice"
+
+    def regions(self) -> tuple[Region, ...]:
+        """Give the box of the profile plane outside which nothing moves."""
+        (x0, _, z0), (x1, _, z1) = self.lattice.box.tolist()
+        return (Region(self.name, (x0, x1), (z0, z1)),)
 
     def displacement(self, xyz: FloatArray) -> FloatArray:
         """Give by how much places (n, 3) move, m."""

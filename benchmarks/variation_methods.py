@@ -150,9 +150,14 @@ def _hulls() -> Iterator[tuple[str, ah.Hull]]:
     yield "carrier", ah.examples.bulk_carrier_207k()
     folder = os.environ.get("ASSOC_HULL_DATA")
     if folder:
-        from tests.cases.dtc import read_dtc
-
-        yield "DTC", read_dtc(Path(folder))
+        mesh = Path(folder) / "dtc" / "DTC-scaled.stl.gz"
+        yield (
+            "DTC",
+            ah.read(
+                mesh, scale=59.407, length=355.0, draught=14.5, stations=41, waterlines=20,
+                buttocks=12, tolerance=0.01,
+            ),
+        )  # fmt: skip
 
 
 def main() -> int:

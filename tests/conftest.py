@@ -1,8 +1,10 @@
 """What all tests share: the hypothesis profiles and the folder of published hulls."""
 
 import os
+import shutil
+import tempfile
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,17 @@ settings.register_profile(
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Let all processes of a run share compiled modules where none may lie beside the sources.
+
+    Many tests start a Python of their own; without this, each compiles the package anew.
+    """
+    if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+        folder = tempfile.mkdtemp(prefix="assoc-hull-pycache-")
+        os.environ["PYTHONPYCACHEPREFIX"] = folder
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -65,10 +78,10 @@ Shipped = Callable[[str], Hull]
 @pytest.fixture(scope="session")
 def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
     """Hulls that ship, as they are made: each call gives one of the caller's own."""
-    makers = {
+    makers: dict[str, Callable[[], Hull]] = {
         "wigley": examples.wigley,
-        "series60_60": lambda: examples.series60(0.60),
-        "series60_70": lambda: examples.series60(0.70),
+        "series60_60": partial(examples.series60, 0.60),
+        "series60_70": partial(examples.series60, 0.70),
         "bulk_carrier": examples.bulk_carrier_207k,
     }
 

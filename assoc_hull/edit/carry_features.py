@@ -20,19 +20,15 @@ from collections.abc import Iterable
 import attrs
 import numpy as np
 
+from assoc_hull.edit.feature_circle import circle_of
 from assoc_hull.edit.mapping import SpaceMap
-from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.plane import plane_axes
 from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.feature import Feature
 from assoc_hull.model.feature_shape import ROUNDING, places_off
 from assoc_hull.model.state import HullState
 
 __all__ = ["CarriedFeatures", "carry_features"]
-
-_DIGITS = 9
-"""Circles that images lie on are told to this digit of a metre; what is beyond is rounding."""
 
 
 @attrs.frozen(eq=False)
@@ -119,16 +115,9 @@ def _circle(
     feature: Feature, xyz: FloatArray, centre: FloatArray, normal: FloatArray
 ) -> tuple[FloatArray, float]:
     """Give centre and radius of the circle on which the images of points lie, or nearly do."""
-    axes = plane_axes(normal)
-    fit = fit_circle(np.column_stack([dot(xyz, axis) for axis in axes]))
-    height = float((normal * xyz[0]).sum())
-    middle = fit.centre[0] * axes[0] + fit.centre[1] * axes[1] + height * normal
-    if feature.kind == "circle":
-        middle = middle * np.where(np.array(feature.centre) == 0.0, [1.0, 0.0, 1.0], 1.0)
-    away = xyz - middle
-    off = np.abs(np.sqrt(dot(away, away)) - fit.radius).max()
-    if off <= ROUNDING + feature.gap * fit.radius / (feature.radius or fit.radius):
-        return np.round(middle, _DIGITS), round(fit.radius, _DIGITS)
+    found = circle_of(xyz, normal, closed=feature.kind == "circle")
+    if found.off <= ROUNDING + feature.gap * found.radius / (feature.radius or found.radius):
+        return found.centre, found.radius
     away = xyz - centre
     return centre, float(np.sqrt(dot(away, away)).mean())
 

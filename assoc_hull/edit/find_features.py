@@ -20,12 +20,10 @@ from itertools import pairwise
 import attrs
 import numpy as np
 
+from assoc_hull.edit.feature_circle import circle_of
 from assoc_hull.edit.feature_side import circle_side, flat_side
-from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.flats import fit_plane
-from assoc_hull.geometry.plane import plane_axes
-from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.feature import FEATURE_LEAST, Feature
 from assoc_hull.model.feature_shape import ROUNDING, places_off
@@ -211,42 +209,27 @@ def _straight(state: HullState, piece: _Piece) -> Feature | None:
 
 def _round(state: HullState, piece: _Piece, tolerance: float) -> Feature | None:
     """Give an arc between tangent points, or a circle that its mirror image closes."""
-    table = state.lines
-    closed = _closed(piece)
-    if not (table.planar.data[piece.line] and len(piece.xyz) >= _LEAST and all(closed)):
+    planar = state.lines.planar.data[piece.line]
+    if not (planar and len(piece.xyz) >= _LEAST and all(_tangent(piece))):
         return None
-    normal = table.normal.data[piece.line]
-    offset = float(table.offset.data[piece.line])
-    axes = plane_axes(normal)
-    flat = np.column_stack([dot(piece.xyz, axis) for axis in axes])
-    circle = fit_circle(flat)
+    normal = state.lines.normal.data[piece.line]
+    found = circle_of(piece.xyz, normal)
     both = all(each is not None for each in piece.tangents)
-    away = flat - circle.centre
-    off = np.abs(np.sqrt((away * away).sum(axis=1)) - circle.radius)
-    turn = _turn(away)
-    if off.max() > (max(tolerance, ROUNDING) if both else ROUNDING) or turn < _TURN:
+    if found.turn < _TURN or found.off > (max(tolerance, ROUNDING) if both else ROUNDING):
         return None
-    centre = offset * normal + circle.centre[0] * axes[0] + circle.centre[1] * axes[1]
-    centre = np.round(centre, 6)
-    whole = bool((np.abs(piece.xyz[[0, -1], 1]) <= _CENTRE).all() and abs(centre[1]) <= ROUNDING)
-    if whole:
-        centre[1] = 0.0
+    ends = np.abs(piece.xyz[[0, -1], 1]) <= _CENTRE
+    closed = bool(ends.all() and abs(found.centre[1]) <= ROUNDING)
+    if closed:
+        found = circle_of(piece.xyz, normal, closed=True)
     return _make(
-        state, piece.line, "circle" if whole else "arc", piece.rows, centre=centre,
-        radius=round(circle.radius, 6), normal=normal,
-        side=circle_side(piece.xyz, centre, normal),
+        state, piece.line, "circle" if closed else "arc", piece.rows, centre=found.centre,
+        radius=found.radius, normal=normal, side=circle_side(piece.xyz, found.centre, normal),
     )  # fmt: skip
 
 
-def _closed(piece: _Piece) -> list[bool]:
+def _tangent(piece: _Piece) -> list[bool]:
     """Tell for both ends whether they are tangent: a tangent point, or an end held upright."""
     return [
         tangent is not None or (held and abs(float(place[1])) <= _CENTRE)
         for tangent, held, place in zip(piece.tangents, piece.held, piece.xyz[[0, -1]], strict=True)
     ]
-
-
-def _turn(away: FloatArray) -> float:
-    """Give the angle, seen from the centre, over which points stretch, rad."""
-    angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
-    return float(np.ptp(angle))

@@ -38,6 +38,11 @@ class Blend:
     name: Literal["cubic", "quintic"]
     steepest: float
 
+    @property
+    def degree(self) -> int:
+        """That of b between 0 and 1."""
+        return 3 if self.name == "cubic" else 5
+
     def value(self, s: FloatArray) -> FloatArray:
         """Give b(s); exactly 0 below s = 0 and exactly 1 above s = 1."""
         s = np.clip(s, 0.0, 1.0)

@@ -66,6 +66,12 @@ class Bump:
         return np.sort(np.array([self.begin, self.end]))
 
     @property
+    def degree(self) -> int:
+        """That of the shape."""
+        _, m, n = SHAPES[self.shape]
+        return m + n
+
+    @property
     def top(self) -> float:
         """Where it is fullest, m."""
         _, m, n = SHAPES[self.shape]

@@ -26,8 +26,13 @@ __all__ = ["Chain", "Contour", "Course"]
 class Course(Protocol):
     """A function of one coordinate with exact bounds.
 
-    `nodes` are where its pieces join, rising; `scaled` gives it times a factor.
+    Between its nodes it is a polynomial; `scaled` gives it times a factor.
     """
+
+    @property
+    def degree(self) -> int:
+        """Highest degree of the polynomials between nodes."""
+        ...
 
     @property
     def nodes(self) -> FloatArray:
@@ -137,6 +142,11 @@ class Chain:
         """Whether it is the same everywhere."""
         return bool((self.v == self.v[0]).all())
 
+    @property
+    def degree(self) -> int:
+        """That of the blend; 0 if it is level."""
+        return 0 if self.level else self.blend.degree
+
     def scaled(self, factor: float) -> Chain:
         """Give the chain times a factor."""
         return Chain(self.x.copy(), self.v * factor, self.blend)
@@ -229,6 +239,11 @@ class Contour:
     def nodes(self) -> FloatArray:
         """Where pieces join, rising."""
         return self.x
+
+    @property
+    def degree(self) -> int:
+        """That of a cubic spline."""
+        return 3
 
     def scaled(self, factor: float) -> Contour:
         """Give the contour times a factor."""

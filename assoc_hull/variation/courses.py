@@ -61,6 +61,11 @@ class Ramp:
         """Where it begins and where it is straight, rising."""
         return np.sort(np.array([self.begin, self.begin + self.width]))
 
+    @property
+    def degree(self) -> int:
+        """That of the blend's integral."""
+        return self.blend.degree + 1
+
     def scaled(self, factor: float) -> Ramp:
         """Give the ramp times a factor."""
         return Ramp(self.begin, self.width, self.slope_ * factor, self.blend)
@@ -146,6 +151,11 @@ class Polynomial:
         least = _NEGLIGIBLE * np.abs(slope).max()
         ends = [k for k in range(1, len(slope)) if np.abs(slope[k]) > least]
         return np.concatenate([[0.0], *(np.real(np.roots(slope[k::-1])) for k in ends)])
+
+    @property
+    def degree(self) -> int:
+        """Its own."""
+        return len(self.c) - 1
 
     def scaled(self, factor: float) -> Polynomial:
         """Give the polynomial times a factor."""

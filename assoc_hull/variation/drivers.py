@@ -9,9 +9,10 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.edit.carry_planes import PLANE
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.state import HullState
 
@@ -23,37 +24,47 @@ _SAMPLES = 4
 _AXES = {"sections": 0, "frames": 0, "buttocks": 1, "waterlines": 2}
 
 
-@attrs.frozen
+@attrs.frozen(eq=False)
 class Keeps:
-    """What becomes of planes x, y and z = const under a map.
+    """What becomes of lines in planes x, y and z = const under a map, by number and axis.
 
     Attributes
     ----------
-    plane : (bool, bool, bool)
-        Whether they come to be such planes again.
-    place : (bool, bool, bool)
-        Whether they stay where they are.
+    plane : (l, 3) bool
+        Whether they come to lie in such planes again.
+    place : (l, 3) bool
+        Whether they stay in their planes.
     """
 
-    plane: tuple[bool, bool, bool]
-    place: tuple[bool, bool, bool]
+    plane: np.typing.NDArray[np.bool_]
+    place: np.typing.NDArray[np.bool_]
 
 
 def keeps(state: HullState, space: SpaceMap) -> Keeps:
-    """Find which planes a map keeps on the lines of a net."""
-    xyz = _places(state)
-    slope, moved = space.jacobians(xyz), space.places(xyz) != xyz
-    plane, place = list[bool](), list[bool]()
+    """Find which planes a map keeps on the lines of a net, line by line.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    space : SpaceMap
+        The map.
+
+    Returns
+    -------
+    Keeps
+        Nil along lines that are not alive, and for axes that are not theirs.
+    """
+    curves = state.live("curves")
+    start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
+    line = np.repeat(state.curves.line.data[curves], np.diff(start))
+    slope, moved = space.jacobians(xyz), np.abs(space.places(xyz) - xyz) > PLANE
+    bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
         others = [each for each in range(3) if each != axis]
-        plane.append(not slope[:, axis, others].any())
-        place.append(not moved[:, axis].any())
-    return Keeps((plane[0], plane[1], plane[2]), (place[0], place[1], place[2]))
-
-
-def _places(state: HullState) -> FloatArray:
-    curves = state.live("curves").tolist()
-    return np.array(sample(SplineBatch.join([state.spline(c) for c in curves]), _SAMPLES)[1])
+        np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
+        np.logical_or.at(gone[:, axis], line, moved[:, axis])
+    return Keeps(~bent, ~gone)
 
 
 def default_drivers(
@@ -83,7 +94,7 @@ def default_drivers(
         if axis is None or state.lines.boundary.data[line] >= 0:
             continue
         may = stations == "number" if axis == 0 else follow
-        if kept.plane[axis] and (may or kept.place[axis]):
+        if kept.plane[line, axis] and (may or kept.place[line, axis]):
             chosen.append(line)
     if not chosen:
         raise BadInputError(

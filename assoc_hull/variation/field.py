@@ -223,7 +223,13 @@ class Field:
         return u
 
     def gradient(self, xyz: FloatArray) -> FloatArray:
-        """Give du/dx, du/dy, du/dz, (n, 3)."""
+        """Give du/dx, du/dy, du/dz, (n, 3); only places in the region are looked at."""
+        some = self._touched(xyz)
+        found = np.zeros((len(xyz), 3))
+        found[some] = self._gradient(xyz[some])
+        return found
+
+    def _gradient(self, xyz: FloatArray) -> FloatArray:
         x, z, c = xyz[:, 0], xyz[:, 2], self._own(xyz)
         low, s = self.strip(x, z)
         high = np.minimum(low + 1, len(self.pieces) - 1)

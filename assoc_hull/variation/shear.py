@@ -41,7 +41,8 @@ class DeadriseLayer:
     fade: Chain
     blend: Blend = QUINTIC
 
-    def _ramp(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def ramp(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give r and its derivative by the half-breadth."""
         out = np.abs(y) - self.keel
         if self.width == 0.0:
             return np.maximum(out, 0.0), np.where(out >= 0.0, 1.0, 0.0)
@@ -51,13 +52,13 @@ class DeadriseLayer:
     def displacement(self, xyz: FloatArray) -> FloatArray:
         """Give by how much places (n, 3), m, move, (n, 3), m."""
         moved = np.zeros_like(xyz)
-        ramp, _ = self._ramp(xyz[:, 1])
+        ramp, _ = self.ramp(xyz[:, 1])
         moved[:, 2] = self.course.at(xyz[:, 0]) * self.q * ramp * self.fade.at(xyz[:, 2])
         return moved
 
     def jacobian(self, xyz: FloatArray) -> FloatArray:
         """Give the derivatives of the places after by those before, (n, 3, 3)."""
-        ramp, rise = self._ramp(xyz[:, 1])
+        ramp, rise = self.ramp(xyz[:, 1])
         a, c = self.course.at(xyz[:, 0]), self.fade.at(xyz[:, 2])
         found = np.tile(np.eye(3), (len(xyz), 1, 1))
         found[:, 2, 0] += self.course.slope(xyz[:, 0]) * self.q * ramp * c

@@ -6,6 +6,7 @@ import contextlib
 import inspect
 import warnings
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import attrs
@@ -220,13 +221,26 @@ FLOATING: dict[str, Given] = {
 
 
 def cases(table: dict[str, Given]) -> list[Any]:
-    """Every argument of every method, with everything bad in its place."""
+    """Every argument of every method."""
     return [
-        pytest.param(method, {**given, name: value}, id=f"{method}-{name}-{kind}")
+        pytest.param(method, given, name, id=f"{method}-{name}")
         for method, given in table.items()
         for name in given
-        for kind, value in BAD.items()
     ]
+
+
+def spoilt(given: Given, name: str) -> Iterator[contextlib.AbstractContextManager[Given]]:
+    """Everything bad in the place of an argument, one after another; a failure says which."""
+    return (_spoilt(given, name, kind) for kind in BAD)
+
+
+@contextlib.contextmanager
+def _spoilt(given: Given, name: str, kind: str) -> Iterator[Given]:
+    try:
+        yield {**given, name: BAD[kind]}
+    except BaseException as error:
+        error.add_note(f"{name}: {kind}")
+        raise
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -261,18 +275,29 @@ def check(error: ah.AssocHullError) -> None:
     assert 10 < len(str(error)) < 400
 
 
-@pytest.mark.parametrize(("method", "given"), cases(HULL))
-def test_a_hull_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+@pytest.mark.parametrize(("method", "given", "name"), cases(HULL))
+def test_a_hull_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
-    before = hull.fingerprint
-    call(getattr(hull, method), given)
-    assert hull.history == ()
-    assert hull.fingerprint == before
+    for trial in spoilt(given, name):
+        before = hull.fingerprint
+        with trial as bad:
+            call(getattr(hull, method), bad)
+            assert hull.history == ()
+            assert hull.fingerprint == before
 
 
-@pytest.mark.parametrize(("method", "given"), cases(EDIT))
-def test_a_refused_modification_leaves_no_trace(hull: ah.Hull, method: str, given: Given) -> None:
+@pytest.mark.parametrize(("method", "given", "name"), cases(EDIT))
+def test_a_refused_modification_leaves_no_trace(
+    hull: ah.Hull, method: str, given: Given, name: str
+) -> None:
     """Caught inside the edit, which then goes on and ends: not a bit has changed."""
+    for trial in spoilt(given, name):
+        with trial as bad:
+            assert_no_trace(hull, method, bad)
+
+
+def assert_no_trace(hull: ah.Hull, method: str, given: Given) -> None:
+    """Call in an edit; if it is refused the hull is as before, and else after an undo."""
     before, refused = hull.fingerprint, False
     try:
         with hull.edit("try") as edit:
@@ -286,27 +311,38 @@ def test_a_refused_modification_leaves_no_trace(hull: ah.Hull, method: str, give
     assert hull.fingerprint == before
 
 
-@pytest.mark.parametrize(("method", "given"), cases(CURVES))
-def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+@pytest.mark.parametrize(("method", "given", "name"), cases(CURVES))
+def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """Parameters and places that are none are refused."""
-    curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
-    call(getattr(curve, method), given)
-    assert hull.fingerprint == before
+    for trial in spoilt(given, name):
+        curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
+        with trial as bad:
+            call(getattr(curve, method), bad)
+            assert hull.fingerprint == before
 
 
-@pytest.mark.parametrize(("method", "given"), cases(LINES))
-def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given) -> None:
+@pytest.mark.parametrize(("method", "given", "name"), cases(LINES))
+def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """Planes that are none are refused."""
-    before = hull.fingerprint
-    call(getattr(hull.lines[LINE], method), given)
-    assert hull.fingerprint == before
+    for trial in spoilt(given, name):
+        before = hull.fingerprint
+        with trial as bad:
+            call(getattr(hull.lines[LINE], method), bad)
+            assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(
-    ("method", "given"), cases({name: given for name, (_, given) in MAKERS.items()})
+    ("method", "given", "name"), cases({name: given for name, (_, given) in MAKERS.items()})
 )
-def test_what_is_made_is_made_of_good_values(method: str, given: Given) -> None:
+def test_what_is_made_is_made_of_good_values(method: str, given: Given, name: str) -> None:
     """Constructors and readers refuse what they cannot use."""
+    for trial in spoilt(given, name):
+        with trial as bad:
+            make(method, bad)
+
+
+def make(method: str, given: Given) -> None:
+    """Call a constructor or reader with what may be no value for it."""
     function = MAKERS[method][0]
     if method in ("BoundaryKind", "PointKind"):
         value = given["value"]
@@ -316,12 +352,16 @@ def test_what_is_made_is_made_of_good_values(method: str, given: Given) -> None:
     call(function, given)
 
 
-@pytest.mark.parametrize(("method", "given"), cases(FLOATING))
-def test_a_hull_is_measured_by_good_values(hull: ah.Hull, method: str, given: Given) -> None:
+@pytest.mark.parametrize(("method", "given", "name"), cases(FLOATING))
+def test_a_hull_is_measured_by_good_values(
+    hull: ah.Hull, method: str, given: Given, name: str
+) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
-    before = hull.fingerprint
-    call(lambda: getattr(ah, method)(hull, **given), {})
-    assert hull.fingerprint == before
+    for trial in spoilt(given, name):
+        before = hull.fingerprint
+        with trial as bad:
+            call(partial(getattr(ah, method), hull), bad)
+            assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize("method", FLOATING)

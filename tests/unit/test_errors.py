@@ -67,6 +67,22 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["'fair WL 1'", "unchanged", "gap of 3 mm at ST 7", "1 more"],
     ),
     (
+        errors.FoldError(
+            "folds", "Z_z", -0.036, 0.05, (5.625, 0.0, 7.813), "local fields", "shaft_height",
+            (("shaft+r", 4.73), ("T", 10.8)), 4.37, (-4.0467, 4.0467),
+        ),
+        ValueError,
+        [
+            "folds at x=5.625 z=7.813 (Z_z=-0.036) between 'shaft+r' (4.730) and 'T' (10.800), "
+            "node x=4.370; admissible +-4.046 m"
+        ],
+    ),
+    (
+        errors.FoldError("thin", "D", 0.0312, 0.05, (5.6, 2.5, 7.8), "bilge_radius"),
+        ValueError,
+        ["'bilge_radius' leaves less than 0.05 at x=5.600 y=2.500 z=7.800 (D=0.031); ask for less"],
+    ),
+    (
         errors.MissingExtraError("matplotlib", "plot"),
         ImportError,
         ["matplotlib", "pip install 'assoc-hull[plot]'"],

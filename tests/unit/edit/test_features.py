@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
+from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.find_features import find_features
 from assoc_hull.edit.mapping import space_map
 from assoc_hull.edit.session import Edit
@@ -209,6 +211,17 @@ def test_whoever_makes_features_anew_keeps_them_through_a_mapping(box: ah.Hull) 
             edit.maker.features(find_features(box.state))
         assert box.check() == ()
         assert "ST 2 arc" not in names(box)
+
+
+def test_a_feature_made_anew_takes_the_place_of_the_carried_one(box: ah.Hull) -> None:
+    """And is not taken for bent any more: its points will be put on it."""
+    carried = carry_features(box.state, space_map(None, None, [1.0, 1.1, 1.0], None), 1e-3)
+    arc = next(each for each in carried.features if each.name == "ST 2 arc")
+    assert carried.bent == {each.key for each in box.state.features if each.kind == "arc"}
+    again = carried.anew([attrs.evolve(arc, radius=3.0)])
+    assert carried.bent - again.bent == {arc.key}
+    assert [each.radius for each in again.features if each.key == arc.key] == [3.0]
+    assert len(again.features) == len(carried.features)
 
 
 def test_features_are_named_after_their_lines(box: ah.Hull) -> None:

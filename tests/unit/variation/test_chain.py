@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -47,6 +47,8 @@ def check_bounds(course: Course, span: tuple[float, float]) -> None:
 
 
 @given(chain=chains(-1.0, 1.0))
+@example(chain=Chain.through([0.0, 10.0, 20.0], [0.7, 0.1, 0.7]))
+@example(chain=Chain.through([0.0, 10.0], [0.7, 0.1]))
 def test_a_chain_gives_the_values_of_its_nodes(chain: Chain) -> None:
     """At nodes and outside, to the last bit and with slope nil."""
     assert chain.at(chain.x).tolist() == chain.v.tolist()

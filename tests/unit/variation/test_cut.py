@@ -84,6 +84,16 @@ def test_a_narrow_region_on_a_long_segment_is_found() -> None:
     assert_allclose(QUINTIC.value(2.0 * (found.xyz[:1, 0] - 100.0)), [0.25], rtol=0, atol=1e-12)
 
 
+def test_a_narrow_strip_on_a_long_segment_is_found() -> None:
+    """Two centimetres of a post of 18 m are pushed forward; a plane through them meets it twice."""
+    levels, full = stack(["low", "middle", "high"], [5.0, 5.01, 5.02]), Chain.constant(1.0)
+    pieces = tuple(Piece.along(full, 0.0, d) for d in (0.0, 0.5, 0.0))
+    vmap = VMap((FieldLayer("rib", (Field("rib", "x", levels, pieces),)),))
+    found = cut(vmap, line((100.0, 0.0, 0.0), (100.0, 0.0, 18.0)), "x", 100.25)
+    assert found.sign.tolist() == [1, -1]
+    assert_allclose(found.xyz[:, 2], [5.005, 5.015], rtol=0, atol=1e-12)
+
+
 def test_curves_of_a_batch_keep_their_own_crossings() -> None:
     """Sorted by curve; one that lies below the plane has none."""
     batch = SplineBatch.join([line((6.0, 0, 0), (6.0, 0, 18)), line((6.0, 1, 0), (6.0, 1, 2)),

@@ -20,7 +20,8 @@ gaps = st.lists(st.floats(1.0, 9.0), min_size=1, max_size=5)
 
 def moved(field: Field, z: list[float]) -> list[float]:
     """Displacements at heights."""
-    return field.displacement(np.array([[0.0, 0.0, each] for each in z])).tolist()
+    found: list[float] = field.displacement(np.array([[0.0, 0.0, each] for each in z])).tolist()
+    return found
 
 
 @given(data=st.data(), gap=gaps, blend=blends)
@@ -50,11 +51,11 @@ def test_beyond_the_windows_nothing_moves(gap: list[float], blend: Blend) -> Non
 
 def test_a_plateau_with_windows_outward_is_rigid() -> None:
     """Between its anchors all heights move by the same, so that a circle stays one."""
-    anchors = [("base", 0.0, 0.0), ("low", 4.0, 1.0), ("high", 6.0, 1.0), ("T", 18.0, 0.0)]
+    anchors = [("base", 0.0, 0.0), ("low", 4.0, 0.7), ("high", 6.0, 0.7), ("T", 18.0, 0.0)]
     rigid = hat("shaft", anchors, FULL, outward=("low", "high"))
     z = np.linspace(4.0, 6.0, 201).tolist()
-    assert moved(rigid, z) == [1.0] * 201
-    assert max(moved(hat("shaft", anchors, FULL), z)) > 1.005
+    assert moved(rigid, z) == [0.7] * 201
+    assert max(moved(hat("shaft", anchors, FULL), z)) > 0.7035
 
 
 def test_windows_outward_are_as_wide_as_the_gap_on_their_side_allows() -> None:
