@@ -68,8 +68,16 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
     ),
     (
         errors.FoldError(
-            "folds", "Z_z", -0.036, 0.05, (5.625, 0.0, 7.813), "local fields", "shaft_height",
-            (("shaft+r", 4.73), ("T", 10.8)), 4.37, (-4.0467, 4.0467),
+            "folds",
+            "Z_z",
+            -0.036,
+            0.05,
+            (5.625, 0.0, 7.813),
+            "local fields",
+            "shaft_height",
+            (("shaft+r", 4.73), ("T", 10.8)),
+            4.37,
+            (-4.0467, 4.0467),
         ),
         ValueError,
         [
