@@ -60,15 +60,11 @@ class Regenerated:
 
     def features(self, carried: CarriedFeatures) -> CarriedFeatures:
         """Give carried features the centres and radii that the circles are drawn with."""
-        drawn = dict(zip(self.keys, self.map.circles, strict=True))
+        drawn = {key: circle.after for key, circle in zip(self.keys, self.map.circles, strict=True)}
         found = tuple(
-            attrs.evolve(
-                each, centre=drawn[each.key].after.centre.tolist(),
-                radius=drawn[each.key].after.radius,
-            )
-            if each.key in drawn else each
+            _as_drawn(each, drawn[each.key]) if each.key in drawn else each
             for each in carried.features
-        )  # fmt: skip
+        )
         return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
 
 
@@ -121,6 +117,10 @@ def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
     before = Circle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
     gap = max(GAP, 2.0 * feature.gap)
     return redraw(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
+
+
+def _as_drawn(feature: Feature, circle: Circle) -> Feature:
+    return attrs.evolve(feature, centre=circle.centre.tolist(), radius=circle.radius)
 
 
 def _touches(work: Carried, curve: int, circle: Circle) -> list[Touch]:

@@ -69,11 +69,11 @@ def hat(
         raise BadInputError(f"field '{name}' has {len(z)} anchors", "in vary", "give at least two")
     stack(names, z.tolist())
     gap = np.diff(z)
-    reach = _WINDOW * np.minimum(np.append(gap[0], gap), np.append(gap, gap[-1]))
+    reach = _WINDOW * np.column_stack([np.append(gap[0], gap), np.append(gap, gap[-1])])
     slope = np.concatenate([[0.0], np.diff(d) / gap, [0.0]])
     labels, heights, pieces = list[str](), list[float](), list[Piece]()
     for j, anchor in enumerate(names):
-        below, above = _window(float(reach[j]), d, j, rigid=anchor in outward)
+        below, above = _window(reach[j], d, j, rigid=anchor in outward)
         for sign, part, k in (("-", below, j), ("+", above, j + 1)):
             labels.append(f"{anchor}{sign}")
             heights.append(float(z[j]) - part if sign == "-" else float(z[j]) + part)
@@ -82,10 +82,18 @@ def hat(
 
 
 def _window(
-    reach: float, d: np.typing.NDArray[np.float64], j: int, *, rigid: bool
+    reach: np.typing.NDArray[np.float64],
+    d: np.typing.NDArray[np.float64],
+    j: int,
+    *,
+    rigid: bool,
 ) -> tuple[float, float]:
-    """Give how far the window of an anchor reaches down and up."""
+    """Give how far the window of an anchor reaches down and up.
+
+    One that points away from a plateau is as wide as the gap on its own side allows.
+    """
+    below, above = reach.tolist()
     if not rigid:
-        return reach, reach
+        return min(below, above), min(below, above)
     plateau_above = j + 1 < len(d) and d[j + 1] == d[j]
-    return (reach, 0.0) if plateau_above else (0.0, reach)
+    return (below, 0.0) if plateau_above else (0.0, above)

@@ -58,6 +58,14 @@ def test_a_plateau_with_windows_outward_is_rigid() -> None:
     assert max(moved(hat("shaft", anchors, FULL), z)) > 0.7035
 
 
+def test_windows_outward_are_as_wide_as_the_gap_on_their_side_allows() -> None:
+    """A low plateau does not narrow them: 0.3 of the gaps below and above it."""
+    anchors = [("base", 0.0, 0.0), ("low", 4.0, 1.0), ("high", 4.5, 1.0), ("T", 18.5, 0.0)]
+    field = hat("shaft", anchors, FULL, outward=("low", "high"))
+    heights = [float(each.height.at(np.zeros(1))[0]) for each in field.boundaries]
+    assert heights == pytest.approx([-1.2, 1.2, 2.8, 4.0, 4.5, 8.7, 14.3, 22.7])
+
+
 @given(gap=st.tuples(st.floats(2.0, 9.0), st.floats(2.0, 9.0)), blend=blends)
 def test_slopes_stay_near_those_of_the_lines(gap: tuple[float, float], blend: Blend) -> None:
     """At most 1.42 (cubic) and 1.35 (quintic) times the steeper one; steps need 1.5 and 1.875."""

@@ -1,0 +1,114 @@
+"""The acceptance story, step 3: shaft raised by 1 m, bossing end radius from 0.725 to 1.0 m.
+
+One call, no hand work: circle, profile and the 1.0 m buttock come out as drawn, all other lines
+follow.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.geometry.closest import closest
+from tests.independent import trouble
+
+ASKED = {"shaft_height": 6.0, "bossing_radius": 1.0}
+
+
+@pytest.fixture(scope="module")
+def story(bulk_carrier: ah.Hull) -> ah.Variation:
+    """The varied carrier, with its report."""
+    return ah.vary(bulk_carrier, set=ASKED)
+
+
+def test_the_bossing_circle_has_its_new_radius_and_centre(story: ah.Variation) -> None:
+    """Measured on the drawn curve: to 1e-6 m, all the way round; the feature knows them exactly."""
+    reached = {target.name: target.reached for target in story.report.targets}
+    assert reached == pytest.approx(ASKED, abs=1e-6)
+    x, y, z = story.hull.lines["bossing end"].curves[0].polyline(64).T
+    assert np.abs(x - 6.0).max() == 0.0
+    assert np.abs(np.hypot(y, z - 6.0) - 1.0).max() <= 1e-6
+    feature = story.hull.features["bossing end"]
+    assert (feature.parameters["centre"], feature.parameters["radius"]) == ((6.0, 0.0, 6.0), 1.0)
+
+
+def test_the_bossing_stays_the_cylinder_it_was(story: ah.Variation) -> None:
+    """Both stations on it have the same circle; each is a feature still."""
+    for name in ("ST 0.45 circle", "ST 0.5 circle"):
+        found = story.hull.features[name].parameters
+        assert found["centre"][1:] == pytest.approx((0.0, 6.0), abs=1e-12)  # type: ignore[index]
+        assert found["radius"] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_the_profile_meets_the_circle(story: ah.Variation) -> None:
+    """Two of its ends are the lowest and the highest place of it, to the bit."""
+    ends = [
+        curve.spline.xyz[end].tolist()
+        for curve in story.hull.lines["profile"].curves
+        for end in (0, -1)
+    ]
+    assert [6.0, 0.0, 5.0] in ends
+    assert [6.0, 0.0, 7.0] in ends
+    circle = story.hull.lines["bossing end"].curves[0].spline.xyz
+    assert circle[[0, -1]].tolist() == [[6.0, 0.0, 5.0], [6.0, 0.0, 7.0]]
+
+
+def test_the_buttock_that_missed_the_bossing_meets_it_in_a_knuckle(
+    bulk_carrier: ah.Hull, story: ah.Variation
+) -> None:
+    """At the circle's widest place; on the parent no point of it is a knuckle."""
+    name = "BTK 1 x bossing end"
+    assert name not in bulk_carrier.points
+    point = story.hull.points[name]
+    assert point.position.tolist() == [6.0, 1.0, 6.0]
+    assert point.kind == "knuckle"
+    (curve,) = story.hull.lines["BTK 1"].curves
+    assert closest(curve.spline, 0, point.position[None])[2][0] == 0.0
+    knot = curve.spline.xyz.tolist().index([6.0, 1.0, 6.0])
+    above, below = curve.spline.xyz[[knot - 1, knot + 1]]
+    assert min(above[0], below[0]) > 7.5
+    assert above[2] > 6.0 > below[2]
+
+
+def test_frames_and_waterlines_follow_without_hand_work(
+    bulk_carrier: ah.Hull, story: ah.Variation
+) -> None:
+    """The hull is sound, crossings lie on both curves, and every line of the stern has moved."""
+    hull = story.hull
+    assert list(trouble(hull)) == []
+    assert (hull.check(), hull.verify()) == ((), ())
+    assert len(hull.history) == 1
+    for name in ("ST 0.45", "ST 0.62", "ST 1", "ST 2", "WL 4", "WL 5", "WL 6", "WL 7", "WL 8"):
+        old = np.concatenate([curve.polyline(8) for curve in bulk_carrier.lines[name].curves])
+        new = np.concatenate([curve.polyline(8) for curve in hull.lines[name].curves])
+        assert old.shape != new.shape or np.abs(old - new).max() > 0.05, name
+
+
+def test_waterlines_end_where_the_bossing_has_come_to(story: ah.Variation) -> None:
+    """That of the new shaft height on the circle, at its widest place."""
+    first = story.hull.lines["WL 6"].curves[0].points[0]
+    assert first.name == "WL 6 x bossing end"
+    assert first.position.tolist() == [6.0, 1.0, 6.0]
+
+
+def test_lines_forward_of_the_stern_keep_their_bits(
+    bulk_carrier: ah.Hull, story: ah.Variation
+) -> None:
+    """Beyond the regions that the report names, a quarter of the length forward of the bossing."""
+    fore = max(region.x[1] for region in story.report.regions)
+    assert fore < 90.0
+    for name, line in bulk_carrier.groups["sections"].lines.items():
+        if line.curves[0].points[0].x <= fore:
+            continue
+        for old, new in zip(line.curves, story.hull.lines[name].curves, strict=True):
+            assert np.array_equal(old.spline.xyz, new.spline.xyz), name
+
+
+def test_undo_gives_the_parent_back(bulk_carrier: ah.Hull, story: ah.Variation) -> None:
+    """To the last bit; redo the variant."""
+    after = story.hull.fingerprint
+    story.hull.undo()
+    assert story.hull.fingerprint == bulk_carrier.fingerprint
+    story.hull.redo()
+    assert story.hull.fingerprint == after
