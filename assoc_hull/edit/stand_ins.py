@@ -40,7 +40,9 @@ def settle_stand_ins(work: Carried) -> None:
 def _own(work: Carried, curve: int) -> IntArray:
     """Give the adopted points of a follower that are not settled."""
     rows: IntArray = work.state.curves.rows.data[curve]
-    return rows[(work.state.rows.sort.data[rows] == Sort.ADOPTED) & ~work.known[rows]]
+    adopted = work.state.rows.sort.data[rows] == Sort.ADOPTED
+    found: IntArray = rows[adopted & ~work.known[rows]]
+    return found
 
 
 def _settled(work: Carried, curve: int) -> IntArray:

@@ -30,6 +30,9 @@ _CONDITION = 50.0
 _LARGEST = 3.0
 """Fields larger than this many times what is asked work against one another."""
 
+_STEEPEST = 80.0
+"""Degrees; beyond, a small change of an angle moves a place by metres."""
+
 _BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
 _CLASHES = (
     ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
@@ -68,6 +71,7 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     [[6.0, 5.1, 6.0]]
     """
     _refuse_clashes(asked, layout)
+    _refuse_angles(asked)
     layers = list[Layer]()
     main = main_layer(parent, asked, layout)
     if main is not None:
@@ -98,6 +102,14 @@ def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Par
     sizes = {name: asked[name] for name in ("length", "breadth", "draught") if name in asked}
     depth = float(VMap((main,))(np.array([[0.0, 0.0, parent.depth]]))[0, 2])
     return parent.mapped(VMap((main,)), depth=depth, **sizes)
+
+
+def _refuse_angles(asked: Mapping[str, float]) -> None:
+    for name, value in asked.items():
+        if name.endswith("_deg") and not abs(value) <= _STEEPEST:
+            raise BadInputError(
+                f"{name} is {value:g} degrees", "in vary", f"give at most {_STEEPEST:g} either way"
+            )
 
 
 def conflicts(name: str) -> tuple[str, ...]:

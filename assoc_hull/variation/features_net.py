@@ -63,7 +63,8 @@ class Regenerated:
         drawn = dict(zip(self.keys, self.map.circles, strict=True))
         found = tuple(
             attrs.evolve(
-                each, centre=drawn[each.key].after.centre.tolist(), radius=drawn[each.key].after.radius
+                each, centre=drawn[each.key].after.centre.tolist(),
+                radius=drawn[each.key].after.radius,
             )
             if each.key in drawn else each
             for each in carried.features

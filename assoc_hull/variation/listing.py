@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import math
+
 import attrs
 
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchor import Measures
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.compose import conflicts
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.limits import hull_box, interval
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.parent_of import parent_of
 
 __all__ = ["Listed", "listing"]
 
@@ -23,7 +31,8 @@ class Listed:
     value : float or None
         Present value; None where the hull has none, for the `reason`.
     low, high : float or None
-        Between these (m or degrees) it may be asked for alone, with the usual layout.
+        Between these (m or degrees) it may be asked for alone, with the usual layout; None
+        where nothing ends it.
     conflicts : tuple of str
         Parameters that cannot be asked for beside it.
     reason : str or None
@@ -41,11 +50,8 @@ class Listed:
     def __str__(self) -> str:
         if self.value is None:
             return f"{self.name:22} -          {self.reason}"
-        between = (
-            ""
-            if self.low is None or self.high is None
-            else (f"  {self.low:.4g} .. {self.high:.4g}")
-        )
+        low, high = ("" if each is None else f"{each:.4g}" for each in (self.low, self.high))
+        between = f"  {low:>6} .. {high:6}"
         apart = f"  not with {', '.join(self.conflicts)}" if self.conflicts else ""
         return f"{self.name:22} {self.value:10.4f} {self.unit:3}{between}  {self.meaning}{apart}"
 
@@ -62,9 +68,19 @@ def listing(state: HullState) -> tuple[Listed, ...]:
     (10.0, 'no profile forward of FP below z=6.250')
     """
     found = measure_all(state)
-    return tuple(_listed(name, found) for name in CATALOGUE)
+    parent, box = parent_of(state, found), hull_box(state, 0.0)
+    return tuple(_listed(name, found, parent, box) for name in CATALOGUE)
 
 
-def _listed(name: str, found: Measures) -> Listed:
+def _listed(name: str, found: Measures, parent: Parent, box: FloatArray) -> Listed:
     entry, value, reason = CATALOGUE[name], found.get(name), found.absent.get(name)
-    return Listed(name, entry.unit, entry.meaning, value, None, None, conflicts(name), reason)
+    low = high = None
+    if value is not None:
+        try:
+            low, high = (
+                each if math.isfinite(each) else None
+                for each in interval(parent, name, value, Layout(), box)
+            )
+        except BadInputError as error:
+            value, reason = None, error.what
+    return Listed(name, entry.unit, entry.meaning, value, low, high, conflicts(name), reason)

@@ -24,8 +24,11 @@ from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.apply import Applied, apply
 from assoc_hull.variation.ask import Ask
 from assoc_hull.variation.catalogue import CATALOGUE
+from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.compose import compose
 from assoc_hull.variation.field import Region
+from assoc_hull.variation.fold_outside import fold_outside
+from assoc_hull.variation.limits import certified, hull_box
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.vmap import VMap
@@ -76,8 +79,12 @@ class VariationReport:
         Lines that were carried as they are; all others were cut again.
     added : int
         Adopted points that hold the drivers to their images.
+    certificate : Certificate
+        That the map folds nothing.
     edit : EditReport
         What changed, as of any edit.
+    notes : tuple of str
+        What else there is to know.
     """
 
     targets: tuple[Target, ...]
@@ -85,10 +92,12 @@ class VariationReport:
     regions: tuple[Region, ...]
     drivers: tuple[str, ...]
     added: int
+    certificate: Certificate
     edit: EditReport
+    notes: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        return "\n".join([*(str(each) for each in self.targets), str(self.edit)])
+        return "\n".join([*(str(each) for each in self.targets), *self.notes, str(self.edit)])
 
 
 def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
@@ -113,41 +122,63 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
             raise BadInputError(
                 f"cannot vary '{name}': {before.absent[name]}", "in vary", "leave it out"
             )
-    vmap, rounds = _settle(document.state, parent, ask)
-    applied, report = _apply(document, vmap, parent, ask)
-    was, reached = _values(before, ask), _measured(document.state, ask)
+    was = _values(before, ask)
+    found = _settle(document.state, parent, ask, was)
+    applied, report = _apply(document, found.map, parent, ask)
+    reached = _measured(document.state, ask)
     targets = tuple(
         Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
         for name, value in ask.values.items()
     )
-    return vmap, VariationReport(
-        targets, rounds, (*vmap.regions(), *applied.regions), applied.drivers, applied.added, report
-    )
+    regions = (*found.map.regions(), *applied.regions)
+    return found.map, VariationReport(
+        targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
+        _notes(found.map, document.state, ask),
+    )  # fmt: skip
 
 
-def _settle(state: HullState, parent: Parent, ask: Ask) -> tuple[VMap, int]:
+@attrs.frozen
+class _Settled:
+    """A map whose applied values are the asked ones, and how it was found."""
+
+    map: VMap
+    rounds: int
+    certificate: Certificate
+
+
+def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]) -> _Settled:
     """Find the map whose applied values are the asked ones."""
-    aim = dict(ask.values)
-    best, least = VMap(()), np.inf
+    aim, box = dict(ask.values), hull_box(state, ask.tolerance)
+    best, least = None, np.inf
     for rounds in range(1, _ROUNDS + 1):
         vmap = _map(parent, aim, ask)
+        certificate = certified(vmap, box, parent, was, ask.layout)
         trial = Document(copy_of(state))
         _apply(trial, vmap, parent, ask)
         reached = _measured(trial.state, ask)
         miss = {name: value - reached[name] for name, value in ask.values.items()}
         worst = max((abs(each) for each in miss.values()), default=0.0)
         if worst < least:
-            best, least = vmap, worst
+            best, least = _Settled(vmap, rounds, certificate), worst
         if worst <= _MET:
-            return vmap, rounds
+            break
         aim = {name: aim[name] + miss[name] for name in aim}
-    if least > _PROMISED:
+    if best is None or least > _PROMISED:
         name = max(miss, key=lambda each: abs(miss[each]))
         raise BadInputError(
             f"{name} reached {ask.values[name] - miss[name]:.7g}, asked {ask.values[name]:.7g}",
             "in vary", "ask for less, or give a finer tolerance",
         )  # fmt: skip
-    return best, _ROUNDS
+    return best
+
+
+def _notes(vmap: VMap, state: HullState, ask: Ask) -> tuple[str, ...]:
+    """Tell what a designer should know of a map that was carried out."""
+    beyond = fold_outside(vmap, hull_box(state, ask.tolerance))
+    if beyond is None:
+        return ()
+    x, _, z = beyond.witness
+    return (f"fold_outside_hull: the map folds at x={x:.3f} z={z:.3f}, where there is no hull",)
 
 
 def _map(parent: Parent, aim: Mapping[str, float], ask: Ask) -> VMap:

@@ -12,12 +12,13 @@ from assoc_hull.errors import BadInputError, MissingExtraError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.plot import lines_plan, sheet
-from assoc_hull.plot.drawing import drawing
+from assoc_hull.plot.drawing import Drawing, drawing
 from assoc_hull.plot.layout import lay_out
 from assoc_hull.plot.paper import PAPERS
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 Boxes = Callable[[Figure], dict[str, FloatArray]]
+Plan = Callable[..., Figure]
 
 HULLS = pytest.mark.parametrize("name", ["wigley", "series60"])
 EVERY = pytest.mark.parametrize("name", ["wigley", "series60", "bulk_carrier", "dtc"])
@@ -30,34 +31,54 @@ def hull(name: str, request: pytest.FixtureRequest) -> Hull:
     return found
 
 
-def pieces(hull: Hull, family: str) -> int:
+@pytest.fixture(scope="module")
+def drawn() -> dict[tuple[str, str], Figure]:
+    """Plans that were drawn, by hull and paper."""
+    return {}
+
+
+@pytest.fixture
+def plan(name: str, hull: Hull, drawn: dict[tuple[str, str], Figure]) -> Plan:
+    """Give the plan of the hull on a paper; it is drawn once, and looked at by many tests."""
+
+    def give(paper: str = "A3") -> Figure:
+        if (name, paper) not in drawn:
+            drawn[name, paper] = lines_plan(hull, paper=paper)  # type: ignore[arg-type]
+        return drawn[name, paper]
+
+    return give
+
+
+def pieces(shown: Drawing, family: str) -> int:
     """How many curves the lines of a family have."""
-    return sum(len(line.polylines) for line in drawing(hull).of(family))
+    return sum(len(line.polylines) for line in shown.of(family))
 
 
 @HULLS
-def test_each_view_shows_each_of_its_lines_once(hull: Hull, lines_of: Lines) -> None:
+def test_each_view_shows_each_of_its_lines_once(hull: Hull, plan: Plan, lines_of: Lines) -> None:
     """Buttocks in the profile, waterlines in plan, and midship on both halves of the body plan."""
-    figure = lines_plan(hull)
+    figure, shown = plan(), drawing(hull)
     middle = 0.5 * hull.particulars.length
-    both = sum(abs(line.offset - middle) < 1e-6 for line in drawing(hull).of("sections"))
-    assert len(lines_of(figure, "profile/buttocks/")) == pieces(hull, "buttocks")
-    assert len(lines_of(figure, "profile/boundary/")) == pieces(hull, "boundary")
-    assert len(lines_of(figure, "half-breadth/waterlines/")) == pieces(hull, "waterlines")
-    assert len(lines_of(figure, "half-breadth/boundary/")) == pieces(hull, "boundary") - 1
-    assert len(lines_of(figure, "body/sections/")) == pieces(hull, "sections") + both
+    both = sum(abs(line.offset - middle) < 1e-6 for line in shown.of("sections"))
+    assert len(lines_of(figure, "profile/buttocks/")) == pieces(shown, "buttocks")
+    assert len(lines_of(figure, "profile/boundary/")) == pieces(shown, "boundary")
+    assert len(lines_of(figure, "half-breadth/waterlines/")) == pieces(shown, "waterlines")
+    assert len(lines_of(figure, "half-breadth/boundary/")) == pieces(shown, "boundary") - 1
+    assert len(lines_of(figure, "body/sections/")) == pieces(shown, "sections") + both
 
 
 @HULLS
-def test_the_grid_shows_the_planes_of_the_other_families(hull: Hull, lines_of: Lines) -> None:
+def test_the_grid_shows_the_planes_of_the_other_families(
+    hull: Hull, plan: Plan, lines_of: Lines
+) -> None:
     """Stations and waterlines are straight in the profile, buttocks straight in plan."""
-    figure = lines_plan(hull)
+    figure, shown = plan(), drawing(hull)
     for view, family, axis in (
         ("profile", "sections", 0), ("profile", "waterlines", 1),
         ("half-breadth", "sections", 0), ("half-breadth", "buttocks", 1),
         ("body", "waterlines", 1), ("body", "buttocks", 0),
     ):  # fmt: skip
-        for line in drawing(hull).of(family):
+        for line in shown.of(family):
             found = lines_of(figure, f"{view}/grid/{line.name}")
             assert found, (view, line.name)
             assert all(np.ptp(points[:, axis]) == 0.0 for points in found)
@@ -66,11 +87,10 @@ def test_the_grid_shows_the_planes_of_the_other_families(hull: Hull, lines_of: L
 @pytest.mark.parametrize("paper", ["A3", "A1", "A4"])
 @EVERY
 def test_no_label_covers_another_and_all_lie_within_the_frame(
-    hull: Hull, paper: str, boxes_of: Boxes
+    plan: Plan, paper: str, boxes_of: Boxes
 ) -> None:
     """The boxes around all words are apart, and inside the sheet."""
-    figure = lines_plan(hull, paper=paper)  # type: ignore[arg-type]
-    found = boxes_of(figure)
+    found = boxes_of(plan(paper))
     boxes, names = np.array(list(found.values())), list(found)
     slack = 1e-6
     for i in range(len(boxes)):
@@ -87,9 +107,9 @@ def test_no_label_covers_another_and_all_lie_within_the_frame(
 
 
 @EVERY
-def test_every_line_is_named_in_its_view(hull: Hull, boxes_of: Boxes) -> None:
+def test_every_line_is_named_in_its_view(hull: Hull, plan: Plan, boxes_of: Boxes) -> None:
     """No waterline of the half-breadth plan, no section and no buttock is without a label."""
-    names = list(boxes_of(lines_plan(hull)))
+    names, shown = list(boxes_of(plan())), drawing(hull)
 
     def labelled(view: str, label: str) -> bool:
         return any(
@@ -101,18 +121,19 @@ def test_every_line_is_named_in_its_view(hull: Hull, boxes_of: Boxes) -> None:
         ("half-breadth", "waterlines"), ("body", "sections"), ("profile", "buttocks"),
         ("body", "buttocks"), ("body", "waterlines"), ("profile", "sections"),
     ):  # fmt: skip
-        missing = [line.name for line in drawing(hull).of(family) if not labelled(view, line.label)]
+        missing = [line.name for line in shown.of(family) if not labelled(view, line.label)]
         assert missing == [], view
 
 
 @HULLS
 def test_waterlines_end_on_the_profile(hull: Hull) -> None:
     """As drawn, both ends lie within 1 mm (full scale) of the drawn profile."""
-    profile = drawing(hull).profile
+    shown = drawing(hull)
+    profile = shown.profile
     assert profile is not None
     (course,) = profile.polylines
     start, along = course[:-1], np.diff(course, axis=0)
-    for line in drawing(hull).of("waterlines"):
+    for line in shown.of("waterlines"):
         for end in (line.polylines[0][0], line.polylines[-1][-1]):
             part = ((end - start) * along).sum(axis=1) / (along * along).sum(axis=1)
             foot = start + np.clip(part, 0.0, 1.0)[:, None] * along
@@ -121,12 +142,14 @@ def test_waterlines_end_on_the_profile(hull: Hull) -> None:
 
 
 @HULLS
-def test_the_bow_is_on_the_right_and_the_views_are_aligned(hull: Hull, lines_of: Lines) -> None:
+def test_the_bow_is_on_the_right_and_the_views_are_aligned(
+    hull: Hull, plan: Plan, lines_of: Lines
+) -> None:
     """x grows to the right, on one scale and at one place in profile and half-breadth plan."""
-    layout = lay_out(drawing(hull), PAPERS["A3"])
-    figure = lines_plan(hull)
+    shown = drawing(hull)
+    layout, figure = lay_out(shown, PAPERS["A3"]), plan()
     assert layout.profile.denominator == layout.half.denominator
-    for line in drawing(hull).of("sections"):
+    for line in shown.of("sections"):
         (upper,) = lines_of(figure, f"profile/grid/{line.name}")[:1]
         (lower,) = lines_of(figure, f"half-breadth/grid/{line.name}")[:1]
         assert upper[0, 0] == lower[0, 0] == layout.profile.across(line.offset)
@@ -135,12 +158,13 @@ def test_the_bow_is_on_the_right_and_the_views_are_aligned(hull: Hull, lines_of:
 
 
 @HULLS
-def test_the_aft_body_is_on_the_left(hull: Hull, lines_of: Lines) -> None:
+def test_the_aft_body_is_on_the_left(hull: Hull, plan: Plan, lines_of: Lines) -> None:
     """Sections abaft the middle lie left of the centre line, those before it right."""
-    layout = lay_out(drawing(hull), PAPERS["A3"])
-    figure, centre = lines_plan(hull), layout.body.across(0.0)
+    shown = drawing(hull)
+    layout = lay_out(shown, PAPERS["A3"])
+    figure, centre = plan(), layout.body.across(0.0)
     middle = 0.5 * hull.particulars.length
-    for line in drawing(hull).of("sections"):
+    for line in shown.of("sections"):
         found = lines_of(figure, f"body/sections/{line.name}$")
         sides = sorted(float(np.sign(points[:, 0].mean() - centre)) for points in found)
         if abs(line.offset - middle) < 1e-6:
