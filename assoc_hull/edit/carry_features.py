@@ -15,7 +15,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import attrs
 import numpy as np
@@ -46,18 +46,21 @@ class CarriedFeatures:
     within : float, m
         How far the points of the others may come to lie off them when lines are cut again. Inf:
         all features stay, for who makes them anew right after.
+    places : mapping of int to (3,), m
+        Where the mapping sends the points that they own.
     """
 
     features: tuple[Feature, ...]
     bent: frozenset[str]
     within: float
+    places: Mapping[int, FloatArray] = attrs.field(factory=dict)
 
     def anew(self, features: Iterable[Feature]) -> CarriedFeatures:
         """Let features that were made anew take the place of those of their keys."""
         made = {each.key: each for each in features}
         return CarriedFeatures(
             tuple(made.get(each.key, each) for each in self.features),
-            self.bent - made.keys(), self.within,
+            self.bent - made.keys(), self.within, self.places,
         )  # fmt: skip
 
 
@@ -77,7 +80,8 @@ def carry_features(state: HullState, space: SpaceMap, within: float) -> CarriedF
     if not features:
         return CarriedFeatures((), frozenset(), within)
     start = np.cumsum([0, *(len(each.points) for each in features)])
-    old = state.rows.xyz.data[[row for each in features for row in each.points]]
+    rows = [row for each in features for row in each.points]
+    old = state.rows.xyz.data[rows]
     new = space.places(old)
     middle = np.array([each.centre or old[at] for each, at in zip(features, start, strict=False)])
     image, slope = space.places(middle), space.jacobians(middle)
@@ -87,7 +91,8 @@ def carry_features(state: HullState, space: SpaceMap, within: float) -> CarriedF
         found.append(_carried(each, (old[mine], new[mine]), image[i], slope[i]))
         if places_off(found[i], new[mine]).max() > found[i].gap + ROUNDING:
             bent.add(each.key)
-    return CarriedFeatures(tuple(found), frozenset(bent), within)
+    places = dict(zip(rows, new, strict=True))
+    return CarriedFeatures(tuple(found), frozenset(bent), within, places)
 
 
 def _carried(

@@ -20,7 +20,7 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import IntArray, PointKind
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
 from assoc_hull.geometry.vectors import dot
 from assoc_hull.model.feature import FEATURE_LEAST, Feature
 from assoc_hull.model.feature_shape import ROUNDING, host_curve
@@ -29,7 +29,12 @@ from assoc_hull.model.state import HullState
 __all__ = ["followed", "in_plane"]
 
 
-def followed(state: HullState, feature: Feature, numbers: Mapping[str, int]) -> Feature | None:
+def followed(
+    state: HullState,
+    feature: Feature,
+    numbers: Mapping[str, int],
+    places: Mapping[int, FloatArray] | None = None,
+) -> Feature | None:
     """Give a feature as it lies on its line now.
 
     Parameters
@@ -40,6 +45,8 @@ def followed(state: HullState, feature: Feature, numbers: Mapping[str, int]) -> 
         As it was; its points may have gone.
     numbers : mapping of str to int
         The live lines, by key.
+    places : mapping of int to (3,), m, or None
+        Where a mapping has sent points that may have gone; as in the tables if None.
 
     Returns
     -------
@@ -53,29 +60,31 @@ def followed(state: HullState, feature: Feature, numbers: Mapping[str, int]) -> 
         parts = [state.curves.rows.data[c] for line in lines for c in state.lines.curves.data[line]]
         rows: IntArray | None = np.concatenate([np.zeros(0, np.int64), *parts])
     else:
-        rows = _between_ends(state, feature, lines)
+        rows = _between_ends(state, feature, lines, places or {})
     if rows is None or len(rows) < FEATURE_LEAST[feature.kind]:
         return None
     return in_plane(state, attrs.evolve(feature, points=rows.tolist()), lines[0])
 
 
-def _between_ends(state: HullState, feature: Feature, lines: list[int]) -> IntArray | None:
+def _between_ends(
+    state: HullState, feature: Feature, lines: list[int], places: Mapping[int, FloatArray]
+) -> IntArray | None:
     """Give the points of the line between the ends of a feature, the ends included."""
     for line in lines:
         for curve in state.lines.curves.data[line]:
             rows: IntArray = state.curves.rows.data[curve]
-            first = _stands(state, rows, feature.points[0])
-            last = _stands(state, rows, feature.points[-1])
+            first = _stands(state, rows, feature.points[0], places)
+            last = _stands(state, rows, feature.points[-1], places)
             if 0 <= first <= last:
                 return rows[first : last + 1]
     return None
 
 
-def _stands(state: HullState, rows: IntArray, row: int) -> int:
+def _stands(state: HullState, rows: IntArray, row: int, places: Mapping[int, FloatArray]) -> int:
     """Tell where a point stands among those of a curve, or what took its place; -1 if nowhere."""
     at = np.flatnonzero(rows == row)
     if not len(at) and not state.rows.alive.data[row]:
-        away = state.rows.xyz.data[rows] - state.rows.xyz.data[row]
+        away = state.rows.xyz.data[rows] - places.get(row, state.rows.xyz.data[row])
         at = np.flatnonzero(dot(away, away) <= ROUNDING * ROUNDING)
     return int(at[0]) if len(at) else -1
 

@@ -115,14 +115,16 @@ def _owners(state: HullState) -> tuple[IntArray, IntArray]:
 def _settle(work: Work, found: _Settling, old: Feature, hand: _Hand, *, whole: bool) -> None:
     """Keep a feature, as it has become, or dissolve it."""
     state = work.state
-    new = followed(state, old, found.lines) if whole else old
+    carried = work.pending.features
+    places = None if carried is None else carried.places
+    new = followed(state, old, found.lines, places) if whole else old
     touched = _by_hand(state, old, hand) or (_by_hand(state, new, hand) if new else "")
     if touched:
         found.notes.append(f"the feature {old.name!r} is dissolved: {touched} was set by hand")
     elif new is None:
         found.lost += [old.name] if set(old.lines) & found.lines.keys() else []
     else:
-        stays = _held(state, new, work.pending.features)
+        stays = _held(state, new, carried)
         if stays is not None:
             found.kept[old.key] = stays
             return

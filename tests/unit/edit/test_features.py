@@ -14,14 +14,17 @@ from hypothesis import strategies as st
 import assoc_hull as ah
 from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.find_features import find_features
+from assoc_hull.edit.follow_features import followed
 from assoc_hull.edit.mapping import space_map
 from assoc_hull.edit.session import Edit
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.transform import transform
 from assoc_hull.graph.journal import Journal
+from assoc_hull.model.copy import copy_of
 from assoc_hull.model.definition import definition, fingerprint, published
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.feature_shape import ROUNDING, places_off
+from assoc_hull.model.family import BoundaryKind, Sort
+from assoc_hull.model.feature_shape import ROUNDING, host_curve, line_numbers, places_off
+from assoc_hull.model.make import Maker, PointSpec
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.source import LineSource
 from tests.cases.test_box_with_bilges import round_box
@@ -293,3 +296,21 @@ def test_a_point_off_its_feature_is_a_finding() -> None:
     assert [each.object for each in told] == ["ST 2 @ placed 13"]
     assert told[0].amount == pytest.approx(places_off(
         hull.features["ST 2 arc"].feature, place[None])[0])  # fmt: skip
+
+
+def test_a_point_that_took_the_place_of_an_end_is_the_end_now(box: ah.Hull) -> None:
+    """Where the end was, or where a mapping sent it; anywhere else the end is lost."""
+    state = copy_of(box.state)
+    arc = next(each for each in state.features if each.name == "ST 2 arc")
+    end, numbers = arc.points[0], line_numbers(state)
+    curve = host_curve(state, arc)
+    rows = state.curves.rows.data[curve]
+    maker = Maker(state, Journal())
+    place = state.rows.xyz.data[end] + [0.0, 0.5, 0.0]
+    new = int(maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
+    maker.define(curve, np.where(rows == end, new, rows))
+    maker.remove_rows([end])
+    assert followed(state, arc, numbers) is None
+    found = followed(state, arc, numbers, {end: place})
+    assert found is not None
+    assert found.points == (new, *arc.points[1:])
