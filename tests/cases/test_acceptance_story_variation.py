@@ -11,18 +11,19 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.closest import closest
+from assoc_hull.variants import Variation
 from tests.independent import trouble
 
 ASKED = {"shaft_height": 6.0, "bossing_radius": 1.0}
 
 
 @pytest.fixture(scope="module")
-def story(bulk_carrier: ah.Hull) -> ah.Variation:
+def story(bulk_carrier: ah.Hull) -> Variation:
     """The varied carrier, with its report."""
     return ah.vary(bulk_carrier, set=ASKED)
 
 
-def test_the_bossing_circle_has_its_new_radius_and_centre(story: ah.Variation) -> None:
+def test_the_bossing_circle_has_its_new_radius_and_centre(story: Variation) -> None:
     """Measured on the drawn curve: to 1e-6 m, all the way round; the feature knows them exactly."""
     reached = {target.name: target.reached for target in story.report.targets}
     assert reached == pytest.approx(ASKED, abs=1e-6)
@@ -33,7 +34,7 @@ def test_the_bossing_circle_has_its_new_radius_and_centre(story: ah.Variation) -
     assert (feature.parameters["centre"], feature.parameters["radius"]) == ((6.0, 0.0, 6.0), 1.0)
 
 
-def test_the_bossing_stays_the_cylinder_it_was(story: ah.Variation) -> None:
+def test_the_bossing_stays_the_cylinder_it_was(story: Variation) -> None:
     """Both stations on it have the same circle; each is a feature still."""
     for name in ("ST 0.45 circle", "ST 0.5 circle"):
         found = story.hull.features[name].parameters
@@ -41,7 +42,7 @@ def test_the_bossing_stays_the_cylinder_it_was(story: ah.Variation) -> None:
         assert found["radius"] == pytest.approx(1.0, abs=1e-12)
 
 
-def test_the_profile_meets_the_circle(story: ah.Variation) -> None:
+def test_the_profile_meets_the_circle(story: Variation) -> None:
     """Two of its ends are the lowest and the highest place of it, to the bit."""
     ends = [
         curve.spline.xyz[end].tolist()
@@ -55,7 +56,7 @@ def test_the_profile_meets_the_circle(story: ah.Variation) -> None:
 
 
 def test_the_buttock_that_missed_the_bossing_meets_it_in_a_knuckle(
-    bulk_carrier: ah.Hull, story: ah.Variation
+    bulk_carrier: ah.Hull, story: Variation
 ) -> None:
     """At the circle's widest place; on the parent no point of it is a knuckle."""
     name = "BTK 1 x bossing end"
@@ -72,7 +73,7 @@ def test_the_buttock_that_missed_the_bossing_meets_it_in_a_knuckle(
 
 
 def test_frames_and_waterlines_follow_without_hand_work(
-    bulk_carrier: ah.Hull, story: ah.Variation
+    bulk_carrier: ah.Hull, story: Variation
 ) -> None:
     """The hull is sound, crossings lie on both curves, and every line of the stern has moved."""
     hull = story.hull
@@ -85,7 +86,7 @@ def test_frames_and_waterlines_follow_without_hand_work(
         assert old.shape != new.shape or np.abs(old - new).max() > 0.05, name
 
 
-def test_waterlines_end_where_the_bossing_has_come_to(story: ah.Variation) -> None:
+def test_waterlines_end_where_the_bossing_has_come_to(story: Variation) -> None:
     """That of the new shaft height on the circle, at its widest place."""
     first = story.hull.lines["WL 6"].curves[0].points[0]
     assert first.name == "WL 6 x bossing end"
@@ -93,7 +94,7 @@ def test_waterlines_end_where_the_bossing_has_come_to(story: ah.Variation) -> No
 
 
 def test_lines_forward_of_the_stern_keep_their_bits(
-    bulk_carrier: ah.Hull, story: ah.Variation
+    bulk_carrier: ah.Hull, story: Variation
 ) -> None:
     """Beyond the regions that the report names, a quarter of the length forward of the bossing."""
     fore = max(region.x[1] for region in story.report.regions)
@@ -105,7 +106,7 @@ def test_lines_forward_of_the_stern_keep_their_bits(
             assert np.array_equal(old.spline.xyz, new.spline.xyz), name
 
 
-def test_undo_gives_the_parent_back(bulk_carrier: ah.Hull, story: ah.Variation) -> None:
+def test_undo_gives_the_parent_back(bulk_carrier: ah.Hull, story: Variation) -> None:
     """To the last bit; redo the variant."""
     after = story.hull.fingerprint
     story.hull.undo()
