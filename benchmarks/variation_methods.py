@@ -7,11 +7,9 @@ variation_methods`` the times. Sections are lofted through the images of their p
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from pathlib import Path
 from time import perf_counter
 
 import attrs
@@ -33,6 +31,7 @@ from assoc_hull.variation.vmap import VMap
 from assoc_hull.variation.weights import FieldPlan
 from benchmarks.clock import Figure
 from benchmarks.ffd import SIDE, LatticePlan
+from benchmarks.ships import duisburg_test_case
 from benchmarks.variation_tasks import METHODS, Task, active_points, lattice, tasks
 
 __all__ = ["Fared", "fared", "figures", "main"]
@@ -147,16 +146,9 @@ def _widths(state: HullState, curves: IntArray) -> FloatArray:
 def _hulls() -> Iterator[tuple[str, ah.Hull]]:
     """Give the carrier, and DTC where its folder is named."""
     yield "carrier", ah.examples.bulk_carrier_207k()
-    folder = os.environ.get("ASSOC_HULL_DATA")
-    if folder:
-        mesh = Path(folder) / "dtc" / "DTC-scaled.stl.gz"
-        yield (
-            "DTC",
-            ah.read(
-                mesh, scale=59.407, length=355.0, draught=14.5, stations=41, waterlines=20,
-                buttocks=12, tolerance=0.01,
-            ),
-        )  # fmt: skip
+    ship = duisburg_test_case()
+    if ship is not None:
+        yield "DTC", ship
 
 
 def main() -> int:

@@ -1,0 +1,216 @@
+"""Every named parameter on two ships: what was reached, what moved, and how fair it is.
+
+``python -m benchmarks.vary_all [--write docs/variation_figures.md] [name ...]`` varies the bulk
+carrier, and the Duisburg Test Case where the data folder is there, by each parameter alone, in both
+senses, and prints tables.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+import attrs
+import numpy as np
+
+import assoc_hull as ah
+from assoc_hull.errors import AssocHullError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.state import HullState
+from assoc_hull.variants import Variation
+from assoc_hull.variation.catalogue import NAMES
+from assoc_hull.variation.fairness_of import LineFairness, compare_fairness, measure_fairness
+from benchmarks.ships import duisburg_test_case
+
+__all__ = ["AMOUNTS", "Row", "rows", "table"]
+
+AMOUNTS: dict[str, tuple[float, float]] = {
+    "length": (0.02, 0.0), "breadth": (0.03, 0.0), "draught": (0.05, 0.0), "depth": (-0.04, 0.0),
+    "deck_height": (0.0, 0.5), "shaft_height": (0.0, 1.0), "bossing_radius": (0.0, 0.275),
+    "transom_height": (0.0, 0.6), "transom_half_breadth": (0.05, 0.0), "bulb_height": (0.0, 0.5),
+    "bulb_half_breadth": (0.08, 0.0), "bulb_length": (0.0, 1.0), "bilge_radius": (0.25, 0.0),
+    "deadrise_deg": (0.0, 0.4), "flat_of_bottom": (-0.02, 0.0), "parallel_body_start": (0.0, 8.0),
+    "parallel_body_end": (0.0, -8.0), "stem_rake_deg": (0.0, 3.5), "fore_shift": (0.0, 2.0),
+    "aft_shift": (0.0, 2.0),
+}  # fmt: skip
+"""Part of the present value, and m or degrees, by which each is changed."""
+
+
+@attrs.frozen
+class Row:
+    """One variation.
+
+    Attributes
+    ----------
+    name : str
+    asked : float or None
+        None if the parent has no such parameter.
+    miss : float
+        Measured less asked, m or degrees.
+    drivers, followers, driven : int
+        Points outside the region that are not what they were, to the bit: of drivers, of
+        followers, and among these crossings that are computed from a driver.
+    drift : float, m
+        How far the farthest of the last ones moved.
+    before, after : int
+        Curvature sign changes of the lines that changed.
+    median, worst : float
+        Ratio of the comb integrals.
+    worst_line : str
+    seconds : float
+    trouble : str
+        Why there is no variant.
+    """
+
+    name: str
+    asked: float | None = None
+    miss: float = np.nan
+    drivers: int = 0
+    followers: int = 0
+    driven: int = 0
+    drift: float = 0.0
+    before: int = 0
+    after: int = 0
+    median: float = np.nan
+    worst: float = np.nan
+    worst_line: str = ""
+    seconds: float = np.nan
+    trouble: str = ""
+
+    def cells(self) -> tuple[str, ...]:
+        """Give the row as a table has it."""
+        if self.trouble:
+            asked = "-" if self.asked is None else f"{self.asked:.6g}"
+            return (self.name, asked, self.trouble, *[""] * 6)
+        return (
+            self.name, f"{self.asked:.6g}", f"{self.miss:.0e}", str(self.drivers),
+            f"{self.followers} + {self.driven} ({1e6 * self.drift:.2g} um)",
+            f"{self.before} -> {self.after}", f"{self.median:.3f}",
+            f"{self.worst:.3f} {self.worst_line}", f"{self.seconds:.1f}",
+        )  # fmt: skip
+
+
+HEAD = (
+    "parameter", "asked", "missed by", "drivers' points", "followers' points", "sign changes",
+    "comb, median", "comb, worst", "s",
+)  # fmt: skip
+
+
+def rows(hull: ah.Hull, sense: float, names: Sequence[str]) -> list[Row]:
+    """Vary a hull by each parameter alone."""
+    parent = measure_fairness(hull.state)
+    return [_row(hull, name, sense, parent) for name in names]
+
+
+def _row(hull: ah.Hull, name: str, sense: float, parent: dict[str, LineFairness]) -> Row:
+    measures = ah.measure(hull, only=[name])
+    if name not in measures:
+        return Row(name, trouble=str(measures.absent[name]))
+    part, amount = AMOUNTS[name]
+    asked = measures[name] + sense * (part * measures[name] + amount)
+    start = time.perf_counter()
+    try:
+        found = ah.vary(hull, set={name: asked})
+    except AssocHullError as error:
+        return Row(name, asked, trouble=str(error).replace("|", "/"))
+    seconds = time.perf_counter() - start
+    fair = compare_fairness(parent, measure_fairness(found.hull.state, like=parent))
+    worst = fair.worst_line
+    return Row(
+        name, asked, found.report.targets[0].reached - asked, *_moved(hull.state, found),
+        fair.before, fair.after, fair.median, fair.worst, worst.name if worst else "", seconds,
+    )  # fmt: skip
+
+
+def _moved(before: HullState, found: Variation) -> tuple[int, int, int, float]:
+    """Count the points outside the region that are not what they were."""
+    after = found.hull.state
+    row_of = {str(after.rows.key.data[row]): row for row in after.live("rows").tolist()}
+    drives = {
+        line for line in before.live("lines").tolist()
+        if before.lines.boundary.data[line] >= 0
+        or str(before.lines.name.data[line]) in found.report.drivers
+    }  # fmt: skip
+    live = before.live("rows")
+    outside = live[~_inside(before.rows.xyz.data[live], found)]
+    count, drift = [0, 0, 0], 0.0
+    for row in outside.tolist():
+        other = row_of.get(str(before.rows.key.data[row]))
+        old = before.rows.xyz.data[row]
+        if other is not None and (after.rows.xyz.data[other] == old).all():
+            continue
+        curves = [each for each in before.rows.curve.data[row].tolist() if each >= 0]
+        readers = set(before.rows.reader.data[row].tolist()) - {-1}
+        mine = {curve for curve in curves if before.line_of(curve) in drives} & readers
+        computed = other is not None and after.rows.driver.data[other] >= 0
+        if before.rows.role.data[row] == 3 and not readers:
+            continue  # watched: it defines nothing, and has no value
+        count[2 if computed else 0 if mine else 1] += 1
+        if computed and other is not None:
+            drift = max(drift, float(np.sqrt(((after.rows.xyz.data[other] - old) ** 2).sum())))
+    return count[0], count[1], count[2], drift
+
+
+def _inside(xyz: FloatArray, found: Variation) -> np.typing.NDArray[np.bool_]:
+    """Tell which places lie in a box of the region, or on its edge."""
+    inside = np.zeros(len(xyz), bool)
+    for region in found.report.regions:
+        (left, right), (low, high) = region.x, region.z
+        inside |= (
+            (xyz[:, 0] >= left) & (xyz[:, 0] <= right)
+            & (xyz[:, 2] >= low) & (xyz[:, 2] <= high)
+        )  # fmt: skip
+    return inside
+
+
+def table(found: Sequence[Row]) -> str:
+    """Give rows as a Markdown table."""
+    lines = [HEAD, tuple("---" for _ in HEAD), *(row.cells() for row in found)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the tables; write them where it is asked."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.vary_all", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="name", help="parameters (default: all)")
+    parser.add_argument("--write", type=Path, metavar="FILE")
+    parser.add_argument("--ship", choices=("carrier", "dtc"), action="append")
+    chosen = parser.parse_args(arguments)
+    names = tuple(chosen.names) or NAMES
+    ships = chosen.ship or ["carrier", "dtc"]
+    parts = list[str]()
+    for ship in ships:
+        hull = ah.examples.bulk_carrier_207k() if ship == "carrier" else duisburg_test_case()
+        if hull is None:
+            print("the data folder is not there: no DTC", file=sys.stderr)
+            continue
+        for sense, word in ((1.0, "as asked"), (-1.0, "the opposite signs")):
+            title = f"## {hull.particulars.name}, {word}"
+            print(title, file=sys.stderr, flush=True)
+            parts += [title, "", table(rows(hull, sense, names)), ""]
+    day = datetime.now(UTC).date().isoformat()
+    text = "\n".join([_ABOUT.format(day=day), *parts])
+    print(text)
+    if chosen.write:
+        chosen.write.write_text(text.rstrip() + "\n", encoding="utf-8")
+    return 0
+
+
+_ABOUT = """# Figures of the named parameters
+
+Each of the [named parameters](variation.md) alone, on two ships, measured on {day} with
+`python -m benchmarks.vary_all --write docs/variation_figures.md`.
+
+*Missed by*: measured on the lines of the variant less asked, m or degrees. *Points*: how many
+outside the reported region are not what they were to the last bit, of drivers and of followers;
+behind the +, crossings that are computed from a driver which runs through the region, and how far
+the farthest of them moved. *Sign changes* of curvature beyond a dead band of 2e-3 1/m on the lines
+that changed, and the ratio of the integrals of the squared slope of the curvature comb.
+"""
+
+if __name__ == "__main__":
+    raise SystemExit(main())
