@@ -58,7 +58,8 @@ def _adopted(work: Carried, curve: int) -> IntArray:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve][1:-1]
     smooth = state.rows.kind.data[rows, 0] == PointKind.SMOOTH
-    return rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    found: IntArray = rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    return found
 
 
 def slip_along(work: Carried, curve: int) -> None:
