@@ -92,6 +92,8 @@ class Carried:
         Drivers that are features, and how far they may leave their exact shape.
     driven : set of int
         Crossings that a driver has come to drive, as they slid onto another of its points.
+    doubt : dict of int to float, m
+        Own points of followers that slip over the hull, and how uncertain it is where to.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -116,6 +118,7 @@ class Carried:
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
     kept: set[int] = attrs.field(factory=set)
+    doubt: dict[int, float] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property

@@ -35,8 +35,8 @@ __all__ = [
 
 _ROUNDS = 12
 
-_DOUBT = 0.3
-"""Where a point slips to is uncertain by this part of the way."""
+_DOUBTS = (1.0, 0.3, 0.0)
+"""How much of the doubt about where own points slip to is minded, first to last."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
@@ -76,7 +76,9 @@ def slip_along(work: Carried, curve: int) -> None:
     if shadow is None:
         work.gone |= set(mine.tolist())
         return
-    places = shadow.at(np.array([knot[row] for row in mine.tolist()]))
+    at = np.array([knot[row] for row in mine.tolist()])
+    places = shadow.at(at)
+    work.doubt |= dict(zip(mine.tolist(), shadow.doubt(at).tolist(), strict=True))
     work.value[mine] = into_planes(state, work.planes, mine, places)
     work.known[mine] = True
 
@@ -155,7 +157,7 @@ def tie_own(work: Carried, curve: int, found: Through, own: list[int]) -> None:
     if not own:
         return
     trials = list[Through]()
-    for doubt in (_DOUBT, 0.3 * _DOUBT, 0.0):
+    for doubt in _DOUBTS:
         trials.append(Through(list(found.row), list(found.place), []))
         _taken(work, curve, trials[-1], own, doubt)
         if _sound(work, curve, trials[-1]):
@@ -180,9 +182,9 @@ def _taken(
         work.made[curve] = found
         spline = loft(through(work, [curve]))
         at, _, away = closest(spline, 0, work.value[left])
-        slip = np.sqrt(((work.value[left] - work.image[left]) ** 2).sum(axis=1))
+        vague = np.array([work.doubt.get(row, 0.0) for row in left])
         segment = np.searchsorted(spline.knot, at, side="right")
-        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption + doubt * slip)
+        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption + doubt * vague)
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = wide[np.sort(np.unique(segment[wide], return_index=True)[1])].tolist()
         if not first:
