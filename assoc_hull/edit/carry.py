@@ -217,10 +217,22 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
         )  # fmt: skip
 
 
-def through(work: Carried, curves: Sequence[int]) -> CurveData:
-    """Give what the chosen points make of curves, for lofting beside the tables."""
+def through(
+    work: Carried, curves: Sequence[int], parts: Sequence[Through] | None = None
+) -> CurveData:
+    """Give what the chosen points make of curves, for lofting beside the tables.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curves : sequence of int
+        The curves; one may come again with other points.
+    parts : sequence of Through or None
+        Their points; None for those that are chosen.
+    """
     state = work.state
-    parts = [work.made[curve] for curve in curves]
+    parts = [work.made[curve] for curve in curves] if parts is None else parts
     start = np.zeros(len(parts) + 1, np.int64)
     np.cumsum([len(part.row) for part in parts], out=start[1:])
     row = np.array([each for part in parts for each in part.row], np.int64)

@@ -17,7 +17,7 @@ from assoc_hull.geometry.spline import derivative, evaluate, loft
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import Meets
 
-__all__ = ["Shadow", "shadow_of"]
+__all__ = ["Shadow", "gaps_across", "shadow_of"]
 
 _SAMPLES = 4
 """Places a segment through which the image is made."""
@@ -113,7 +113,8 @@ def shadow_of(work: Carried, curve: int) -> Shadow | None:
     beyond = _along(spline, there, step)
     slip = np.sqrt(((work.value[rows] - work.space.places(_places(work, curve, at))) ** 2).sum(1))
     good = np.abs(there - np.interp(at, t, spline.knot)) <= _FAR * slip + _APART
-    across = ((step - _gaps(work, curve, rows)) * _left(spline, normal, there)).sum(axis=1)
+    left = _left(spline, normal, there)
+    across = (step * left).sum(axis=1) - gaps_across(work, curve, rows, left)
     there = there + np.where((there <= 0.0) | (there >= spline.knot[-1]), beyond, 0.0)
     order = np.flatnonzero(good)
     order = order[np.argsort(there[order], kind="stable")]
@@ -145,15 +146,27 @@ def _along(spline: SplineBatch, t: FloatArray, step: FloatArray) -> FloatArray:
     return found
 
 
-def _gaps(work: Carried, curve: int, rows: IntArray) -> FloatArray:
-    """Give how far lines that pass a follower without defining it lay off it before, (k, 3), m."""
+def gaps_across(work: Carried, curve: int, rows: IntArray, left: FloatArray) -> FloatArray:
+    """Give how far lines that pass a follower unheard lay beside it before, (k,), m.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curve : int
+        The follower.
+    rows : (k,) int
+        Crossings on it.
+    left : (k, 3)
+        Unit vectors across it there: the gap is given along these.
+    """
     table = work.state.rows
     own = (table.curve.data[rows, 0] != curve).astype(np.int64)
-    spot = table.spot.data[rows]
-    every = np.arange(len(rows))
+    spot, every = table.spot.data[rows], np.arange(len(rows))
     heard = (table.reader.data[rows] == curve).any(axis=1)
-    gap: FloatArray = np.where(heard[:, None], 0.0, spot[every, 1 - own] - spot[every, own])
-    return gap
+    gap = ((spot[every, 1 - own] - spot[every, own]) * left).sum(axis=1)
+    found: FloatArray = np.where(heard, 0.0, gap)
+    return found
 
 
 def _dense(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
+from assoc_hull.edit.fair_cut import Option, choose_fair
 from assoc_hull.edit.shadow import Shadow, shadow_of
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
@@ -24,6 +25,8 @@ from assoc_hull.model.family import Sort
 from assoc_hull.model.state import Meets
 
 __all__ = [
+    "choose",
+    "free_points",
     "insert",
     "into_own_plane",
     "loose_points",
@@ -165,6 +168,27 @@ def tie_own(work: Carried, curve: int, found: Through, own: list[int]) -> None:
     trial = trials[-1] if _sound(work, curve, trials[-1]) else trials[0]
     work.gone |= set(own) - set(trial.row)
     found.row, found.place = trial.row, trial.place
+
+
+def free_points(work: Carried, own: list[int], ties: list[int]) -> list[Option]:
+    """Give the points that a follower need not pass, and how far it may pass them off."""
+    most = work.state.tolerances.adoption
+    found = [Option(row, work.value[row], most + work.doubt.get(row, 0.0)) for row in own]
+    return found + [Option(row, work.value[row], most, near=0.0) for row in ties]
+
+
+def choose(work: Carried, curve: int, found: Through, options: list[Option]) -> None:
+    """Let a follower pass the points that make it fair, and leave the others."""
+    before = Through(list(found.row), list(found.place), [])
+    taken = choose_fair(work, curve, found, options)
+    if not _sound(work, curve, found):
+        found.row, found.place = before.row, before.place
+        return
+    for i, option in enumerate(options):
+        if option.row < 0:
+            continue
+        away = work.gone if work.state.rows.sort.data[option.row] == Sort.ADOPTED else work.watched
+        (away.discard if i in taken else away.add)(option.row)
 
 
 def _taken(
