@@ -19,6 +19,7 @@ from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
+from assoc_hull.edit.cut_kept import cut_kept
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.stand_ins import settle_stand_ins
 from assoc_hull.edit.topology import unmeet
@@ -116,6 +117,7 @@ def transform(
         reshape(work)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
+    cut_kept(work)
     settle_stand_ins(work)
     cut_followers(work)
     _watch(edit, work)
