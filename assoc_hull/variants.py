@@ -21,7 +21,7 @@ from assoc_hull.arguments import flag
 from assoc_hull.hull import Hull
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.handles import Group, Line
-from assoc_hull.variation.ask import Ask, Stations, ask_from
+from assoc_hull.variation.ask import TOLERANCE, Ask, Stations, ask_from
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.vary import VariationReport, vary_document
 from assoc_hull.variation.vmap import VMap
@@ -59,7 +59,7 @@ def vary(
     layout: Mapping[str, Any] | Layout | None = None,
     drivers: Sequence[Group | Line | str] | None = None,
     stations: Stations = "number",
-    tolerance: float = 2e-3,
+    tolerance: float = TOLERANCE,
     name: str | None = None,
     in_place: bool = False,
 ) -> Variation:

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from assoc_hull.arguments import shown
 from assoc_hull.cli.arguments import (
     HULL_ENDINGS,
     Commands,
@@ -116,12 +117,14 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from assoc_hull.variation.listing import listing
+    from assoc_hull.variation.layout import Layout
+    from assoc_hull.variation.listing import list_table, listing
 
+    layout = Layout.of(_script(arguments).get("layout"))
     hull = open_hull(arguments.hull)
     with progress("looking for what may be asked"):
-        found = listing(hull.state)
-    emit(arguments, {"parameters": found}, "\n".join(str(each) for each in found))
+        found = listing(hull.state, layout)
+    emit(arguments, {"parameters": found}, list_table(found))
     return 0
 
 
@@ -131,7 +134,12 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     for key in ("set", "layout"):
         given = _pairs(getattr(arguments, key), key)
         if given:
-            script[key] = {**script.get(key, {}), **given}
+            held = script.get(key, {})
+            if not isinstance(held, dict):
+                raise BadInputError(
+                    f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
+                )
+            script[key] = {**held, **given}
     for key in ("drivers", "stations", "tolerance", "name"):
         value = getattr(arguments, key)
         if value is not None:
@@ -142,12 +150,23 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _read(path: Path) -> dict[str, Any]:
+    """Read a script file."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        found = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_once)
+    except (ValueError, RecursionError) as error:
         raise BadInputError(f"{path} is no JSON: {error}", "in vary", "mend it") from error
     if not isinstance(found, dict):
         raise BadInputError(f"{path} holds a {type(found).__name__}", "in vary", "give an object")
+    return found
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Take the entries of an object, none of them twice."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"{twice!r} is given twice")
     return found
 
 
