@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -106,7 +105,7 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     facts = {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
-        "refused": False, "saved": str(target),
+        "refused": False, "saved": str(target), "script": report.script,
     }  # fmt: skip
     told = [report.edit.name, *(f"  {each}" for each in report.targets)]
     told += [edit_words(hull, report.edit), f"written: {target}"]
@@ -130,7 +129,9 @@ def _list(arguments: argparse.Namespace) -> int:
 
 def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
-    script: dict[str, Any] = _read(arguments.script) if arguments.script else {}
+    from assoc_hull.variation.script import read_script
+
+    script: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
     for key in ("set", "layout"):
         given = _pairs(getattr(arguments, key), key)
         if given:
@@ -144,30 +145,7 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value
-    if arguments.script and "name" not in script:
-        script["name"] = arguments.script.stem
     return script
-
-
-def _read(path: Path) -> dict[str, Any]:
-    """Read a script file."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_once)
-    except (ValueError, RecursionError) as error:
-        raise BadInputError(f"{path} is no JSON: {error}", "in vary", "mend it") from error
-    if not isinstance(found, dict):
-        raise BadInputError(f"{path} holds a {type(found).__name__}", "in vary", "give an object")
-    return found
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Take the entries of an object, none of them twice."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"{twice!r} is given twice")
-    return found
 
 
 def _pairs(given: list[str], option: str) -> dict[str, Any]:

@@ -23,14 +23,16 @@ from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.raw import layers_from
 
-__all__ = ["TOLERANCE", "Ask", "Stations", "ask_from"]
+__all__ = ["TOLERANCE", "VERSION", "Ask", "Stations", "ask_from"]
 
 TOLERANCE = 2e-3
 """How far drivers may leave their exact images, m, unless it is said."""
 
 Stations = Literal["number", "x"]
 
-_VERSION = 1
+VERSION = 1
+"""Of the form of scripts."""
+
 _KEYS = ("version", "set", "layers", "layout", "drivers", "stations", "tolerance", "name")
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
@@ -58,6 +60,8 @@ class Ask:
         How far drivers may leave their exact images.
     name : str
         Of the step in the history.
+    given : tuple or None
+        The layers as they were given, if they were given as data.
     """
 
     values: Mapping[str, float]
@@ -67,6 +71,7 @@ class Ask:
     stations: Stations = "number"
     tolerance: float = TOLERANCE
     name: str = "vary"
+    given: tuple[object, ...] | None = ()
 
     @classmethod
     def of(
@@ -95,10 +100,12 @@ class Ask:
                 "nothing is asked for", "in vary", "give values of named parameters, or fields"
             )
         wanted = choice(stations, "stations", get_args(Stations), "in vary")
+        made = _layers(layers)
         return cls(
-            MappingProxyType(found), _layers(layers), Layout.of(layout), _drivers(drivers),
+            MappingProxyType(found), made, Layout.of(layout), _drivers(drivers),
             "x" if wanted == "x" else "number", positive(tolerance, "tolerance", "in vary"),
             _title(found) if name is None else text(name, "the name", "in vary"),
+            None if any(_acts(each) for each in layers) else tuple(layers),
         )  # fmt: skip
 
 
@@ -125,10 +132,10 @@ def ask_from(data: object) -> Ask:
     for key in data:
         if key not in _KEYS:
             raise UnknownNameError("part of a variation", shown_name(key), _KEYS)
-    version = data.get("version", _VERSION)
-    if isinstance(version, bool) or version != _VERSION:
+    version = data.get("version", VERSION)
+    if isinstance(version, bool) or version != VERSION:
         raise BadInputError(
-            f"the script is of version {shown(version)}", "in vary", f"give version {_VERSION}"
+            f"the script is of version {shown(version)}", "in vary", f"give version {VERSION}"
         )
     return Ask.of(
         data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
@@ -164,11 +171,16 @@ def _layers(given: object) -> tuple[Layer, ...]:
         )
     made = list[Layer]()
     for i, each in enumerate(given):
-        if hasattr(each, "displacement") and hasattr(each, "jacobian"):
+        if _acts(each):
             made.append(each)
         else:
             made += [attrs.evolve(one, name=f"raw fields {i + 1}") for one in layers_from([each])]
     return tuple(made)
+
+
+def _acts(given: object) -> bool:
+    """Tell a layer from the data of one."""
+    return hasattr(given, "displacement") and hasattr(given, "jacobian")
 
 
 def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:

@@ -8,6 +8,7 @@ the measured values are the asked ones; then the hull is varied, in one step.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import attrs
 import numpy as np
@@ -29,6 +30,7 @@ from assoc_hull.variation.fold_outside import fold_outside
 from assoc_hull.variation.limits import Room, hull_box, present
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.script import script_of
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Target", "VariationReport", "vary_document"]
@@ -86,6 +88,9 @@ class VariationReport:
         What changed, as of any edit.
     notes : tuple of str
         What else there is to know.
+    script : mapping or None
+        What was asked for as data: with it, `assoc_hull.variants.vary_by` repeats the variation.
+        None where layers were given that are not data.
     """
 
     targets: tuple[Target, ...]
@@ -96,6 +101,7 @@ class VariationReport:
     certificate: Certificate
     edit: EditReport
     notes: tuple[str, ...] = ()
+    script: Mapping[str, Any] | None = None
 
     def __str__(self) -> str:
         return "\n".join([*(str(each) for each in self.targets), *self.notes, str(self.edit)])
@@ -134,7 +140,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     regions = (*found.map.regions(), *applied.regions)
     return found.map, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        _notes(found.map, document.state, ask),
+        _notes(found.map, document.state, ask), script_of(ask),
     )  # fmt: skip
 
 
