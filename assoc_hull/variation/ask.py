@@ -2,7 +2,7 @@
 
 {"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
- "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
+ "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.raw import layers_from
 
-__all__ = ["Ask", "Stations", "ask_from"]
+__all__ = ["Ask", "Planes", "Stations", "ask_from"]
 
 Stations = Literal["number", "x"]
+Planes = Literal["follow", "stay"]
 
 
 @attrs.frozen(eq=False)
@@ -42,6 +43,8 @@ class Ask:
         Groups or lines, or their names; None for those whose planes the map keeps.
     stations : {"number", "x"}
         Whether sections keep their numbers and go with the map, or stay where they are.
+    planes : {"follow", "stay"}
+        Whether waterlines and buttocks go with a map that keeps all their planes.
     tolerance : float, m
         How far drivers may leave their exact images.
     name : str
@@ -53,6 +56,7 @@ class Ask:
     layout: Layout = attrs.field(factory=Layout)
     drivers: tuple[Group | Line | str, ...] | None = None
     stations: Stations = "number"
+    planes: Planes = "follow"
     tolerance: float = 2e-3
     name: str = "vary"
 
@@ -65,6 +69,7 @@ class Ask:
         layout: Mapping[str, Any] | Layout | None = None,
         drivers: Sequence[Group | Line | str] | None = None,
         stations: str = "number",
+        planes: str = "follow",
         tolerance: float = 2e-3,
         name: str | None = None,
     ) -> Ask:
@@ -83,9 +88,11 @@ class Ask:
                 "nothing is asked for", "in vary", "give values of named parameters, or fields"
             )
         wanted = choice(stations, "stations", get_args(Stations), "in vary")
+        level = choice(planes, "planes", get_args(Planes), "in vary")
         return cls(
             MappingProxyType(found), _layers(layers), Layout.of(layout), _drivers(drivers),
-            "x" if wanted == "x" else "number", positive(tolerance, "tolerance", "in vary"),
+            "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
+            positive(tolerance, "tolerance", "in vary"),
             _title(found) if name is None else text(name, "the name", "in vary"),
         )  # fmt: skip
 
@@ -110,14 +117,15 @@ def ask_from(data: object) -> Ask:
         raise WrongTypeError(
             f"a variation is {type(data).__name__}", "in vary", "give a mapping with 'set'"
         )
-    known = ("set", "layers", "layout", "drivers", "stations", "tolerance", "name")
+    known = ("set", "layers", "layout", "drivers", "stations", "planes", "tolerance", "name")
     for key in data:
         if key not in known:
             raise UnknownNameError("part of a variation", str(key), known)
     return Ask.of(
         data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
         drivers=data.get("drivers"), stations=data.get("stations", "number"),
-        tolerance=data.get("tolerance", 2e-3), name=data.get("name"),
+        planes=data.get("planes", "follow"), tolerance=data.get("tolerance", 2e-3),
+        name=data.get("name"),
     )  # fmt: skip
 
 
