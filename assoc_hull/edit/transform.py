@@ -8,7 +8,7 @@ the images, roles and kinds stay, and what the designer placed is carried by the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -49,6 +49,7 @@ def transform(
     drivers: Sequence[int],
     *,
     follow: bool = False,
+    levels: Mapping[int, float] | None = None,
     tolerance: float = _TOLERANCE,
     reshape: Reshape | None = None,
     anchors: Sequence[tuple[int, float]] = (),
@@ -68,6 +69,8 @@ def transform(
         are carried with the drivers, named or not.
     follow : bool
         Whether the planes of followers move where the mapping sends them to parallel ones.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
     tolerance : float, m
         How far a driver may leave its exact image; at least 0.1 mm.
     reshape : callable or None
@@ -99,7 +102,7 @@ def transform(
     state = edit.state
     driver = _drivers(edit, drivers)
     edit.pending.alone = True
-    planes = carry_planes(state, space, np.flatnonzero(driver), follow)
+    planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
     work = carry_points(edit.maker, space, planes, driver)
     size = state.particulars
     if particulars is not None:
