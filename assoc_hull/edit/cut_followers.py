@@ -197,13 +197,13 @@ def _hold(work: Carried, curve: int, found: Through) -> list[Option]:
         wide = np.flatnonzero(away > limit * _share(work, curve, rows, spline, at))
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = np.unique(segment[wide], return_index=True)[1]
-        added = [
-            insert(found, -1, places[i], least=_NEAR) for i in wide[np.sort(first)].tolist()
-        ]
+        added = [insert(found, -1, places[i], least=_NEAR) for i in wide[np.sort(first)].tolist()]
         if not any(added):
             break
     share = _share(work, curve, rows, spline, at)
-    return [Option(-1, place, 2.0 * limit * part) for place, part in zip(places, share, strict=True)]
+    return [
+        Option(-1, place, 2.0 * limit * part) for place, part in zip(places, share, strict=True)
+    ]
 
 
 def _as_before(work: Carried, curve: int, rows: IntArray, spline: SplineBatch) -> FloatArray:

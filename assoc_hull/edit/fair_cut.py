@@ -16,7 +16,7 @@ from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.comb_integrals import comb_integrals, curvature_sign_changes
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import loft
 
@@ -144,7 +144,7 @@ def _without(points: Through, option: Option) -> Through:
     return Through([row for row, _ in left], [place for _, place in left], [])
 
 
-def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[IntArray, FloatArray]:
     """Give changes of sign of the curvature, and comb integrals, curve by curve."""
     normals = np.broadcast_to(normal, (spline.count, 3))
     return curvature_sign_changes(spline, normals, _BAND), comb_integrals(spline, normals)
@@ -152,7 +152,7 @@ def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[FloatArray, FloatA
 
 def _costs(
     work: Carried, curve: int, trials: Sequence[_Trial], normal: FloatArray,
-    was: tuple[FloatArray, FloatArray],
+    was: tuple[IntArray, FloatArray],
 ) -> list[tuple[int, float]]:  # fmt: skip
     """Give how much less fair trials are than the follower was: nil where they are not."""
     if not trials:
