@@ -110,7 +110,7 @@ def _window(
 
 
 def level(below: float, above: float, blend: Blend = QUINTIC) -> float:
-    """Give how wide a window is above its anchor, by its width below, for a hat that is level there.
+    """Give how wide a window is above its anchor, by its width below, to be level there.
 
     Parameters
     ----------
