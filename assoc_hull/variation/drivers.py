@@ -66,22 +66,14 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
         bent[:, axis] |= _spread(after[:, axis], line, state.lines.count) > PLANE
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
-    return Keeps(~(bent | _uneven(state, line, after)), ~gone)
-
-
-def _uneven(state: HullState, line: IntArray, after: FloatArray) -> np.typing.NDArray[np.bool_]:
-    """Tell which lines come to lie in no plane of an axis, (l, 3).
-
-    A place that is put onto a circle leaves a plane by less than a slope would tell.
-    """
-    low, high = np.full((state.lines.count, 3), np.inf), np.full((state.lines.count, 3), -np.inf)
-    np.minimum.at(low, line, after)
-    np.maximum.at(high, line, after)
-    return np.asarray(high - low > PLANE)
+    return Keeps(~bent, ~gone)
 
 
 def _spread(level: FloatArray, line: IntArray, count: int) -> FloatArray:
-    """Give how far the places of each line lie apart along an axis, (count,), m."""
+    """Give how far the places of each line lie apart along an axis, (count,), m.
+
+    A place that is put onto a circle leaves a plane by less than a slope would tell.
+    """
     high, low = np.full(count, -np.inf), np.full(count, np.inf)
     np.maximum.at(high, line, level)
     np.minimum.at(low, line, level)
