@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
+from assoc_hull.edit.find_stays import find_stays
 from assoc_hull.edit.image import Image, Roots, misfit
 from assoc_hull.edit.topology import ONE_PLACE
 from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
@@ -61,6 +62,7 @@ def cut_drivers(work: Carried, index: Index) -> Image:
         some = _partners(work, index, line, curves)
         if len(some):
             _cut_with(work, image, curves, some, line, slid)
+    find_stays(work)
     for local, curve in enumerate(curves.tolist()):
         knots = image.batch.knot[image.batch.start[local] : image.batch.start[local + 1]]
         _order(work, curve, knots, slid)
