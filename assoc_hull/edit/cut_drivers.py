@@ -20,7 +20,7 @@ from assoc_hull.edit.topology import ONE_PLACE
 from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.spline import derivative, evaluate, loft
 from assoc_hull.model.address import address
 from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import BoundaryKind, Role, Sort
@@ -39,6 +39,9 @@ _LEAST_FINE = 0.01
 
 _SAME = 1e-3
 """A point as near as this (m) to an anchor stands for it."""
+
+_ALONG = 0.02
+"""A curve that rises through a plane by a smaller part of its length runs along it."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
@@ -146,7 +149,21 @@ def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots)
     if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
         return True
     slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
-    return any(float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip)
+    far = [float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip]
+    ends = new[[j for (_, j), away in zip(pairs, far, strict=True) if away]]
+    return bool(_runs_along(work, curve, line, roots.t[ends]).any())
+
+
+def _runs_along(work: Carried, curve: int, line: int, t: FloatArray) -> np.typing.NDArray[np.bool_]:
+    """Tell where the image of a curve runs along the plane of a line, or nearly: it touches it.
+
+    An end that has slid there stands anywhere along the touch, as rounding has it.
+    """
+    spline, none = work.state.spline(curve), np.zeros(len(t), np.int64)
+    slope = derivative(spline, none, t)
+    turned = (work.space.jacobians(evaluate(spline, none, t)) * slope[:, None, :]).sum(axis=2)
+    rise = (turned * work.planes.normal[line]).sum(axis=1)
+    return np.asarray(np.abs(rise) <= _ALONG * np.sqrt((turned * turned).sum(axis=1)))
 
 
 def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -> None:
