@@ -122,6 +122,7 @@ class Carried:
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
+    kept: set[int] = attrs.field(factory=set)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property

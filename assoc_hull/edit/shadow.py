@@ -64,7 +64,8 @@ class Shadow:
         slope = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
         beyond = (there - on)[:, None] * slope
         left = _left(self.spline, self.normal, on)
-        return evaluate(self.spline, curve, on) + beyond + off[:, None] * left
+        found: FloatArray = evaluate(self.spline, curve, on) + beyond + off[:, None] * left
+        return found
 
     def _slid(self, there: FloatArray) -> FloatArray:
         """Let places beside an end slide with it: less and less, to the first known place."""

@@ -58,7 +58,8 @@ def _adopted(work: Carried, curve: int) -> IntArray:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve][1:-1]
     smooth = state.rows.kind.data[rows, 0] == PointKind.SMOOTH
-    return rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    found: IntArray = rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    return found
 
 
 def slip_along(work: Carried, curve: int) -> None:
@@ -66,7 +67,7 @@ def slip_along(work: Carried, curve: int) -> None:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve]
     own = rows[state.rows.sort.data[rows] != Sort.CROSSING]
-    work.known[own[work.still[own]]] = True
+    work.known[own[work.direct[own]]] = True
     mine = own[~work.known[own]]
     if not len(mine):
         return
@@ -127,7 +128,8 @@ def loose_points(work: Carried, curve: int, order: list[int]) -> list[int]:
     own = set(_adopted(work, curve).tolist())
     return [
         row for row in order
-        if (row in own and not work.still[row]) or (rank.get(row, least) > least and work.slid[row])
+        if (row in own and not work.direct[row])
+        or (rank.get(row, least) > least and work.slid[row])
     ]  # fmt: skip
 
 
