@@ -204,7 +204,11 @@ def _passed(work: Carried, curve: int) -> IntArray:
     table, meets = work.state.rows, work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
-    kept = [row for row in rows.tolist() if row not in work.gone and (row in work.kept or _before(work, row, curve))]
+    kept = [
+        row
+        for row in rows.tolist()
+        if row not in work.gone and (row in work.kept or _before(work, row, curve))
+    ]
     return np.array(kept, np.int64)
 
 
