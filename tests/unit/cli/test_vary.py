@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -48,7 +49,7 @@ def test_the_list_has_a_line_per_parameter(hull: Path, capsys: pytest.CaptureFix
 def test_intervals_are_those_of_the_layout(hull: Path, facts: Json) -> None:
     """A field that reaches further leaves more room; an interval holds the present value."""
 
-    def listed(*options: str) -> dict[str, dict[str, float]]:
+    def listed(*options: str) -> dict[str, dict[str, Any]]:
         found = facts("vary", hull, "--list", *options)["parameters"]
         return {each["name"]: each for each in found}
 
