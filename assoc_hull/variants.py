@@ -22,7 +22,7 @@ from assoc_hull.arguments import flag
 from assoc_hull.hull import Hull
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.handles import Group, Line
-from assoc_hull.variation.ask import TOLERANCE, Ask, Stations, ask_from
+from assoc_hull.variation.ask import TOLERANCE, Ask, Planes, Stations, ask_from
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.script import read_script
 from assoc_hull.variation.vary import VariationReport, vary_document
@@ -61,6 +61,7 @@ def vary(
     layout: Mapping[str, Any] | Layout | None = None,
     drivers: Sequence[Group | Line | str] | None = None,
     stations: Stations = "number",
+    planes: Planes = "follow",
     tolerance: float = TOLERANCE,
     name: str | None = None,
     in_place: bool = False,
@@ -89,6 +90,11 @@ def vary(
         whose planes the map keeps.
     stations : {"number", "x"}
         Sections go with the map and keep their numbers, or stay where they are.
+    planes : {"follow", "stay"}
+        Waterlines and buttocks go with a map that sends their planes to parallel ones, as a
+        change of breadth, draught or depth does, and keep their names; or they stay at their
+        heights and half-breadths and are cut again. If a map bends the planes of some over more
+        than half of their length, all stay.
     tolerance : float, m
         How far a driver may leave its exact image.
     name : str
@@ -129,7 +135,7 @@ def vary(
     """
     ask = Ask.of(
         set, layers=layers, layout=layout, drivers=drivers, stations=stations,
-        tolerance=tolerance, name=name,
+        planes=planes, tolerance=tolerance, name=name,
     )  # fmt: skip
     return _carry_out(hull, ask, in_place=flag(in_place, "in_place", "in vary"))
 

@@ -58,6 +58,11 @@ def add(commands: Commands) -> None:
         help="sections keep their numbers and move, or stay where they are (default: number)",
     )  # fmt: skip
     parser.add_argument(
+        "--planes", choices=("follow", "stay"), default=None,
+        help="waterlines and buttocks go with a map that keeps all their planes, or stay "
+        "(default: follow)",
+    )  # fmt: skip
+    parser.add_argument(
         "--tolerance", type=float, metavar="M",
         help="how far a driver may leave its exact image, m (default: 0.002)",
     )  # fmt: skip
@@ -141,7 +146,7 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
                     f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
                 )
             script[key] = {**held, **given}
-    for key in ("drivers", "stations", "tolerance", "name"):
+    for key in ("drivers", "stations", "planes", "tolerance", "name"):
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value

@@ -2,7 +2,7 @@
 
 The plane of a driver moves where the mapping sends it to a plane; a driver whose image
 lies in no plane becomes a space curve. The plane of a follower stays, or moves where the
-mapping sends it to a parallel plane, whichever is asked.
+mapping sends most of it to a parallel plane, whichever is asked.
 """
 
 from __future__ import annotations
@@ -19,7 +19,15 @@ from assoc_hull.geometry.spline import sample
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 
-__all__ = ["PLANE", "Planes", "carry_planes", "flat_borders", "heights", "into_planes"]
+__all__ = [
+    "PLANE",
+    "Planes",
+    "carry_planes",
+    "flat_borders",
+    "heights",
+    "into_planes",
+    "most_in_one",
+]
 
 PLANE = 1e-9
 """A place as near to a plane as this (m) lies in it."""
@@ -112,9 +120,16 @@ def carry_planes(
                 normal[line], offset[line] = 0.0, np.nan
             else:
                 normal[line], offset[line] = found
+        elif most_in_one(level):
+            offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
     planes = Planes(normal, offset, planar, bent)
     _check_order(state, planes)
     return planes
+
+
+def most_in_one(level: FloatArray) -> bool:
+    """Tell whether at least half of sorted heights (m) are one height."""
+    return bool((np.abs(level - level[len(level) // 2]) <= PLANE).mean() >= 0.5)
 
 
 def _samples(state: HullState, line: int) -> FloatArray:

@@ -128,7 +128,8 @@ def loose_points(work: Carried, curve: int, order: list[int]) -> list[int]:
     own = set(_adopted(work, curve).tolist())
     return [
         row for row in order
-        if (row in own and not work.direct[row]) or (rank.get(row, least) > least and work.slid[row])
+        if (row in own and not work.direct[row])
+        or (rank.get(row, least) > least and work.slid[row])
     ]  # fmt: skip
 
 

@@ -16,7 +16,7 @@ from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.transform import Reshape, transform
 from assoc_hull.model.state import HullState, Particulars
-from assoc_hull.variation.drivers import Keeps, default_drivers, keeps
+from assoc_hull.variation.drivers import Keeps, default_drivers, keeps, planes_go
 from assoc_hull.variation.features_net import Regenerated, regenerated
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.stations import section_planes
@@ -77,8 +77,8 @@ def apply(
         the ship and are cut again. Where the map bends their planes they are cut again where
         the part of it goes that bends none.
     follow : bool
-        Whether waterlines and buttocks go where the map sends their planes to parallel ones;
-        else they stay at their heights and half-breadths.
+        Whether waterlines and buttocks go where the map sends most of each of them to a parallel
+        plane; else they stay at their heights and half-breadths.
     tolerance : float, m
         How far a driver may leave its exact image.
     particulars : mapping of str to float or None
@@ -97,7 +97,7 @@ def apply(
     """
     state, anew = edit.state, regenerated(edit.state, vmap, radii)
     space = SpaceMap(anew.map, anew.map.jacobian)
-    kept = keeps(state, space)
+    kept, follow = keeps(state, space), follow and planes_go(state, space)
     chosen = (
         default_drivers(state, kept, stations, follow=follow)
         if drivers is None else tuple(sorted(drivers))

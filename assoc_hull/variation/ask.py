@@ -2,7 +2,7 @@
 
 {"version": 1, "set": {"shaft_height": 6.0, "bossing_radius": 1.0},
  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
- "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
+ "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
 
 No key must be there but ``set`` or ``layers``; ``version`` is that of this form.
 """
@@ -23,17 +23,19 @@ from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.raw import layers_from
 
-__all__ = ["TOLERANCE", "VERSION", "Ask", "Stations", "ask_from"]
+__all__ = ["TOLERANCE", "VERSION", "Ask", "Planes", "Stations", "ask_from"]
 
 TOLERANCE = 2e-3
 """How far drivers may leave their exact images, m, unless it is said."""
 
 Stations = Literal["number", "x"]
+Planes = Literal["follow", "stay"]
 
 VERSION = 1
 """Of the form of scripts."""
 
-_KEYS = ("version", "set", "layers", "layout", "drivers", "stations", "tolerance", "name")
+_KEYS = ("version", "set", "layers", "layout", "drivers", "stations", "planes", "tolerance",
+         "name")  # fmt: skip
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
 }  # fmt: skip
@@ -56,6 +58,8 @@ class Ask:
         Groups or lines, or their names; None for those whose planes the map keeps.
     stations : {"number", "x"}
         Whether sections keep their numbers and go with the map, or stay where they are.
+    planes : {"follow", "stay"}
+        Whether waterlines and buttocks go with a map that keeps all their planes.
     tolerance : float, m
         How far drivers may leave their exact images.
     name : str
@@ -69,6 +73,7 @@ class Ask:
     layout: Layout = attrs.field(factory=Layout)
     drivers: tuple[Group | Line | str, ...] | None = None
     stations: Stations = "number"
+    planes: Planes = "follow"
     tolerance: float = TOLERANCE
     name: str = "vary"
     given: tuple[object, ...] | None = ()
@@ -82,6 +87,7 @@ class Ask:
         layout: Mapping[str, Any] | Layout | None = None,
         drivers: Sequence[Group | Line | str] | None = None,
         stations: str = "number",
+        planes: str = "follow",
         tolerance: float = TOLERANCE,
         name: str | None = None,
     ) -> Ask:
@@ -100,10 +106,12 @@ class Ask:
                 "nothing is asked for", "in vary", "give values of named parameters, or fields"
             )
         wanted = choice(stations, "stations", get_args(Stations), "in vary")
+        level = choice(planes, "planes", get_args(Planes), "in vary")
         made = _layers(layers)
         return cls(
             MappingProxyType(found), made, Layout.of(layout), _drivers(drivers),
-            "x" if wanted == "x" else "number", positive(tolerance, "tolerance", "in vary"),
+            "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
+            positive(tolerance, "tolerance", "in vary"),
             _title(found) if name is None else text(name, "the name", "in vary"),
             None if any(_acts(each) for each in layers) else tuple(layers),
         )  # fmt: skip
@@ -140,7 +148,8 @@ def ask_from(data: object) -> Ask:
     return Ask.of(
         data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
         drivers=data.get("drivers"), stations=data.get("stations", "number"),
-        tolerance=data.get("tolerance", TOLERANCE), name=data.get("name"),
+        planes=data.get("planes", "follow"), tolerance=data.get("tolerance", TOLERANCE),
+        name=data.get("name"),
     )  # fmt: skip
 
 

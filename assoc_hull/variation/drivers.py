@@ -9,14 +9,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.edit.carry_planes import PLANE
+from assoc_hull.edit.carry_planes import PLANE, most_in_one
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.state import HullState
 
-__all__ = ["Keeps", "default_drivers", "keeps"]
+__all__ = ["Keeps", "default_drivers", "keeps", "planes_go"]
 
 _SAMPLES = 4
 """Places a segment at which a map is asked."""
@@ -65,6 +65,22 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
     return Keeps(~bent, ~gone)
+
+
+def planes_go(state: HullState, space: SpaceMap) -> bool:
+    """Tell whether a map sends at least half of each waterline and buttock to a parallel plane.
+
+    If some went and others stayed, lines of one sort could pass each other.
+    """
+    for line in state.live("lines").tolist():
+        axis = _AXES.get(state.family(line).name, 0)
+        if axis == 0 or state.lines.boundary.data[line] >= 0:
+            continue
+        splines = [state.spline(curve) for curve in state.lines.curves.data[line]]
+        xyz = space.places(sample(SplineBatch.join(splines), _SAMPLES)[1])
+        if not most_in_one(np.sort(xyz[:, axis])):
+            return False
+    return True
 
 
 def default_drivers(

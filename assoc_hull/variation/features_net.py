@@ -19,7 +19,7 @@ from assoc_hull.model.feature import Feature
 from assoc_hull.model.feature_shape import host_curve
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.features_circle import GAP, Circle, Redrawn, redraw, touch
-from assoc_hull.variation.features_map import FeatureMap, acting
+from assoc_hull.variation.features_map import JOIN, FeatureMap, acting
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Regenerated", "regenerated"]
@@ -94,7 +94,7 @@ def regenerated(
         for each in features
         if each.key in wanted or not _stretched(each, vmap)
     }
-    some = acting(list(drawn.values()))
+    some = [each for each in acting(list(drawn.values())) if not _even(each, vmap)]
     chosen = [each for each in features if drawn.get(each.key) in some]
     return Regenerated(
         FeatureMap(vmap, vmap.jacobian, tuple(drawn[each.key] for each in chosen)),
@@ -128,6 +128,20 @@ def _one_cylinder(one: Feature, other: Feature) -> bool:
     normal = np.array(one.parameters["normal"])
     away = np.array(other.parameters["centre"]) - one.parameters["centre"]
     return not (away - float((away * normal).sum()) * normal).any()
+
+
+def _even(circle: Redrawn, vmap: VMap) -> bool:
+    """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
+
+    Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
+    to the bit, points would leave the planes of their lines.
+    """
+    if not circle.carried:
+        return False
+    reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
+    grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
+    slope = vmap.jacobian(circle.before.centre + grid)
+    return bool((slope == slope[0]).all())
 
 
 def _stretched(feature: Feature, vmap: VMap) -> bool:

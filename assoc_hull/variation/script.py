@@ -84,7 +84,7 @@ def script_of(ask: Ask) -> Mapping[str, Any] | None:
         found["layers"] = list(ask.given)
     if ask.drivers is not None:
         found["drivers"] = [_name(each) for each in ask.drivers]
-    found.update(stations=ask.stations, tolerance=ask.tolerance, name=ask.name)
+    found.update(stations=ask.stations, planes=ask.planes, tolerance=ask.tolerance, name=ask.name)
     return MappingProxyType(found)
 
 

@@ -206,7 +206,8 @@ def _apply(
     drivers = None if ask.drivers is None else Given(document.state).driving(ask.drivers)
     with Transaction(document, ask.name) as edit:
         applied = apply(
-            edit, vmap, drivers=drivers, stations=ask.stations, tolerance=ask.tolerance,
+            edit, vmap, drivers=drivers, stations=ask.stations,
+            follow=ask.planes == "follow", tolerance=ask.tolerance,
             particulars=_particulars(document.state, vmap, parent, ask),
             radii=_radii(document.state, parent, ask, was),
         )  # fmt: skip
@@ -233,17 +234,22 @@ def _radii(
 
 def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:
     """Give the principal dimensions that change with the map."""
-    ship = state.particulars
-    found = {
-        name: ask.values[name] for name in ("length", "breadth", "draught") if name in ask.values
-    }
+    ship, aim = state.particulars, ask.values
+    found = {name: aim[name] for name in ("length", "draught") if name in aim}
     deck = parent.places.get("deck", np.array([0.5 * ship.length, 0.0, ship.depth]))
     rise = float(vmap(deck[None, :])[0, 2] - deck[2])
     if rise != 0.0:
         found["depth"] = ship.depth + rise
-    if "depth" in ask.values:
-        found["depth"] = ask.values["depth"] + (ship.depth - parent.depth)
+    sizes = ("breadth", ship.breadth, parent.breadth), ("depth", ship.depth, parent.depth)
+    for name, stored, measured in sizes:
+        if name in aim:
+            found[name] = _in_proportion(stored, measured, aim[name])
     return found
+
+
+def _in_proportion(stored: float, measured: float, asked: float) -> float:
+    """Give what becomes of a stored dimension whose measured value differs a little."""
+    return asked if stored == measured else stored * (asked / measured)
 
 
 def _measured(state: HullState, ask: Ask) -> dict[str, float]:

@@ -10,6 +10,7 @@ from assoc_hull.variation.additive import AdditiveLayer
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Boundary, Field, Piece
 from assoc_hull.variation.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.stations import section_planes, stations_along
 
 LONGER = Field(
@@ -22,7 +23,7 @@ X = np.array([0.0, 50.0, 100.0])
 
 def test_stations_go_with_what_keeps_their_planes_and_not_with_what_bends_them() -> None:
     """Layer after layer, each at the places that the one before gives."""
-    layers = [
+    layers: list[Layer] = [
         FieldLayer("size", (LONGER, RAKE)),
         AdditiveLayer("shift", x=Chain.through([0.0, 102.0], [0.0, 1.0])),
     ]
