@@ -72,7 +72,7 @@ def test_a_report_repeats_its_variation(parent: ah.Hull, variant: ah.Hull) -> No
     report = ah.vary_by(parent, SCRIPT).report
     assert report.script is not None
     kept = json.loads(json.dumps(dict(report.script)))
-    assert kept == {**SCRIPT, "stations": "number"}
+    assert kept == {**SCRIPT, "stations": "number", "planes": "follow"}
     assert ah.vary_by(parent, kept).hull.fingerprint == variant.fingerprint
 
 
