@@ -18,18 +18,22 @@ __all__ = ["Layout"]
 class Layout:
     """Reaches of the fields of named parameters.
 
-    Lengths are parts of Lpp (``stern``, ``bow_from``, ``bilge_length``), of the draught or of
-    the radius they belong to.
+    Lengths are parts of Lpp (``stern``, ``shaft``, ``bow_from``, ``bilge_length``), of the
+    draught or of the radius they belong to.
 
     Attributes
     ----------
     blend : {"quintic", "cubic"}
         How pieces go over into each other.
     rigid : bool
-        Whether the bossing end moves as a whole, windows outward; else its circle is rounded at
-        the windows, and made a circle again.
+        Whether the bossing end moves as a whole between two windows; else one dome is level at
+        its centre, and its circle is made a circle again.
     stern : float
-        Fields of the stern fade over this part of Lpp forward of where they are measured.
+        Fields of the transom fade over this part of Lpp forward of it.
+    shaft : float
+        The shaft's height fades over this part of Lpp forward of the bossing end.
+    shaft_top : float
+        It fades up to this part of the draught.
     bossing : float
         That of the bossing's radius fades over this many radii.
     tube : float
@@ -40,8 +44,8 @@ class Layout:
         The bulb's height fades up to this part of the draught.
     bulb_side : float
         The bulb's half-breadth fades up to this part of the draught.
-    bulb_stem : float, m
-        The bulb's length fades up to this height above the design waterline; 0 pins the stem there.
+    bulb_stem : float
+        The bulb's length fades up to this part of the draught; 1 pins the stem at the waterline.
     transom_low : float
         The transom's height fades down to this part of the draught.
     transom_side : float
@@ -67,15 +71,17 @@ class Layout:
     """
 
     blend: Literal["quintic", "cubic"] = "quintic"
-    rigid: bool = True
+    rigid: bool = False
     stern: float = 0.25
+    shaft: float = 0.12
+    shaft_top: float = 1.25
     bossing: float = 20.0
     tube: float = 6.0
-    bow_from: float = 0.9
+    bow_from: float = 0.85
     bulb_top: float = 1.25
     bulb_side: float = 1.15
-    bulb_stem: float = 2.0
-    transom_low: float = 0.3
+    bulb_stem: float = 1.25
+    transom_low: float = 0.15
     transom_side: float = 0.5
     bilge: float = 8.0
     bilge_length: float = 0.2
@@ -128,7 +134,5 @@ def _check(name: str, value: object) -> None:
     elif name == "rigid":
         if not isinstance(value, bool):
             raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
-    elif name == "bulb_stem" and value == 0.0:
-        return
     else:
         positive(value, name, "in vary")
