@@ -17,7 +17,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.given import Given
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchors import measure_all
@@ -160,8 +160,13 @@ def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]
     aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > _SAME}
     best, least = None, np.inf
     for rounds in range(1, _ROUNDS + 1):
-        vmap = VMap((*room.map(aim).layers, *ask.layers))
-        certificate = room.certified(vmap, aim)
+        try:
+            vmap = VMap((*room.map(aim).layers, *ask.layers))
+            certificate = room.certified(vmap, aim)
+        except AssocHullError:
+            if rounds == 1:
+                raise
+            break  # what the lines would need beyond the asked value cannot be had
         trial = Document(copy_of(state))
         _apply(trial, vmap, parent, ask, was)
         reached = _measured(trial.state, ask)
