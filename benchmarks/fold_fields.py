@@ -211,7 +211,7 @@ def _crossed(rng: _Rng) -> tuple[Field | Rake, Field]:
 def _corner(rng: _Rng, name: str) -> CornerLayer:
     """Draw a bilge that becomes larger or smaller, with rise of floor or none."""
     radius = float(rng.uniform(1.0, 3.0))
-    reach = radius * float(rng.uniform(3.0, 6.0))
+    reach = radius * float(rng.uniform(3.0, 8.0))
     fade = Chain(np.array([radius, reach]), np.array([1.0, 0.0]), _blend(rng))
     eta_ratio, zeta_ratio = rng.uniform(0.5, 1.5, 2).tolist()
     rise = 0.0 if _chance(rng, 0.5) else float(rng.uniform(-0.02, 0.05))

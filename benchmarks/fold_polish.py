@@ -59,9 +59,9 @@ def polished(layer: Layer, samples: Samples, strength: float) -> Least:
         return Least(-np.inf, "Y_y", (0.0, 0.0, 0.0), -np.inf)
     names, starts = list[str](), list[FloatArray]()
     for name, values in found.items():
-        for place in _lowest(values):
+        for cell in _lowest(values):
             names.append(name)
-            starts.append(np.array([side[k] for side, k in zip(samples.sides, place, strict=True)]))
+            starts.append(np.array([side[k] for side, k in zip(samples.sides, cell, strict=True)]))
     place, value, name = _zoomed(layer, samples, names, np.array(starts))
     x, y, z = samples.places(place[None, :])[0].tolist()
     coarse = min(float(each.min()) for each in found.values())

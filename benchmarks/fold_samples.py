@@ -68,7 +68,7 @@ class Samples:
             for axis in "xyz"
             if axis + axis in some
         }
-        one, other = self.pair
+        one, other = self.pair[0], self.pair[1]
         if one + one in some and other + other in some:
             first, last = found[f"{one.upper()}_{one}"], found[f"{other.upper()}_{other}"]
             turn = some[one + other] * some[other + one]
@@ -82,7 +82,8 @@ class Samples:
 
     def places(self, parameters: FloatArray) -> FloatArray:
         """Give the places (n, 3), m, of coordinates (n, 3) of the grid."""
-        return self.origin + (parameters[:, None, :] * self.skew[None, :, :]).sum(axis=2)
+        turned = (parameters[:, None, :] * self.skew[None, :, :]).sum(axis=2)
+        return np.asarray(self.origin + turned)
 
     def holds(self, place: FloatArray, near: float = 1e-6) -> bool:
         """Tell whether a place (3,), m, lies in the grid, or as near to it as that."""
@@ -121,7 +122,7 @@ def _extremes(places: FloatArray, values: Sequence[FloatArray], even: int = _EVE
     """Give where values are least and greatest, and some more places."""
     some = [int(find(each)) for each in values for find in (np.argmin, np.argmax)]
     more = np.linspace(0, len(places) - 1, even).astype(int).tolist()
-    return places[np.unique([*some, *more])]
+    return np.asarray(places[np.unique([*some, *more])])
 
 
 def _of_fields(layer: FieldLayer, box: FloatArray, count: int) -> Samples:
@@ -204,11 +205,8 @@ def _of_corner(layer: CornerLayer, box: FloatArray, count: int) -> Samples:
         "zy": q * (s * k) * c_eta, "zz": q * c * (k + s * k_zeta),
     }  # fmt: skip
     skew = np.array([[1.0, 0.0, 0.0], [0.0, -cos, 0.0], [0.0, -math.sin(layer.rise), 1.0]])
-    centre = np.stack(
-        [np.repeat(x, count), np.zeros(len(x) * count), np.tile(zeta, len(x))], axis=1
-    )
-    centre[:, 2] += layer.z
-    torn = bool((layer.displacement(centre)[:, 1] != 0.0).any())
+    centre = np.stack(np.meshgrid(x, [0.0], zeta + layer.z, indexing="ij"), axis=-1)
+    torn = bool((layer.displacement(centre.reshape(-1, 3))[:, 1] != 0.0).any())
     return Samples(
         (x, eta, zeta), entries, "yz", skew, np.array([0.0, layer.y, layer.z]), torn
     )  # fmt: skip

@@ -120,5 +120,8 @@ def _centre(layer: CornerLayer, box: FloatArray) -> Found | None:
     reach = layer.y / math.cos(layer.rise)
     if low > 0.0 or layer.eta_ratio == 1.0 or float(layer.fade.at(np.array([reach]))[0]) == 0.0:
         return None
-    x = float(layer.course.nodes[0])
+    least, most = layer.course.bounds(box[0, :1], box[1, :1])
+    if float(least[0]) == float(most[0]) == 0.0:
+        return None
+    x = float(_along(layer.course, box[:, 0], np.where(most > -least, most, least))[0])
     return Found("Y_y", -math.inf, -math.inf, (x, 0.0, layer.z), 1, 0)
