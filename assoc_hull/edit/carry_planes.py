@@ -2,10 +2,12 @@
 
 The plane of a driver moves where the mapping sends it to a plane; a driver whose image
 lies in no plane becomes a space curve. The plane of a follower stays, or moves where the
-mapping sends it to a parallel plane, whichever is asked.
+mapping sends most of it to a parallel plane, whichever is asked.
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
@@ -17,7 +19,15 @@ from assoc_hull.geometry.spline import sample
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 
-__all__ = ["PLANE", "Planes", "carry_planes", "flat_borders", "heights", "into_planes"]
+__all__ = [
+    "PLANE",
+    "Planes",
+    "carry_planes",
+    "flat_borders",
+    "heights",
+    "into_planes",
+    "most_in_one",
+]
 
 PLANE = 1e-9
 """A place as near to a plane as this (m) lies in it."""
@@ -56,7 +66,14 @@ def heights(xyz: FloatArray, normal: FloatArray) -> FloatArray:
     return found + xyz[:, 2] * normal[..., 2]
 
 
-def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: bool) -> Planes:
+def carry_planes(
+    state: HullState,
+    space: SpaceMap,
+    drivers: IntArray,
+    *,
+    follow: bool,
+    levels: Mapping[int, float] | None = None,
+) -> Planes:
     """Find where the planes of all lines come to.
 
     Parameters
@@ -69,6 +86,8 @@ def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: b
         The driving lines.
     follow : bool
         Whether the planes of followers move where the mapping moves them.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
 
     Raises
     ------
@@ -78,8 +97,14 @@ def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: b
     lines = state.lines
     normal, offset = lines.normal.data.copy(), lines.offset.data.copy()
     planar, bent = lines.planar.data.copy(), dict[int, float]()
+    asked = levels or {}
     for line in state.live("lines").tolist():
-        if not planar[line] or not (follow or line in drivers):
+        if not planar[line]:
+            continue
+        if line in asked and line not in drivers:
+            offset[line] = asked[line]
+            continue
+        if not (follow or line in drivers):
             continue
         before = _samples(state, line)
         after = space.places(before)
@@ -95,9 +120,16 @@ def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: b
                 normal[line], offset[line] = 0.0, np.nan
             else:
                 normal[line], offset[line] = found
+        elif most_in_one(level):
+            offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
     planes = Planes(normal, offset, planar, bent)
     _check_order(state, planes)
     return planes
+
+
+def most_in_one(level: FloatArray) -> bool:
+    """Tell whether at least half of sorted heights (m) are one height."""
+    return bool((np.abs(level - level[len(level) // 2]) <= PLANE).mean() >= 0.5)
 
 
 def _samples(state: HullState, line: int) -> FloatArray:

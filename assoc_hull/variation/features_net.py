@@ -6,7 +6,7 @@ straight runs and knuckle lines their points tell: they stay features where it l
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -19,7 +19,7 @@ from assoc_hull.model.feature import Feature
 from assoc_hull.model.feature_shape import host_curve
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.features_circle import GAP, Circle, Redrawn, redraw, touch
-from assoc_hull.variation.features_map import FeatureMap, acting
+from assoc_hull.variation.features_map import JOIN, FeatureMap, acting
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Regenerated", "regenerated"]
@@ -87,20 +87,61 @@ def regenerated(
     BadInputError
         The map leaves a circle too far from any.
     """
-    wanted = radii or {}
     features = [each for each in state.features if each.kind == "circle"]
+    wanted = _of_cylinders(features, radii or {}, vmap)
     drawn = {
         each.key: _redrawn(each, vmap, wanted.get(each.key))
         for each in features
         if each.key in wanted or not _stretched(each, vmap)
     }
-    some = acting(list(drawn.values()))
+    some = [each for each in acting(list(drawn.values())) if not _even(each, vmap)]
     chosen = [each for each in features if drawn.get(each.key) in some]
     return Regenerated(
         FeatureMap(vmap, vmap.jacobian, tuple(drawn[each.key] for each in chosen)),
         tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
     )
+
+
+def _of_cylinders(
+    features: Sequence[Feature], radii: Mapping[str, float], vmap: VMap
+) -> dict[str, float]:
+    """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
+
+    They are those on its axis of its radius which the map gives what is asked for but for rounding,
+    as the radius was measured on a curve.
+    """
+    found = dict(radii)
+    for asked in [each for each in features if each.key in radii]:
+        for each in features:
+            if each.key not in found and _one_cylinder(asked, each):
+                natural = _redrawn(each, vmap, None).after.radius
+                if abs(natural - radii[asked.key]) <= _ROUND:
+                    found[each.key] = radii[asked.key]
+    return found
+
+
+def _one_cylinder(one: Feature, other: Feature) -> bool:
+    """Tell whether two circles are of one cylinder: about one axis, and of one radius."""
+    if one.radius != other.radius or one.normal != other.normal:
+        return False
+    normal = np.array(one.parameters["normal"])
+    away = np.array(other.parameters["centre"]) - one.parameters["centre"]
+    return not (away - float((away * normal).sum()) * normal).any()
+
+
+def _even(circle: Redrawn, vmap: VMap) -> bool:
+    """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
+
+    Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
+    to the bit, points would leave the planes of their lines.
+    """
+    if not circle.carried:
+        return False
+    reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
+    grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
+    slope = vmap.jacobian(circle.before.centre + grid)
+    return bool((slope == slope[0]).all())
 
 
 def _stretched(feature: Feature, vmap: VMap) -> bool:
