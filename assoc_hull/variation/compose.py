@@ -22,7 +22,7 @@ from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["STEEPEST", "compose", "conflicts", "solve"]
+__all__ = ["STEEPEST", "compose", "conflicts", "refuse_clashes", "solve"]
 
 _CONDITION = 50.0
 """Above this, two parameters ask for the movement of one place."""
@@ -43,6 +43,7 @@ _CLASHES = (
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
 )
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
+"""No contradiction where the height is asked for at a perpendicular."""
 
 
 def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
@@ -74,7 +75,7 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     >>> vmap(np.array([[6.0, 5.0, 5.0]])).round(12).tolist()
     [[6.0, 5.1, 6.0]]
     """
-    _refuse_clashes(asked, layout)
+    refuse_clashes(asked, layout)
     _refuse_angles(asked)
     layers = list[Layer]()
     main = main_layer(parent, asked, layout)
@@ -141,7 +142,14 @@ def _clashes(layout: Layout) -> tuple[tuple[str, str, str], ...]:
     return (*_CLASHES, _DECKS) if layout.deck == "midship" else _CLASHES
 
 
-def _refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+def refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+    """Refuse parameters that are one number.
+
+    Raises
+    ------
+    BadInputError
+        Both named, and why.
+    """
     for one, other, why in _clashes(layout):
         if one in asked and other in asked:
             raise BadInputError(

@@ -72,23 +72,6 @@ def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
     assert (foot == ship.places["stem"]).all()
 
 
-@pytest.mark.parametrize("deck", [{"depth": 30.0}, {"deck_height": 25.5}])
-def test_a_rake_holds_on_a_stem_that_the_deck_made_longer(
-    ship: Parent, deck: dict[str, float]
-) -> None:
-    """The angle is that of the stem as it comes to be, by one map."""
-    vmap = compose(ship, {"stem_rake_deg": 22.0, **deck}, Layout())
-    foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
-    assert rake_deg(foot, top) == pytest.approx(22.0, abs=1e-12)
-
-
-def test_a_deck_raised_at_the_bow_goes_with_a_depth(ship: Parent) -> None:
-    """They contradict each other amidships only."""
-    vmap = compose(ship, {"depth": 28.0, "deck_height": 29.0}, Layout(deck="fore"))
-    here = vmap(np.array([ship.places["deck"], ship.places["deck fore"]]))
-    assert here[:, 2] == pytest.approx([28.0, 29.0], abs=1e-12)
-
-
 def test_a_shaft_is_raised_as_a_whole(ship: Parent) -> None:
     """The map is level at its height, so that the bossing keeps its radius; the base stays."""
     vmap = compose(ship, {"shaft_height": 6.0}, Layout())
@@ -104,6 +87,23 @@ def test_a_rigid_shaft_moves_its_bossing_by_one_amount(ship: Parent) -> None:
     z = np.linspace(4.275, 5.725, 51)
     places = np.column_stack([np.full(51, 6.0), np.zeros(51), z])
     assert np.abs(vmap(places)[:, 2] - z - 1.0).max() < 1e-14
+
+
+@pytest.mark.parametrize("deck", [{"depth": 30.0}, {"deck_height": 25.5}])
+def test_a_rake_holds_on_a_stem_that_the_deck_made_longer(
+    ship: Parent, deck: dict[str, float]
+) -> None:
+    """The angle is that of the stem as it comes to be, by one map."""
+    vmap = compose(ship, {"stem_rake_deg": 22.0, **deck}, Layout())
+    foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
+    assert rake_deg(foot, top) == pytest.approx(22.0, abs=1e-12)
+
+
+def test_a_deck_raised_at_the_bow_goes_with_a_depth(ship: Parent) -> None:
+    """They contradict each other amidships only."""
+    vmap = compose(ship, {"depth": 28.0, "deck_height": 29.0}, Layout(deck="fore"))
+    here = vmap(np.array([ship.places["deck"], ship.places["deck fore"]]))
+    assert here[:, 2] == pytest.approx([28.0, 29.0], abs=1e-12)
 
 
 @pytest.mark.parametrize("name", [each for each in NAMES if each not in ("draught", "length")])
