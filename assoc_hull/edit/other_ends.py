@@ -41,10 +41,12 @@ def ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) 
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
-    if bool(touch_rows(state, curve, line)) != ((curve, line) in work.touches):
+    meets: Meets = state.curves.meets.data[curve]
+    # A crossing at a double root has no meeting; a line may end squarely on sign 0 as well.
+    double = set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
+    if bool(double) != ((curve, line) in work.touches):
         return True
     old, new, pairs = pairs_of(work, curve, line, local, roots)
-    meets: Meets = state.curves.meets.data[curve]
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
     if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
         return True

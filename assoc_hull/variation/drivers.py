@@ -12,7 +12,7 @@ import numpy as np
 from assoc_hull.edit.carry_planes import PLANE, most_in_one
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.state import HullState
 
@@ -58,13 +58,24 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
     line = np.repeat(state.curves.line.data[curves], np.diff(start))
-    slope, moved = space.jacobians(xyz), np.abs(space.places(xyz) - xyz) > PLANE
+    slope, after = space.jacobians(xyz), space.places(xyz)
+    moved = np.abs(after - xyz) > PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
         others = [each for each in range(3) if each != axis]
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
+        bent[:, axis] |= _spread(after[:, axis], line, state.lines.count) > PLANE
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
     return Keeps(~bent, ~gone)
+
+
+def _spread(level: FloatArray, line: IntArray, count: int) -> FloatArray:
+    """Give how far the places of each line lie apart along an axis, (count,), m."""
+    high, low = np.full(count, -np.inf), np.full(count, np.inf)
+    np.maximum.at(high, line, level)
+    np.minimum.at(low, line, level)
+    found: FloatArray = np.maximum(high - low, 0.0)
+    return found
 
 
 def planes_go(state: HullState, space: SpaceMap) -> bool:
