@@ -140,13 +140,16 @@ def _points(work: Carried, curve: int) -> Through:
     """
     state = work.state
     rows: IntArray = state.curves.rows.data[curve]
-    order = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    ends = [work.new_ends.get((curve, side)) for side in (0, 1)]
+    order = [row for row in (ends[0], *inner, ends[1]) if row is not None]
     if not _slides(work, curve):
         return Through(order, [work.value[row].copy() for row in order], [])
-    order = [row for row in order if row not in work.watched]
+    work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    new = [row for row in new if row not in ends]
     base = _base(work, curve, order)
     found = Through(base, [work.value[row].copy() for row in base], [])
     for row in [*new, *(each for each in order if each not in set(base))]:
