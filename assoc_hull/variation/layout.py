@@ -75,7 +75,7 @@ class Layout:
     stern: float = 0.25
     shaft: float = 0.12
     shaft_top: float = 1.25
-    bossing: float = 20.0
+    bossing: float = 6.0
     tube: float = 6.0
     bow_from: float = 0.85
     bulb_top: float = 1.25
