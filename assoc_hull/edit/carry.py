@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.carry_planes import PLANE, Planes, flat_borders, heights, into_planes
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.stays import Stays
 from assoc_hull.edit.touching import Touch
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
@@ -86,12 +87,18 @@ class Carried:
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
         Crossings with drivers by the driver and the meeting, counted along it.
+    stays : dict of int to Stays
+        What of followers that are cut wholly anew stays as it was, nevertheless.
+    held : set of int
+        All points that stay so.
     touches : dict of (int, int) to Touch
         Where planes are tangent to features, by the curve of the feature and the line.
     fine : dict of int to float, m
         Drivers that are features, and how far they may leave their exact shape.
     driven : set of int
         Crossings that a driver has come to drive, as they slid onto another of its points.
+    doubt : dict of int to float, m
+        Own points of followers that slip over the hull, and how uncertain it is where to.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -112,10 +119,13 @@ class Carried:
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    stays: dict[int, Stays] = attrs.field(factory=dict)
+    held: set[int] = attrs.field(factory=set)
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
     kept: set[int] = attrs.field(factory=set)
+    doubt: dict[int, float] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -144,7 +154,9 @@ class Carried:
         return bool(self.driver[self.state.line_of(curve)])
 
     def apart(self, row: int) -> bool:
-        """Tell whether a point lies on a follower that is cut wholly anew."""
+        """Tell whether a point lies on a follower that is cut wholly anew, and does not stay."""
+        if row in self.held:
+            return False
         curves = self.state.rows.curve.data[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 
@@ -214,10 +226,22 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
         )  # fmt: skip
 
 
-def through(work: Carried, curves: Sequence[int]) -> CurveData:
-    """Give what the chosen points make of curves, for lofting beside the tables."""
+def through(
+    work: Carried, curves: Sequence[int], parts: Sequence[Through] | None = None
+) -> CurveData:
+    """Give what the chosen points make of curves, for lofting beside the tables.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curves : sequence of int
+        The curves; one may come again with other points.
+    parts : sequence of Through or None
+        Their points; None for those that are chosen.
+    """
     state = work.state
-    parts = [work.made[curve] for curve in curves]
+    parts = [work.made[curve] for curve in curves] if parts is None else parts
     start = np.zeros(len(parts) + 1, np.int64)
     np.cumsum([len(part.row) for part in parts], out=start[1:])
     row = np.array([each for part in parts for each in part.row], np.int64)

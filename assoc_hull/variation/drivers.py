@@ -58,25 +58,27 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
     line = np.repeat(state.curves.line.data[curves], np.diff(start))
-    slope, after = space.jacobians(xyz), space.places(xyz)
-    moved = np.abs(after - xyz) > PLANE
+    slope, image = space.jacobians(xyz), space.places(xyz)
+    moved = np.abs(image - xyz) > PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
         others = [each for each in range(3) if each != axis]
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
-    return Keeps(~(bent | _uneven(state, line, after)), ~gone)
+        bent[:, axis] |= _spread(line, image[:, axis], state.lines.count) > PLANE
+    return Keeps(~bent, ~gone)
 
 
-def _uneven(state: HullState, line: IntArray, after: FloatArray) -> np.typing.NDArray[np.bool_]:
-    """Tell which lines come to lie in no plane of an axis, (l, 3).
+def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
+    """Give how far apart places of each line lie along an axis, (l,), m; nil without places.
 
-    A place that is put onto a circle leaves a plane by less than a slope would tell.
+    A circle drawn anew moves its own points by less than a slope tells.
     """
-    low, high = np.full((state.lines.count, 3), np.inf), np.full((state.lines.count, 3), -np.inf)
-    np.minimum.at(low, line, after)
-    np.maximum.at(high, line, after)
-    return np.asarray(high - low > PLANE)
+    low, high = np.full(count, np.inf), np.full(count, -np.inf)
+    np.minimum.at(low, line, level)
+    np.maximum.at(high, line, level)
+    found: FloatArray = np.maximum(high - low, 0.0)
+    return found
 
 
 def planes_go(state: HullState, space: SpaceMap) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import attrs
@@ -10,6 +10,10 @@ import attrs
 from assoc_hull.arguments import positive, shown
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
+from assoc_hull.variation.chain import Course
+from assoc_hull.variation.field import Field
+from assoc_hull.variation.hat import hat
+from assoc_hull.variation.ratios import ratios
 
 __all__ = ["Layout"]
 
@@ -23,8 +27,9 @@ class Layout:
 
     Attributes
     ----------
-    blend : {"quintic", "cubic"}
-        How pieces go over into each other.
+    blend : {"quintic", "cubic", "paper"}
+        How pieces go over into each other; "paper" is the form of Choi & Lee (1999), ratios of
+        heights blended by the cubic, see `assoc_hull.variation.ratios`.
     rigid : bool
         Whether the bossing end moves as a whole between two windows; else one dome is level at
         its centre, and its circle is made a circle again.
@@ -70,7 +75,7 @@ class Layout:
     0.3
     """
 
-    blend: Literal["quintic", "cubic"] = "quintic"
+    blend: Literal["quintic", "cubic", "paper"] = "quintic"
     rigid: bool = False
     stern: float = 0.25
     shaft: float = 0.12
@@ -94,6 +99,19 @@ class Layout:
     def curve(self) -> Blend:
         """The blend itself."""
         return QUINTIC if self.blend == "quintic" else CUBIC
+
+    def over(
+        self,
+        name: str,
+        anchors: Sequence[tuple[str, float, float]],
+        course: Course,
+        outward: Sequence[str] = (),
+        windows: Mapping[str, tuple[float, float]] | None = None,
+    ) -> Field:
+        """Lay out a z-field over anchors (name, height, displacement), m, as `hat` or `ratios`."""
+        if self.blend == "paper":
+            return ratios(name, anchors, course, blend=self.curve)
+        return hat(name, anchors, course, blend=self.curve, outward=outward, windows=windows or {})
 
     @classmethod
     def of(cls, given: Mapping[str, Any] | Layout | None) -> Layout:
@@ -119,7 +137,7 @@ class Layout:
 
 
 _WORDS = {
-    "blend": ("quintic", "cubic"),
+    "blend": ("quintic", "cubic", "paper"),
     "deck": ("fore", "midship", "aft"),
     "shift": ("c1", "c2", "end", "half", "lackenby"),
 }

@@ -9,7 +9,6 @@ import numpy as np
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Field, Piece, stack
 from assoc_hull.variation.fields_layer import Rake
-from assoc_hull.variation.hat import hat
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
@@ -32,8 +31,7 @@ def bulb_height(parent: Parent, asked: float, layout: Layout) -> Share:
     tip = parent.at("bulb tip", name)
     z, top = float(tip[2]), layout.bulb_top * parent.draught
     anchors = [("base", 0.0, 0.0), ("bulb", z, asked - z), ("above T", top, 0.0)]
-    fade = _fade(parent, layout)
-    field = hat(name, anchors, fade, blend=layout.curve, windows=_BULB)
+    field = layout.over(name, anchors, _fade(parent, layout), windows=_BULB)
     return Share.at(name, "z", asked - z, tip, field)
 
 

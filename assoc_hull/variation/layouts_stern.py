@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Field, Piece, Tube, stack
-from assoc_hull.variation.hat import hat, level
+from assoc_hull.variation.hat import level
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
@@ -37,15 +37,17 @@ def shaft_height(parent: Parent, asked: float, layout: Layout) -> Share:
     boss = parent.at("boss", name)
     x, z = float(boss[0]), float(boss[2])
     change, top = asked - z, layout.shaft_top * parent.draught
+    fade = _fade(layout, _cylinder(parent, x), layout.shaft * parent.length)
+    if layout.blend == "paper":
+        return Share.at(name, "z", change, boss, _ratio_shaft(parent, change, layout, fade))
     anchors, rigid = [("shaft", z, change)], tuple[str, ...]()
     if layout.rigid and parent.has("boss top"):
         r = float(parent.places["boss top"][2]) - z
         anchors = [("shaft-r", z - r, change), ("shaft+r", z + r, change)]
         rigid = ("shaft-r", "shaft+r")
     anchors = [("base", 0.0, 0.0), *anchors, ("above T", top, 0.0)]
-    fade = _fade(layout, _cylinder(parent, x), layout.shaft * parent.length)
     windows = {} if rigid else _dome(z, top, layout)
-    field = hat(name, anchors, fade, blend=layout.curve, outward=rigid, windows=windows)
+    field = layout.over(name, anchors, fade, rigid, windows)
     return Share.at(name, "z", change, boss, field)
 
 
@@ -67,6 +69,8 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     x, h, y = float(boss[0]), float(boss[2]), float(side[1])
     r = float(top[2]) - h
     fade = _fade(layout, _cylinder(parent, x), layout.bossing * r)
+    if layout.blend == "paper":
+        return Share.at(name, "y", asked - y, side, *_ratio_bossing(parent, asked, layout, fade))
     names = [f"boss{each}r" for each in ("-5", "-", "+", "+4")]
     walls = stack(names, [h - 5.0 * r, h - r, h + r, h + 4.0 * r])
     wide, high = asked / y - 1.0, asked - r
@@ -79,8 +83,37 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
         ("boss-6r", h - 6.0 * r, 0.0), ("boss-", h - r, -high),
         ("boss+", h + r, high), ("boss+5r", h + 5.0 * r, 0.0),
     ]  # fmt: skip
-    up = hat(name, anchors, fade, blend=layout.curve, windows=_BOSS)
+    up = layout.over(name, anchors, fade, windows=_BOSS)
     return Share.at(name, "y", asked - y, side, out, up)
+
+
+def _ratio_shaft(parent: Parent, change: float, layout: Layout, fade: Chain) -> Field:
+    """Give the field of the shaft's height as Choi & Lee lay it out, of ratios of heights."""
+    h = float(parent.at("boss", "shaft_height")[2])
+    anchors = [("shaft", h, change)]
+    if parent.has("boss top"):
+        r = float(parent.places["boss top"][2]) - h
+        anchors = [("shaft-r", h - r, change), *anchors, ("shaft+r", h + r, change)]
+    anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
+    return layout.over("shaft_height", anchors, fade)
+
+
+def _ratio_bossing(
+    parent: Parent, asked: float, layout: Layout, fade: Chain
+) -> tuple[Field, Field]:
+    """Give the bossing's fields as Choi & Lee lay them out: no tube, no pivot at its centre."""
+    name = "bossing_radius"
+    side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
+    h, y = float(boss[2]), float(side[1])
+    r = float(top[2]) - h
+    walls = stack(["shaft-3r", "shaft", "shaft+3r"], [h - 3.0 * r, h, h + 3.0 * r])
+    none, broad = Piece.along(fade, 0.0, 0.0), Piece.along(fade, asked / y - 1.0, 0.0)
+    anchors = [
+        ("base", 0.0, 0.0), ("shaft-r", h - r, r - asked), ("shaft", h, 0.0),
+        ("shaft+r", h + r, asked - r), ("T", parent.draught, 0.0),
+    ]  # fmt: skip
+    out = Field(name, "y", walls, (none, broad, none), layout.curve)
+    return out, layout.over(name, anchors, fade)
 
 
 def transom_height(parent: Parent, asked: float, layout: Layout) -> Share:
@@ -91,7 +124,7 @@ def transom_height(parent: Parent, asked: float, layout: Layout) -> Share:
     foot = min(layout.transom_low * parent.draught, 0.5 * z)
     anchors = [("transom foot", foot, 0.0), ("transom", z, asked - z)]
     fade = _fade(layout, x, layout.stern * parent.length)
-    field = hat(name, anchors, fade, blend=layout.curve, windows=_FOOT)
+    field = layout.over(name, anchors, fade, windows=_FOOT)
     return Share.at(name, "z", asked - z, low, field)
 
 
