@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.sources import examples, open, read
     from assoc_hull.tolerance import Tolerances
-    from assoc_hull.variants import vary
+    from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
 
 __all__ = [
@@ -98,6 +98,7 @@ __all__ = [
     "read",
     "stability",
     "vary",
+    "vary_by",
 ]
 
 __version__ = "0.1.0"
@@ -138,7 +139,7 @@ _HOMES = {
     "model.state": ("Association", "Ends", "Particulars"),
     "sources": ("examples", "open", "read"),
     "tolerance": ("Tolerances",),
-    "variants": ("vary",),
+    "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
 }
 """Modules and what is public of them."""

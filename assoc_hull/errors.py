@@ -80,6 +80,15 @@ class AbsentParameterError(BadInputError, KeyError):
     """A parameter was asked for that this hull does not have."""
 
 
+def _span(least: float, most: float, unit: str) -> str:
+    """Give an interval in words; an infinite end is not told."""
+    if math.isinf(most):
+        return f"from {least:.8g} {unit} up"
+    if math.isinf(least):
+        return f"up to {most:.8g} {unit}"
+    return f"from {least:.8g} to {most:.8g} {unit}"
+
+
 @attrs.define(slots=False, eq=False)
 class OutOfRangeError(AssocHullError, ValueError):
     """A number lies outside the range that has a meaning for this hull.
@@ -108,8 +117,8 @@ class OutOfRangeError(AssocHullError, ValueError):
 
     def __str__(self) -> str:
         return (
-            f"{self.name} of {self.value:.8g} {self.unit} {self.why}, {self.where}; give one from "
-            f"{self.least:.8g} to {self.most:.8g} {self.unit}"
+            f"{self.name} of {self.value:.8g} {self.unit} {self.why}, {self.where}; give one "
+            f"{_span(self.least, self.most, self.unit)}"
         )
 
 
@@ -214,10 +223,13 @@ class UnknownNameError(AssocHullError, KeyError):
     kind: str
     name: str
     known: tuple[str, ...] = ()
+    meant: str = ""
 
     def __str__(self) -> str:
         import difflib  # a message only: what merely starts does not wait for it
 
+        if self.meant:
+            return f"there is no {self.kind} named {self.name!r}; it is called {self.meant!r}"
         near = difflib.get_close_matches(str(self.name), self.known, n=3, cutoff=0.4)
         hint = "the nearest names are " + ", ".join(map(repr, near)) if near else "list them first"
         return f"there is no {self.kind} named {self.name!r}; {hint}"
@@ -337,6 +349,13 @@ class FoldError(AssocHullError, ValueError):
         The nearest node along the ship.
     admissible : (float, float) or None
         Range of the field's displacement that is allowed.
+    interval : (float, float) or None
+        Between these values the named parameter at fault may be asked for alone; infinite where
+        nothing ends it.
+    unit : {"m", "deg"}
+        Of the interval.
+    part : float or None
+        So much of all changes that were asked for together is allowed, if each alone is.
     """
 
     reason: str
@@ -349,6 +368,9 @@ class FoldError(AssocHullError, ValueError):
     between: tuple[tuple[str, float], ...] = ()
     node: float | None = None
     admissible: tuple[float, float] | None = None
+    interval: tuple[float, float] | None = None
+    unit: str = "m"
+    part: float | None = None
 
     def __str__(self) -> str:
         x, y, z = self.witness
@@ -373,7 +395,15 @@ class FoldError(AssocHullError, ValueError):
         return "is not decided: bounds too wide"
 
     def _remedy(self) -> str:
-        if self.admissible is None:
+        if self.part is not None:
+            return f"not beside the others asked for: admissible {100.0 * self.part:.3g} % of each"
+        if self.interval is not None:
+            low, high = (
+                inward(1e3 * end) / 1e3 if math.isfinite(end) else end
+                for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
+            )
+            return f"admissible {self.field or self.layer} {_span(low, high, self.unit)}"
+        if self.admissible is None or not all(map(math.isfinite, self.admissible)):
             return "ask for less, or let the field reach further"
         low, high = (math.trunc(1e3 * each) / 1e3 for each in self.admissible)
         if low == -high:

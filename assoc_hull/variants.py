@@ -12,6 +12,7 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Any
 
 import attrs
@@ -21,8 +22,9 @@ from assoc_hull.arguments import flag
 from assoc_hull.hull import Hull
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.handles import Group, Line
-from assoc_hull.variation.ask import Ask, Planes, Stations, ask_from
+from assoc_hull.variation.ask import TOLERANCE, Ask, Planes, Stations, ask_from
 from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.script import read_script
 from assoc_hull.variation.vary import VariationReport, vary_document
 from assoc_hull.variation.vmap import VMap
 
@@ -60,7 +62,7 @@ def vary(
     drivers: Sequence[Group | Line | str] | None = None,
     stations: Stations = "number",
     planes: Planes = "follow",
-    tolerance: float = 2e-3,
+    tolerance: float = TOLERANCE,
     name: str | None = None,
     in_place: bool = False,
 ) -> Variation:
@@ -68,6 +70,8 @@ def vary(
 
     The map is certified not to fold, the lines that drive are carried exactly, all others are
     cut again from them, and the asked values are measured on the lines of the result to 1e-6.
+    Values that the hull has already change nothing, and make no step in the history; beside others
+    they say that these values are to stay.
 
     Parameters
     ----------
@@ -103,13 +107,22 @@ def vary(
     Variation
         The hull, what was reached, and the map.
 
+    See Also
+    --------
+    vary_by : the same from data or a file.
+    assoc_hull.measure : present values.
+
     Raises
     ------
     UnknownNameError
         No such parameter.
+    FoldError
+        The map folds, or nearly; where, and between which values one may ask.
+    OutOfRangeError
+        What comes out is no ship; with the interval.
     BadInputError
-        The parent has not what is asked for; two parameters contradict each other; the map
-        folds, with the interval that is admissible. The hull is unchanged.
+        The parent has not what is asked for; two parameters contradict each other. The hull is
+        unchanged, whatever the error.
     RefusedEditError
         A line would fold or lose its order. The hull is unchanged.
 
@@ -127,15 +140,26 @@ def vary(
     return _carry_out(hull, ask, in_place=flag(in_place, "in_place", "in vary"))
 
 
-def vary_by(hull: Hull, script: Mapping[str, Any], *, in_place: bool = False) -> Variation:
-    """Vary a hull by a script, the same arguments as data; see `assoc_hull.variation.ask`.
+def vary_by(
+    hull: Hull, script: Mapping[str, Any] | str | PathLike[str], *, in_place: bool = False
+) -> Variation:
+    """Vary a hull by a script: the arguments of `vary` as data, or a JSON file of them.
 
     The same parent and the same script give the same hull, to the last bit.
+
+    Parameters
+    ----------
+    hull : Hull
+        The parent.
+    script : mapping or path
+        See `assoc_hull.variation.ask`. `VariationReport.script` is such a one.
+    in_place : bool
+        As in `vary`.
 
     Raises
     ------
     AssocHullError
-        As `vary`.
+        As `vary`; a file that cannot be read.
 
     Examples
     --------
@@ -144,7 +168,8 @@ def vary_by(hull: Hull, script: Mapping[str, Any], *, in_place: bool = False) ->
     >>> str(vary_by(ah.examples.wigley(), {"set": {"breadth": 11.0}}).report.targets[0])
     'breadth 10 -> 11 m'
     """
-    return _carry_out(hull, ask_from(script), in_place=flag(in_place, "in_place", "in vary"))
+    data = script if isinstance(script, Mapping) else read_script(script)
+    return _carry_out(hull, ask_from(data), in_place=flag(in_place, "in_place", "in vary"))
 
 
 def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:

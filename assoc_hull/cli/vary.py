@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import Any
 
+from assoc_hull.arguments import shown
 from assoc_hull.cli.arguments import (
     HULL_ENDINGS,
     Commands,
@@ -110,7 +110,7 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     facts = {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
-        "refused": False, "saved": str(target),
+        "refused": False, "saved": str(target), "script": report.script,
     }  # fmt: skip
     told = [report.edit.name, *(f"  {each}" for each in report.targets)]
     told += [edit_words(hull, report.edit), f"written: {target}"]
@@ -121,39 +121,36 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from assoc_hull.variation.listing import listing
+    from assoc_hull.variation.layout import Layout
+    from assoc_hull.variation.listing import list_table, listing
 
+    layout = Layout.of(_script(arguments).get("layout"))
     hull = open_hull(arguments.hull)
     with progress("looking for what may be asked"):
-        found = listing(hull.state)
-    emit(arguments, {"parameters": found}, "\n".join(str(each) for each in found))
+        found = listing(hull.state, layout)
+    emit(arguments, {"parameters": found}, list_table(found))
     return 0
 
 
 def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     """Put together what is asked for; options go before what the file says."""
-    script: dict[str, Any] = _read(arguments.script) if arguments.script else {}
+    from assoc_hull.variation.script import read_script
+
+    script: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
     for key in ("set", "layout"):
         given = _pairs(getattr(arguments, key), key)
         if given:
-            script[key] = {**script.get(key, {}), **given}
+            held = script.get(key, {})
+            if not isinstance(held, dict):
+                raise BadInputError(
+                    f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
+                )
+            script[key] = {**held, **given}
     for key in ("drivers", "stations", "planes", "tolerance", "name"):
         value = getattr(arguments, key)
         if value is not None:
             script[key] = value
-    if arguments.script and "name" not in script:
-        script["name"] = arguments.script.stem
     return script
-
-
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise BadInputError(f"{path} is no JSON: {error}", "in vary", "mend it") from error
-    if not isinstance(found, dict):
-        raise BadInputError(f"{path} holds a {type(found).__name__}", "in vary", "give an object")
-    return found
 
 
 def _pairs(given: list[str], option: str) -> dict[str, Any]:

@@ -92,6 +92,8 @@ class Carried:
         Drivers that are features, and how far they may leave their exact shape.
     driven : set of int
         Crossings that a driver has come to drive, as they slid onto another of its points.
+    doubt : dict of int to float, m
+        Own points of followers that slip over the hull, and how uncertain it is where to.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -115,6 +117,8 @@ class Carried:
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
+    kept: set[int] = attrs.field(factory=set)
+    doubt: dict[int, float] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -213,10 +217,22 @@ def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
         )  # fmt: skip
 
 
-def through(work: Carried, curves: Sequence[int]) -> CurveData:
-    """Give what the chosen points make of curves, for lofting beside the tables."""
+def through(
+    work: Carried, curves: Sequence[int], parts: Sequence[Through] | None = None
+) -> CurveData:
+    """Give what the chosen points make of curves, for lofting beside the tables.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curves : sequence of int
+        The curves; one may come again with other points.
+    parts : sequence of Through or None
+        Their points; None for those that are chosen.
+    """
     state = work.state
-    parts = [work.made[curve] for curve in curves]
+    parts = [work.made[curve] for curve in curves] if parts is None else parts
     start = np.zeros(len(parts) + 1, np.int64)
     np.cumsum([len(part.row) for part in parts], out=start[1:])
     row = np.array([each for part in parts for each in part.row], np.int64)

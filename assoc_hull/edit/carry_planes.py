@@ -7,6 +7,8 @@ mapping sends most of it to a parallel plane, whichever is asked.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 import numpy as np
 
@@ -64,7 +66,14 @@ def heights(xyz: FloatArray, normal: FloatArray) -> FloatArray:
     return found + xyz[:, 2] * normal[..., 2]
 
 
-def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: bool) -> Planes:
+def carry_planes(
+    state: HullState,
+    space: SpaceMap,
+    drivers: IntArray,
+    *,
+    follow: bool,
+    levels: Mapping[int, float] | None = None,
+) -> Planes:
     """Find where the planes of all lines come to.
 
     Parameters
@@ -77,6 +86,8 @@ def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: b
         The driving lines.
     follow : bool
         Whether the planes of followers move where the mapping moves them.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
 
     Raises
     ------
@@ -86,8 +97,14 @@ def carry_planes(state: HullState, space: SpaceMap, drivers: IntArray, follow: b
     lines = state.lines
     normal, offset = lines.normal.data.copy(), lines.offset.data.copy()
     planar, bent = lines.planar.data.copy(), dict[int, float]()
+    asked = levels or {}
     for line in state.live("lines").tolist():
-        if not planar[line] or not (follow or line in drivers):
+        if not planar[line]:
+            continue
+        if line in asked and line not in drivers:
+            offset[line] = asked[line]
+            continue
+        if not (follow or line in drivers):
             continue
         before = _samples(state, line)
         after = space.places(before)

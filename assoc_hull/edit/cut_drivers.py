@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
 from assoc_hull.edit.image import Image, Roots, misfit
+from assoc_hull.edit.topology import ONE_PLACE
 from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
@@ -131,16 +132,21 @@ def _pairs(
 
 
 def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) -> bool:
-    """Tell whether a follower would end on a boundary curve more or fewer times."""
+    """Tell whether a follower would end on a boundary curve more or fewer times, or far off."""
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
-    if bool(touch_rows(state, curve, line)) != ((curve, line) in work.touches):
+    meets: Meets = state.curves.meets.data[curve]
+    # A crossing at a double root has no meeting; a line may end squarely on sign 0 as well.
+    double = set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
+    if bool(double) != ((curve, line) in work.touches):
         return True
     old, new, pairs = _pairs(work, curve, line, local, roots)
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
-    rows: IntArray = state.curves.meets.data[curve].row[old[lost]]
-    return len(pairs) < len(new) or bool((rows >= 0).any())
+    if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
+        return True
+    slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
+    return any(float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip)
 
 
 def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -> None:
@@ -278,7 +284,9 @@ def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]
     for i in np.flatnonzero(step < work.state.tolerances.coincident).tolist():
         for row in (order[i], order[i + 1]):
             first, other = table.curve.data[row].tolist()
-            if row in slid and first == curve and other >= 0 and not table.contact.data[row]:
+            beside = order[i + 1] if row == order[i] else order[i]
+            free = not table.contact.data[row] or table.sort.data[beside] == Sort.ADOPTED
+            if row in slid and first == curve and other >= 0 and free:
                 found.add(row)
                 break
     if found:

@@ -15,7 +15,11 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
+from assoc_hull.edit.fair_cut import Option
+from assoc_hull.edit.shadow import gaps_across
 from assoc_hull.edit.tie import (
+    choose,
+    free_points,
     insert,
     into_own_plane,
     loose_points,
@@ -30,7 +34,7 @@ from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.align import align_roots
-from assoc_hull.model.family import Sort
+from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.state import Meets
 
 __all__ = ["cut_followers"]
@@ -152,34 +156,64 @@ def _points(work: Carried, curve: int) -> Through:
     for row in new:
         _direct(work, curve, found, row)
     own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
-    tie(work, curve, found, [row for row in loose if row not in set(own)])
-    _hold(work, curve, found)
+    ties = [row for row in loose if row not in set(own)]
+    tie(work, curve, found, ties)
+    options = _hold(work, curve, found)
     tie_own(work, curve, found, own)
+    options += free_points(work, own, [*ties, *_smooth(work, curve, found, ties)])
+    choose(work, curve, found, options)
     round_turns(work, curve, found)
     return found
 
 
-def _hold(work: Carried, curve: int, found: Through) -> None:
-    """Hold a follower where lines cut before it pass its plane without defining it."""
+def _smooth(work: Carried, curve: int, found: Through, ties: list[int]) -> list[int]:
+    """Give the crossings with drivers, where these slid, that need not define a follower."""
+    table = work.state.rows
+    return [
+        row for row in found.row[1:-1]
+        if row >= 0 and row not in ties and work.slid[row] and work.other(row, curve) >= 0
+        and work.drives(work.other(row, curve)) and not table.contact.data[row]
+        and table.role.data[row] == Role.SHARED
+    ]  # fmt: skip
+
+
+def _hold(work: Carried, curve: int, found: Through) -> list[Option]:
+    """Hold a follower where lines cut before it pass its plane without defining it.
+
+    Give the places at which they do, as it passed them before.
+    """
     rows = _passed(work, curve)
-    places = work.value[rows]
+    if not len(rows):
+        return []
+    limit = 0.5 * work.state.tolerances.adoption
+    places = np.zeros((0, 3))
     for _ in range(_ROUNDS):
-        if not len(places):
-            return
         work.made[curve] = found
         spline = loft(through(work, [curve]))
+        if not len(places):
+            places = _as_before(work, curve, rows, spline)
         at, _, away = closest(spline, 0, places)
         segment = np.searchsorted(spline.knot, at, side="right")
-        limit = 0.5 * work.state.tolerances.adoption * _share(work, curve, rows, spline, at)
-        wide = np.flatnonzero(away > limit)
+        wide = np.flatnonzero(away > limit * _share(work, curve, rows, spline, at))
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = np.unique(segment[wide], return_index=True)[1]
-        added = [
-            insert(found, -1, into_own_plane(work, curve, places[i]), least=_NEAR)
-            for i in wide[np.sort(first)].tolist()
-        ]
+        added = [insert(found, -1, places[i], least=_NEAR) for i in wide[np.sort(first)].tolist()]
         if not any(added):
-            return
+            break
+    share = _share(work, curve, rows, spline, at)
+    return [
+        Option(-1, place, 2.0 * limit * part) for place, part in zip(places, share, strict=True)
+    ]
+
+
+def _as_before(work: Carried, curve: int, rows: IntArray, spline: SplineBatch) -> FloatArray:
+    """Give the places of lines that pass a follower, less the gaps at which they did before."""
+    at, _, _ = closest(spline, 0, work.value[rows])
+    slope = derivative(spline, np.zeros(len(at), np.int64), at)
+    left = np.cross(work.planes.normal[work.state.line_of(curve)], slope)
+    left = left / np.sqrt((left * left).sum(axis=1))[:, None]
+    places = work.value[rows] - gaps_across(work, curve, rows, left)[:, None] * left
+    return np.array([into_own_plane(work, curve, place) for place in places])
 
 
 def _share(
@@ -204,7 +238,11 @@ def _passed(work: Carried, curve: int) -> IntArray:
     table, meets = work.state.rows, work.state.curves.meets.data[curve]
     rows = meets.row[meets.row >= 0]
     rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
-    kept = [row for row in rows.tolist() if row not in work.gone and _before(work, row, curve)]
+    kept = [
+        row
+        for row in rows.tolist()
+        if row not in work.gone and (row in work.kept or _before(work, row, curve))
+    ]
     return np.array(kept, np.int64)
 
 

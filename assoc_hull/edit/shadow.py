@@ -17,7 +17,7 @@ from assoc_hull.geometry.spline import derivative, evaluate, loft
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import Meets
 
-__all__ = ["Shadow", "shadow_of"]
+__all__ = ["Shadow", "gaps_across", "shadow_of"]
 
 _SAMPLES = 4
 """Places a segment through which the image is made."""
@@ -27,6 +27,9 @@ _APART = 0.05
 
 _FAR = 4.0
 """A foot farther along than so many slips from where it should be lies on another branch."""
+
+_DOUBT = 0.05
+"""Between two known places the distance is uncertain by this part of how much it changes."""
 
 
 @attrs.frozen(eq=False)
@@ -64,7 +67,17 @@ class Shadow:
         slope = slope / np.sqrt((slope * slope).sum(axis=1))[:, None]
         beyond = (there - on)[:, None] * slope
         left = _left(self.spline, self.normal, on)
-        return evaluate(self.spline, curve, on) + beyond + off[:, None] * left
+        found: FloatArray = evaluate(self.spline, curve, on) + beyond + off[:, None] * left
+        return found
+
+    def doubt(self, t: FloatArray) -> FloatArray:
+        """Give how uncertain these places are, (k,), m: what the way of interpolating changes."""
+        there = self._slid(np.interp(t, self.t, self.spline.knot))
+        straight = np.interp(there, self.knot, self.across)
+        low = np.clip(np.searchsorted(self.knot, there, side="right") - 1, 0, len(self.knot) - 2)
+        step = np.abs(np.diff(self.across))[low] if len(self.knot) > 1 else np.abs(self.across)
+        found: FloatArray = np.abs(_between(self.knot, self.across, there) - straight)
+        return found + _DOUBT * step
 
     def _slid(self, there: FloatArray) -> FloatArray:
         """Let places beside an end slide with it: less and less, to the first known place."""
@@ -97,9 +110,12 @@ def shadow_of(work: Carried, curve: int) -> Shadow | None:
         return None
     there, foot, _ = closest(spline, 0, work.value[rows])
     step = work.value[rows] - foot
+    beyond = _along(spline, there, step)
     slip = np.sqrt(((work.value[rows] - work.space.places(_places(work, curve, at))) ** 2).sum(1))
     good = np.abs(there - np.interp(at, t, spline.knot)) <= _FAR * slip + _APART
-    across = (step * _left(spline, normal, there)).sum(axis=1)
+    left = _left(spline, normal, there)
+    across = (step * left).sum(axis=1) - gaps_across(work, curve, rows, left)
+    there = there + np.where((there <= 0.0) | (there >= spline.knot[-1]), beyond, 0.0)
     order = np.flatnonzero(good)
     order = order[np.argsort(there[order], kind="stable")]
     if not len(order):
@@ -118,11 +134,39 @@ def _ends(work: Carried, curve: int, spline: SplineBatch) -> tuple[float, float]
             continue
         at = np.array([0.0 if i == 0 else float(spline.knot[-1])])
         there, foot, _ = closest(spline, 0, work.value[[row]])
-        slope = derivative(spline, np.zeros(1, np.int64), there)[0]
-        step = (work.value[row] - foot[0]) * slope
-        along = float(step.sum()) / float(np.sqrt((slope * slope).sum()))
-        found[i] = float(there[0] - at[0]) + along
+        along = _along(spline, there, work.value[[row]] - foot)
+        found[i] = float(there[0] - at[0] + along[0])
     return found[0], found[1]
+
+
+def _along(spline: SplineBatch, t: FloatArray, step: FloatArray) -> FloatArray:
+    """Give how far steps (k, 3) from places of a curve lead along it, (k,), m."""
+    slope = derivative(spline, np.zeros(len(t), np.int64), t)
+    found: FloatArray = (step * slope).sum(axis=1) / np.sqrt((slope * slope).sum(axis=1))
+    return found
+
+
+def gaps_across(work: Carried, curve: int, rows: IntArray, left: FloatArray) -> FloatArray:
+    """Give how far lines that pass a follower unheard lay beside it before, (k,), m.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curve : int
+        The follower.
+    rows : (k,) int
+        Crossings on it.
+    left : (k, 3)
+        Unit vectors across it there: the gap is given along these.
+    """
+    table = work.state.rows
+    own = (table.curve.data[rows, 0] != curve).astype(np.int64)
+    spot, every = table.spot.data[rows], np.arange(len(rows))
+    heard = (table.reader.data[rows] == curve).any(axis=1)
+    gap = ((spot[every, 1 - own] - spot[every, own]) * left).sum(axis=1)
+    found: FloatArray = np.where(heard, 0.0, gap)
+    return found
 
 
 def _dense(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:
@@ -146,7 +190,7 @@ def _left(spline: SplineBatch, normal: FloatArray, t: FloatArray) -> FloatArray:
 
 
 def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
-    """Give crossings of a follower with lines cut before, and their parameters on it before."""
+    """Give the points of a follower that are known already, and their parameters on it before."""
     state, table = work.state, work.state.rows
     meets: Meets = state.curves.meets.data[curve]
     own: IntArray = state.curves.rows.data[curve]
@@ -156,14 +200,15 @@ def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
     rows = [
         row for row in at
         if row >= 0 and work.known[row] and row not in work.gone
-        and table.sort.data[row] == Sort.CROSSING
         and (row in ends or not table.contact.data[row]) and _first(work, row, curve)
     ]  # fmt: skip
     return np.array(rows, np.int64), np.array([at[row] for row in rows])
 
 
 def _first(work: Carried, row: int, curve: int) -> bool:
-    """Tell whether the other curve of a crossing is known before this one."""
+    """Tell whether a point does not wait for its follower to be cut."""
+    if work.state.rows.sort.data[row] != Sort.CROSSING or row in work.kept:
+        return bool(work.direct[row]) or row in work.kept
     other = work.other(row, curve)
     return work.drives(other) or work.state.rank(other) < work.state.rank(curve)
 

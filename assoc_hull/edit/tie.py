@@ -13,6 +13,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
+from assoc_hull.edit.fair_cut import Option, choose_fair
 from assoc_hull.edit.shadow import Shadow, shadow_of
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
@@ -24,6 +25,8 @@ from assoc_hull.model.family import Sort
 from assoc_hull.model.state import Meets
 
 __all__ = [
+    "choose",
+    "free_points",
     "insert",
     "into_own_plane",
     "loose_points",
@@ -35,8 +38,8 @@ __all__ = [
 
 _ROUNDS = 12
 
-_DOUBT = 0.3
-"""Where a point slips to is uncertain by this part of the way."""
+_DOUBTS = (1.0, 0.3, 0.0)
+"""How much of the doubt about where own points slip to is minded, first to last."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
@@ -58,7 +61,8 @@ def _adopted(work: Carried, curve: int) -> IntArray:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve][1:-1]
     smooth = state.rows.kind.data[rows, 0] == PointKind.SMOOTH
-    return rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    found: IntArray = rows[(state.rows.sort.data[rows] == Sort.ADOPTED) & smooth]
+    return found
 
 
 def slip_along(work: Carried, curve: int) -> None:
@@ -66,7 +70,7 @@ def slip_along(work: Carried, curve: int) -> None:
     state = work.state
     rows: IntArray = state.curves.rows.data[curve]
     own = rows[state.rows.sort.data[rows] != Sort.CROSSING]
-    work.known[own[work.still[own]]] = True
+    work.known[own[work.direct[own]]] = True
     mine = own[~work.known[own]]
     if not len(mine):
         return
@@ -75,7 +79,9 @@ def slip_along(work: Carried, curve: int) -> None:
     if shadow is None:
         work.gone |= set(mine.tolist())
         return
-    places = shadow.at(np.array([knot[row] for row in mine.tolist()]))
+    at = np.array([knot[row] for row in mine.tolist()])
+    places = shadow.at(at)
+    work.doubt |= dict(zip(mine.tolist(), shadow.doubt(at).tolist(), strict=True))
     work.value[mine] = into_planes(state, work.planes, mine, places)
     work.known[mine] = True
 
@@ -127,7 +133,8 @@ def loose_points(work: Carried, curve: int, order: list[int]) -> list[int]:
     own = set(_adopted(work, curve).tolist())
     return [
         row for row in order
-        if (row in own and not work.still[row]) or (rank.get(row, least) > least and work.slid[row])
+        if (row in own and not work.direct[row])
+        or (rank.get(row, least) > least and work.slid[row])
     ]  # fmt: skip
 
 
@@ -154,7 +161,7 @@ def tie_own(work: Carried, curve: int, found: Through, own: list[int]) -> None:
     if not own:
         return
     trials = list[Through]()
-    for doubt in (_DOUBT, 0.3 * _DOUBT, 0.0):
+    for doubt in _DOUBTS:
         trials.append(Through(list(found.row), list(found.place), []))
         _taken(work, curve, trials[-1], own, doubt)
         if _sound(work, curve, trials[-1]):
@@ -162,6 +169,27 @@ def tie_own(work: Carried, curve: int, found: Through, own: list[int]) -> None:
     trial = trials[-1] if _sound(work, curve, trials[-1]) else trials[0]
     work.gone |= set(own) - set(trial.row)
     found.row, found.place = trial.row, trial.place
+
+
+def free_points(work: Carried, own: list[int], ties: list[int]) -> list[Option]:
+    """Give the points that a follower need not pass, and how far it may pass them off."""
+    most = work.state.tolerances.adoption
+    found = [Option(row, work.value[row], most + work.doubt.get(row, 0.0)) for row in own]
+    return found + [Option(row, work.value[row], most, near=0.0) for row in ties]
+
+
+def choose(work: Carried, curve: int, found: Through, options: list[Option]) -> None:
+    """Let a follower pass the points that make it fair, and leave the others."""
+    before = Through(list(found.row), list(found.place), [])
+    taken = choose_fair(work, curve, found, options)
+    if not _sound(work, curve, found):
+        found.row, found.place = before.row, before.place
+        return
+    for i, option in enumerate(options):
+        if option.row < 0:
+            continue
+        away = work.gone if work.state.rows.sort.data[option.row] == Sort.ADOPTED else work.watched
+        (away.discard if i in taken else away.add)(option.row)
 
 
 def _taken(
@@ -179,9 +207,9 @@ def _taken(
         work.made[curve] = found
         spline = loft(through(work, [curve]))
         at, _, away = closest(spline, 0, work.value[left])
-        slip = np.sqrt(((work.value[left] - work.image[left]) ** 2).sum(axis=1))
+        vague = np.array([work.doubt.get(row, 0.0) for row in left])
         segment = np.searchsorted(spline.knot, at, side="right")
-        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption + doubt * slip)
+        wide = np.flatnonzero(away > 0.5 * work.state.tolerances.adoption + doubt * vague)
         wide = wide[np.argsort(-away[wide], kind="stable")]
         first = wide[np.sort(np.unique(segment[wide], return_index=True)[1])].tolist()
         if not first:

@@ -8,7 +8,7 @@ the images, roles and kinds stay, and what the designer placed is carried by the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -19,6 +19,7 @@ from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
 from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
+from assoc_hull.edit.cut_kept import cut_kept
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.stand_ins import settle_stand_ins
 from assoc_hull.edit.topology import unmeet
@@ -48,6 +49,7 @@ def transform(
     drivers: Sequence[int],
     *,
     follow: bool = False,
+    levels: Mapping[int, float] | None = None,
     tolerance: float = _TOLERANCE,
     reshape: Reshape | None = None,
     anchors: Sequence[tuple[int, float]] = (),
@@ -67,6 +69,8 @@ def transform(
         are carried with the drivers, named or not.
     follow : bool
         Whether the planes of followers move where the mapping sends them to parallel ones.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
     tolerance : float, m
         How far a driver may leave its exact image; at least 0.1 mm.
     reshape : callable or None
@@ -98,7 +102,7 @@ def transform(
     state = edit.state
     driver = _drivers(edit, drivers)
     edit.pending.alone = True
-    planes = carry_planes(state, space, np.flatnonzero(driver), follow)
+    planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
     work = carry_points(edit.maker, space, planes, driver)
     size = state.particulars
     if particulars is not None:
@@ -113,6 +117,7 @@ def transform(
         reshape(work)
     bend_lines(work)
     image = cut_drivers(work, edit.document.index)
+    cut_kept(work)
     settle_stand_ins(work)
     cut_followers(work)
     _watch(edit, work)

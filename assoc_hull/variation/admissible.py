@@ -19,9 +19,11 @@ _ROUNDS = 60
 _NEAR = 1e-9
 """The least minor at an end is the margin to so much, or the end is known to so much of itself."""
 
-_TRIALS = 6
 _LARGE = 16.0
-"""Steps grow so much at most; after some of them nothing is taken to fold."""
+"""Steps grow so much at most."""
+
+_FARTHEST = _LARGE**6
+"""So many first changes away nothing is taken to fold."""
 
 _FLAT = 1e-9
 
@@ -88,14 +90,12 @@ def _end(spare: Callable[[float], float], present: float, step: float) -> float:
     if room < 0.0:
         return present
     failed, lack = present + step, spare(present + step)
-    for _ in range(_TRIALS):
-        if lack < 0.0:
-            break
+    while lack >= 0.0:
+        if abs(failed - present) > _FARTHEST * abs(step):
+            return math.copysign(math.inf, step)
         beyond = _beyond(failed - held, room, lack)
         held, room = failed, lack
         failed, lack = held + beyond, spare(held + beyond)
-    else:
-        return math.copysign(math.inf, step)
     for rounds in range(_ROUNDS):
         if abs(failed - held) <= _NEAR * abs(failed - present) or room <= _NEAR:
             break
@@ -109,11 +109,14 @@ def _end(spare: Callable[[float], float], present: float, step: float) -> float:
 
 
 def _beyond(step: float, before: float, after: float) -> float:
-    """Give a step at whose end nothing will be left, if what is left goes on falling as it did."""
+    """Give a step at whose end nothing will be left, if what is left goes on falling as it did.
+
+    It is no shorter than the last: what falls ever slower, as a square does, is met all the same.
+    """
     falls = before - after
     if not falls > _FLAT * before:
         return _LARGE * step
-    return min(after / falls * (1.0 + 1e-9) + 1e-9, _LARGE) * step
+    return min(max(after / falls * (1.0 + 1e-9) + 1e-9, 1.0), _LARGE) * step
 
 
 def _between(held: float, room: float, failed: float, lack: float, *, halve: bool) -> float:

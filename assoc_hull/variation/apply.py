@@ -19,6 +19,7 @@ from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.variation.drivers import Keeps, default_drivers, keeps, planes_go
 from assoc_hull.variation.features_net import Regenerated, regenerated
 from assoc_hull.variation.field import Region
+from assoc_hull.variation.stations import section_planes
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Applied", "apply"]
@@ -73,7 +74,8 @@ def apply(
         Numbers of the driving lines; None for all whose planes the map keeps.
     stations : {"number", "x"}
         Whether sections go with the map and keep their numbers, or stay where they are along
-        the ship and are cut again. Where the map moves x by more than x, they stay.
+        the ship and are cut again. Where the map bends their planes they are cut again where
+        the part of it goes that bends none.
     follow : bool
         Whether waterlines and buttocks go where the map sends most of each of them to a parallel
         plane; else they stay at their heights and half-breadths.
@@ -100,9 +102,10 @@ def apply(
         default_drivers(state, kept, stations, follow=follow)
         if drivers is None else tuple(sorted(drivers))
     )  # fmt: skip
+    levels = section_planes(state, vmap.layers) if stations == "number" else None
     size = _resized(state.particulars, particulars) if particulars else None
     added = transform(
-        edit, space, chosen, follow=follow, tolerance=tolerance,
+        edit, space, chosen, follow=follow, levels=levels, tolerance=tolerance,
         reshape=_both(anew, reshape), anchors=anchors, particulars=size,
     )  # fmt: skip
     if edit.pending.features is not None:

@@ -1,8 +1,10 @@
 """What a variation is asked for, checked and frozen; also as data, for a script file.
 
-{"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
+{"version": 1, "set": {"shaft_height": 6.0, "bossing_radius": 1.0},
  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
+
+No key must be there but ``set`` or ``layers``; ``version`` is that of this form.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from typing import Any, Literal, get_args
 
 import attrs
 
-from assoc_hull.arguments import choice, number, positive, text
+from assoc_hull.arguments import choice, number, positive, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.model.handles import Group, Line
 from assoc_hull.variation.catalogue import CATALOGUE, NAMES
@@ -21,10 +23,23 @@ from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.raw import layers_from
 
-__all__ = ["Ask", "Planes", "Stations", "ask_from"]
+__all__ = ["TOLERANCE", "VERSION", "Ask", "Planes", "Stations", "ask_from"]
+
+TOLERANCE = 2e-3
+"""How far drivers may leave their exact images, m, unless it is said."""
 
 Stations = Literal["number", "x"]
 Planes = Literal["follow", "stay"]
+
+VERSION = 1
+"""Of the form of scripts."""
+
+_KEYS = ("version", "set", "layers", "layout", "drivers", "stations", "planes", "tolerance",
+         "name")  # fmt: skip
+_SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
+    "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
+}  # fmt: skip
+"""What parameters are called in formulas."""
 
 
 @attrs.frozen(eq=False)
@@ -49,6 +64,8 @@ class Ask:
         How far drivers may leave their exact images.
     name : str
         Of the step in the history.
+    given : tuple or None
+        The layers as they were given, if they were given as data.
     """
 
     values: Mapping[str, float]
@@ -57,8 +74,9 @@ class Ask:
     drivers: tuple[Group | Line | str, ...] | None = None
     stations: Stations = "number"
     planes: Planes = "follow"
-    tolerance: float = 2e-3
+    tolerance: float = TOLERANCE
     name: str = "vary"
+    given: tuple[object, ...] | None = ()
 
     @classmethod
     def of(
@@ -70,7 +88,7 @@ class Ask:
         drivers: Sequence[Group | Line | str] | None = None,
         stations: str = "number",
         planes: str = "follow",
-        tolerance: float = 2e-3,
+        tolerance: float = TOLERANCE,
         name: str | None = None,
     ) -> Ask:
         """Take what a designer gives.
@@ -89,11 +107,13 @@ class Ask:
             )
         wanted = choice(stations, "stations", get_args(Stations), "in vary")
         level = choice(planes, "planes", get_args(Planes), "in vary")
+        made = _layers(layers)
         return cls(
-            MappingProxyType(found), _layers(layers), Layout.of(layout), _drivers(drivers),
+            MappingProxyType(found), made, Layout.of(layout), _drivers(drivers),
             "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
             positive(tolerance, "tolerance", "in vary"),
             _title(found) if name is None else text(name, "the name", "in vary"),
+            None if any(_acts(each) for each in layers) else tuple(layers),
         )  # fmt: skip
 
 
@@ -117,14 +137,18 @@ def ask_from(data: object) -> Ask:
         raise WrongTypeError(
             f"a variation is {type(data).__name__}", "in vary", "give a mapping with 'set'"
         )
-    known = ("set", "layers", "layout", "drivers", "stations", "planes", "tolerance", "name")
     for key in data:
-        if key not in known:
-            raise UnknownNameError("part of a variation", str(key), known)
+        if key not in _KEYS:
+            raise UnknownNameError("part of a variation", shown_name(key), _KEYS)
+    version = data.get("version", VERSION)
+    if isinstance(version, bool) or version != VERSION:
+        raise BadInputError(
+            f"the script is of version {shown(version)}", "in vary", f"give version {VERSION}"
+        )
     return Ask.of(
         data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
         drivers=data.get("drivers"), stations=data.get("stations", "number"),
-        planes=data.get("planes", "follow"), tolerance=data.get("tolerance", 2e-3),
+        planes=data.get("planes", "follow"), tolerance=data.get("tolerance", TOLERANCE),
         name=data.get("name"),
     )  # fmt: skip
 
@@ -138,12 +162,13 @@ def _values(given: object) -> dict[str, float]:
             f"set is {type(given).__name__}", "in vary", "give values by the names of parameters"
         )
     for name in given:
-        if name not in CATALOGUE:
-            raise UnknownNameError("named parameter", str(name), NAMES)
+        if name not in NAMES:
+            word = shown_name(name)
+            raise UnknownNameError("named parameter", word, NAMES, _SPOKEN.get(word, ""))
     found = {name: number(given[name], name, "in vary") for name in NAMES if name in given}
     for name, value in found.items():
         if CATALOGUE[name].positive and not value > 0.0:
-            raise BadInputError(f"{name} is {value:g} m", "in vary", "give a length above 0")
+            raise BadInputError(f"{name} is {value:g} m", "in vary", "give one above 0")
     return found
 
 
@@ -155,11 +180,16 @@ def _layers(given: object) -> tuple[Layer, ...]:
         )
     made = list[Layer]()
     for i, each in enumerate(given):
-        if hasattr(each, "displacement") and hasattr(each, "jacobian"):
+        if _acts(each):
             made.append(each)
         else:
             made += [attrs.evolve(one, name=f"raw fields {i + 1}") for one in layers_from([each])]
     return tuple(made)
+
+
+def _acts(given: object) -> bool:
+    """Tell a layer from the data of one."""
+    return hasattr(given, "displacement") and hasattr(given, "jacobian")
 
 
 def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:

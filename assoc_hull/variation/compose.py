@@ -22,7 +22,7 @@ from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["compose", "conflicts", "solve"]
+__all__ = ["STEEPEST", "compose", "conflicts", "solve"]
 
 _CONDITION = 50.0
 """Above this, two parameters ask for the movement of one place."""
@@ -30,7 +30,7 @@ _CONDITION = 50.0
 _LARGEST = 3.0
 """Fields larger than this many times what is asked work against one another."""
 
-_STEEPEST = 80.0
+STEEPEST = 80.0
 """Degrees; beyond, a small change of an angle moves a place by metres."""
 
 _BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
@@ -39,6 +39,7 @@ _CLASHES = (
     ("bilge_radius", "deadrise_deg", "both turn the bilge"),
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
 )
+_DECKS = ("depth", "deck_height", "both set the deck edge amidships")
 
 
 def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
@@ -106,21 +107,32 @@ def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Par
 
 def _refuse_angles(asked: Mapping[str, float]) -> None:
     for name, value in asked.items():
-        if name.endswith("_deg") and not abs(value) <= _STEEPEST:
+        if name.endswith("_deg") and not abs(value) <= STEEPEST:
             raise BadInputError(
-                f"{name} is {value:g} degrees", "in vary", f"give at most {_STEEPEST:g} either way"
+                f"{name} is {value:g} degrees", "in vary", f"give at most {STEEPEST:g} either way"
             )
 
 
-def conflicts(name: str) -> tuple[str, ...]:
-    """Give the parameters that cannot be asked for beside one."""
-    pairs = [(one, other) for one, other, _ in _CLASHES]
+def conflicts(name: str, layout: Layout | None = None) -> tuple[str, ...]:
+    """Give the parameters that cannot be asked for beside one.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.compose import conflicts
+    >>> conflicts("bilge_radius")
+    ('flat_of_bottom', 'deadrise_deg')
+    """
+    pairs = [(one, other) for one, other, _ in _clashes(layout or Layout())]
     return tuple(other if one == name else one for one, other in pairs if name in (one, other))
 
 
+def _clashes(layout: Layout) -> tuple[tuple[str, str, str], ...]:
+    """Give pairs of parameters that are one number, and why."""
+    return (*_CLASHES, _DECKS) if layout.deck == "midship" else _CLASHES
+
+
 def _refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
-    deck = ("depth", "deck_height", "both set the deck edge amidships")
-    for one, other, why in (*_CLASHES, *([deck] if layout.deck == "midship" else [])):
+    for one, other, why in _clashes(layout):
         if one in asked and other in asked:
             raise BadInputError(
                 f"'{one}' and '{other}' cannot be asked for together: {why}", "in vary",

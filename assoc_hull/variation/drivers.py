@@ -12,7 +12,7 @@ import numpy as np
 from assoc_hull.edit.carry_planes import PLANE, most_in_one
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.state import HullState
 
@@ -58,13 +58,27 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
     line = np.repeat(state.curves.line.data[curves], np.diff(start))
-    slope, moved = space.jacobians(xyz), np.abs(space.places(xyz) - xyz) > PLANE
+    slope, image = space.jacobians(xyz), space.places(xyz)
+    moved = np.abs(image - xyz) > PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
         others = [each for each in range(3) if each != axis]
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
+        bent[:, axis] |= _spread(line, image[:, axis], state.lines.count) > PLANE
     return Keeps(~bent, ~gone)
+
+
+def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
+    """Give how far apart places of each line lie along an axis, (l,), m; nil without places.
+
+    A circle drawn anew moves its own points by less than a slope tells.
+    """
+    low, high = np.full(count, np.inf), np.full(count, -np.inf)
+    np.minimum.at(low, line, level)
+    np.maximum.at(high, line, level)
+    found: FloatArray = np.maximum(high - low, 0.0)
+    return found
 
 
 def planes_go(state: HullState, space: SpaceMap) -> bool:

@@ -6,7 +6,7 @@ straight runs and knuckle lines their points tell: they stay features where it l
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -87,8 +87,8 @@ def regenerated(
     BadInputError
         The map leaves a circle too far from any.
     """
-    wanted = radii or {}
     features = [each for each in state.features if each.kind == "circle"]
+    wanted = _of_cylinders(features, radii or {}, vmap)
     drawn = {
         each.key: _redrawn(each, vmap, wanted.get(each.key))
         for each in features
@@ -101,6 +101,33 @@ def regenerated(
         tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
     )
+
+
+def _of_cylinders(
+    features: Sequence[Feature], radii: Mapping[str, float], vmap: VMap
+) -> dict[str, float]:
+    """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
+
+    They are those on its axis of its radius which the map gives what is asked for but for rounding,
+    as the radius was measured on a curve.
+    """
+    found = dict(radii)
+    for asked in [each for each in features if each.key in radii]:
+        for each in features:
+            if each.key not in found and _one_cylinder(asked, each):
+                natural = _redrawn(each, vmap, None).after.radius
+                if abs(natural - radii[asked.key]) <= _ROUND:
+                    found[each.key] = radii[asked.key]
+    return found
+
+
+def _one_cylinder(one: Feature, other: Feature) -> bool:
+    """Tell whether two circles are of one cylinder: about one axis, and of one radius."""
+    if one.radius != other.radius or one.normal != other.normal:
+        return False
+    normal = np.array(one.parameters["normal"])
+    away = np.array(other.parameters["centre"]) - one.parameters["centre"]
+    return not (away - float((away * normal).sum()) * normal).any()
 
 
 def _even(circle: Redrawn, vmap: VMap) -> bool:

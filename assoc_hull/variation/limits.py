@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import attrs
 import numpy as np
 
+from assoc_hull.errors import BadInputError, FoldError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.admissible import admissible
+from assoc_hull.variation.anchor import Measures
+from assoc_hull.variation.bounds import bounds
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.certify import certify
@@ -18,10 +21,13 @@ from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["certified", "hull_box", "interval"]
+__all__ = ["Room", "hull_box", "interval", "present"]
 
 _STEP = 0.02
 """A usual change of a parameter, as a part of its value, and the least one, m or degrees."""
+
+_NEAR = 1e-6
+"""m or degrees: an end so near to a bound is the bound."""
 
 
 def hull_box(state: HullState, tolerance: float) -> FloatArray:
@@ -32,8 +38,21 @@ def hull_box(state: HullState, tolerance: float) -> FloatArray:
     return np.array([low, high])
 
 
+def present(measures: Measures, layout: Layout) -> dict[str, float]:
+    """Give measured values by name; the deck's height is taken where the layout sets it."""
+    found = dict(measures)
+    place = {"fore": "at_FP", "aft": "at_AP"}.get(layout.deck)
+    if place is not None and "deck_height" in found:
+        there = measures.anchors["deck_height"].numbers.get(place)
+        if there is None:
+            found.pop("deck_height")
+        else:
+            found["deck_height"] = there
+    return found
+
+
 def interval(
-    parent: Parent, name: str, present: float, layout: Layout, box: FloatArray
+    parent: Parent, name: str, now: float, layout: Layout, box: FloatArray
 ) -> tuple[float, float]:
     """Give the least and greatest value that a parameter may have, asked for alone.
 
@@ -42,11 +61,16 @@ def interval(
     parent : Parent
     name : str
         Of the parameter.
-    present : float
-        Its value now, m or degrees.
+    now : float
+        Its present value, m or degrees.
     layout : Layout
     box : (2, 3), m
         Of the hull.
+
+    Raises
+    ------
+    BadInputError
+        The parent has not what the parameter is laid out on.
 
     Examples
     --------
@@ -58,40 +82,123 @@ def interval(
     >>> box = np.array([[-5.0, -25.0, 0.0], [306.0, 25.0, 27.0]])
     >>> low, high = interval(ship, "shaft_height", 5.0, Layout(), box)
     >>> round(low, 2), round(high, 2)
-    (0.28, 14.72)
+    (1.17, 12.6)
     """
-    step = max(_STEP * abs(present), _STEP)
+    laid = _alone(parent, name, layout)
+    laid(now)
+    step, rule = max(_STEP * abs(now), _STEP), bounds(name, parent, now, layout)
+    low, high = admissible(laid, box, present=now, first=step)
+    # an end that a bound sets was found only nearly
+    low = rule.low if low <= rule.low + _NEAR else low
+    return low, rule.high if high >= rule.high - _NEAR else high
 
-    def laid(value: float) -> VMap:
-        return compose(parent, {name: value}, layout)
 
-    low, high = admissible(laid, box, present=present, first=step)
-    return (max(low, 0.0), high) if CATALOGUE[name].positive else (low, high)
+def _alone(parent: Parent, name: str, layout: Layout) -> Callable[[float], VMap]:
+    """Give what lays out the map of one parameter."""
+    return lambda value: compose(parent, {name: value}, layout)
 
 
-def certified(
-    vmap: VMap, box: FloatArray, parent: Parent, values: Mapping[str, float], layout: Layout
-) -> Certificate:
-    """Certify a map, or refuse it with the room that the parameter at fault has.
+@attrs.frozen(eq=False)
+class Room:
+    """What named parameters of a hull may be asked for.
 
-    Parameters
+    Attributes
     ----------
-    vmap : VMap
-    box : (2, 3), m
     parent : Parent
-    values : mapping of str to float
-        Present values of the named parameters that are asked for.
+    present : mapping of str to float
+        Values now, of those that are asked for.
     layout : Layout
-
-    Raises
-    ------
-    FoldError
-        It folds, or nearly; where, by how much, and what would do.
+    box : (2, 3), m
+        Of the hull.
     """
-    found = certify(vmap, box)
-    if not found.certified and found.field in values:
-        now = values[found.field]
-        low, high = interval(parent, found.field, now, layout, box)
-        found = attrs.evolve(found, admissible=(low - now, high - now))
-    found.check()
-    return found
+
+    parent: Parent
+    present: Mapping[str, float]
+    layout: Layout
+    box: FloatArray
+
+    def interval(self, name: str) -> tuple[float, float]:
+        """Give the least and greatest value of a parameter, asked for alone."""
+        return interval(self.parent, name, self.present[name], self.layout, self.box)
+
+    def check(self, asked: Mapping[str, float]) -> None:
+        """Refuse values that make no hull.
+
+        Raises
+        ------
+        OutOfRangeError
+            With the interval, and what becomes of the hull beyond.
+        """
+        parent = attrs.evolve(self.parent, breadth=asked.get("breadth", self.parent.breadth))
+        for name, value in asked.items():
+            rule = bounds(name, parent, self.present[name], self.layout)
+            if not rule.hold(value):
+                raise self._outside(name, value, rule.why)
+
+    def map(self, asked: Mapping[str, float]) -> VMap:
+        """Lay out a map, or tell which value cannot be laid out.
+
+        Raises
+        ------
+        OutOfRangeError
+            One of the values cannot be laid out even alone; with the interval.
+        BadInputError
+            As `compose`.
+        """
+        try:
+            return compose(self.parent, asked, self.layout)
+        except BadInputError as error:
+            for name, value in asked.items():
+                if self._refused(name, value) and not self._refused(name, self.present[name]):
+                    raise self._outside(name, value, f"cannot be laid out ({error.what})") from None
+            raise
+
+    def certified(self, vmap: VMap, asked: Mapping[str, float]) -> Certificate:
+        """Certify a map, or refuse it with the room that the parameter at fault has.
+
+        Raises
+        ------
+        FoldError
+            It folds, or nearly; where, by how much, and what would do.
+        """
+        found = certify(vmap, self.box)
+        try:
+            found.check()
+        except FoldError as error:
+            raise self._told(error, asked) from None
+        return found
+
+    def _told(self, error: FoldError, asked: Mapping[str, float]) -> FoldError:
+        """Add to a fold between which values the parameter at fault may be asked for."""
+        name = error.field or error.layer
+        if name not in asked:
+            return error
+        low, high = self.interval(name)
+        alone = low <= asked[name] <= high
+        return attrs.evolve(
+            error, interval=(low, high), unit=CATALOGUE[name].unit,
+            part=self._part(asked) if alone and len(asked) > 1 else None,
+        )  # fmt: skip
+
+    def _part(self, asked: Mapping[str, float]) -> float:
+        """Give how much of all changes is certified."""
+
+        def laid(part: float) -> VMap:
+            values = {
+                name: self.present[name] + part * (value - self.present[name])
+                for name, value in asked.items()
+            }
+            return compose(self.parent, values, self.layout)
+
+        return admissible(laid, self.box, first=_STEP)[1]
+
+    def _refused(self, name: str, value: float) -> bool:
+        try:
+            _alone(self.parent, name, self.layout)(value)
+        except BadInputError:
+            return True
+        return False
+
+    def _outside(self, name: str, value: float, why: str) -> OutOfRangeError:
+        low, high = self.interval(name)
+        return OutOfRangeError(name, value, "in vary", why, low, high, CATALOGUE[name].unit)

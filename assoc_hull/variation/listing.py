@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import attrs
 
@@ -11,14 +12,24 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchor import Measures
 from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.compose import conflicts
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import hull_box, interval
+from assoc_hull.variation.limits import hull_box, interval, present
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
 
-__all__ = ["Listed", "listing"]
+__all__ = ["Listed", "list_table", "listing"]
+
+_DIGITS = 4
+"""Of the ends of intervals, which are rounded inward."""
+
+_HEAD = ("parameter", "present", "", "from", "to", "what it is")
+_FOOT = """\
+x from AP forward, z from the base line up. Each interval is that of the parameter asked for alone:
+beyond it the map folds, or what comes out is no ship. Towards its ends a line of the net may still
+be refused, with its name and the place."""
 
 
 @attrs.frozen
@@ -31,11 +42,11 @@ class Listed:
     value : float or None
         Present value; None where the hull has none, for the `reason`.
     low, high : float or None
-        Between these (m or degrees) it may be asked for alone, with the usual layout; None
-        where nothing ends it.
+        Between these (m or degrees) it may be asked for alone; None where nothing ends it.
     conflicts : tuple of str
         Parameters that cannot be asked for beside it.
     reason : str or None
+        Why it has no value, or cannot be varied.
     """
 
     name: str
@@ -47,17 +58,66 @@ class Listed:
     conflicts: tuple[str, ...]
     reason: str | None
 
-    def __str__(self) -> str:
+    @property
+    def words(self) -> tuple[str, ...]:
+        """What a table says of it, in columns."""
         if self.value is None:
-            return f"{self.name:22} -          {self.reason}"
-        low, high = ("" if each is None else f"{each:.4g}" for each in (self.low, self.high))
-        between = f"  {low:>6} .. {high:6}"
-        apart = f"  not with {', '.join(self.conflicts)}" if self.conflicts else ""
-        return f"{self.name:22} {self.value:10.4f} {self.unit:3}{between}  {self.meaning}{apart}"
+            return self.name, "-", "", "", "", str(self.reason)
+        now = f"{self.value:.4f}"
+        if self.reason is not None:
+            return self.name, now, self.unit, "", "", self.reason
+        apart = f"; not with {' or '.join(self.conflicts)}" if self.conflicts else ""
+        return (
+            self.name, now, self.unit, self._low, _end(self.high, math.floor), self.meaning + apart
+        )  # fmt: skip
+
+    @property
+    def _low(self) -> str:
+        nil = self.low == 0.0 and CATALOGUE[self.name].positive
+        return "> 0" if nil else _end(self.low, math.ceil)
 
 
-def listing(state: HullState) -> tuple[Listed, ...]:
+def list_table(found: Sequence[Listed]) -> str:
+    """Give parameters as a table in text, with a head and a word on how to read it.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.listing import Listed, list_table
+    >>> shaft = Listed("shaft_height", "m", "height", 5.0, 2.71649, 11.55896, (), None)
+    >>> for row in list_table([shaft]).splitlines()[:2]:
+    ...     print(row)
+    parameter     present      from     to  what it is
+    shaft_height   5.0000  m  2.717  11.55  height
+    """
+    rows = [_HEAD, *(each.words for each in found)]
+    wide = [max(len(row[k]) for row in rows) for k in range(len(_HEAD) - 1)]
+    lines = []
+    for row in rows:
+        name, *numbers, last = row
+        cells = [name.ljust(wide[0])]
+        cells += [each.rjust(room) for each, room in zip(numbers, wide[1:], strict=True)]
+        lines.append("  ".join([*cells, last]))
+    return "\n".join([*lines, _FOOT])
+
+
+def _end(value: float | None, inward: Callable[[float], int]) -> str:
+    """Give an end of an interval, rounded inward."""
+    if value is None:
+        return "any"
+    whole = math.floor(math.log10(abs(value))) if value else 0
+    scale = 10.0 ** (_DIGITS - 1 - whole)
+    return f"{inward(value * scale) / scale:.{_DIGITS}g}"
+
+
+def listing(state: HullState, layout: Layout | None = None) -> tuple[Listed, ...]:
     """List all named parameters of a hull.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    layout : Layout or None
+        How far the fields reach, on which intervals depend; None for the usual reaches.
 
     Examples
     --------
@@ -67,20 +127,27 @@ def listing(state: HullState) -> tuple[Listed, ...]:
     >>> found["breadth"].value, found["bulb_length"].reason
     (10.0, 'no profile forward of FP below z=6.250')
     """
+    given = layout or Layout()
     found = measure_all(state)
-    parent, box = parent_of(state, found), hull_box(state, 0.0)
-    return tuple(_listed(name, found, parent, box) for name in CATALOGUE)
+    # the box in which a variation is certified
+    parent, box = parent_of(state, found), hull_box(state, TOLERANCE)
+    return tuple(_listed(name, found, parent, box, given) for name in CATALOGUE)
 
 
-def _listed(name: str, found: Measures, parent: Parent, box: FloatArray) -> Listed:
-    entry, value, reason = CATALOGUE[name], found.get(name), found.absent.get(name)
+def _listed(name: str, found: Measures, parent: Parent, box: FloatArray, layout: Layout) -> Listed:
+    entry, reason = CATALOGUE[name], found.absent.get(name)
+    value = present(found, layout).get(name)
     low = high = None
-    if value is not None:
+    if value is None:
+        reason = reason or "the deck edge does not reach there"
+    else:
         try:
             low, high = (
                 each if math.isfinite(each) else None
-                for each in interval(parent, name, value, Layout(), box)
+                for each in interval(parent, name, value, layout, box)
             )
         except BadInputError as error:
-            value, reason = None, error.what
-    return Listed(name, entry.unit, entry.meaning, value, low, high, conflicts(name), reason)
+            reason = f"cannot be varied: {error.what.partition(': ')[2]}"
+    return Listed(
+        name, entry.unit, entry.meaning, value, low, high, conflicts(name, layout), reason
+    )

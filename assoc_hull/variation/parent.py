@@ -12,6 +12,14 @@ from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["Parent"]
 
+_MEASURED_AS = {
+    "body start": "parallel_body_start", "body end": "parallel_body_end",
+    "corner": "bilge_radius", "bilge low": "bilge_radius", "bilge high": "bilge_radius",
+    "deck": "depth", "bulb tip": "bulb_height", "bulb top": "bulb_height",
+    "boss": "shaft_height", "boss top": "bossing_radius", "transom": "transom_height",
+}  # fmt: skip
+"""The parameter by whose measure a place is known: if it is missing, that tells why."""
+
 
 @attrs.frozen(eq=False)
 class Parent:
@@ -54,12 +62,11 @@ class Parent:
         """
         found = self.places.get(place)
         if found is None or parameter in self.absent:
-            why = self.absent.get(parameter, f"the parent has no {place}")
+            measured = self.absent.get(_MEASURED_AS.get(place, ""), f"the parent has no {place}")
             raise BadInputError(
-                f"cannot vary '{parameter}': {why}",
-                "in vary",
+                f"cannot vary '{parameter}': {self.absent.get(parameter, measured)}", "in vary",
                 "leave it out, or give the parent one",
-            )
+            )  # fmt: skip
         return found
 
     def has(self, place: str) -> bool:

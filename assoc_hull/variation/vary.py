@@ -8,6 +8,7 @@ the measured values are the asked ones; then the hull is varied, in one step.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import attrs
 import numpy as np
@@ -19,18 +20,17 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.anchor import Measures
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.apply import Applied, apply
 from assoc_hull.variation.ask import Ask
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
-from assoc_hull.variation.compose import compose
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.fold_outside import fold_outside
-from assoc_hull.variation.limits import certified, hull_box
+from assoc_hull.variation.limits import Room, hull_box, present
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.script import script_of
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Target", "VariationReport", "vary_document"]
@@ -40,6 +40,9 @@ _MET = 1e-7
 
 _PROMISED = 1e-6
 _ROUNDS = 6
+
+_SAME = 1e-9
+"""A value (m, degrees) that is asked for and had already moves nothing of itself."""
 
 
 @attrs.frozen
@@ -85,6 +88,9 @@ class VariationReport:
         What changed, as of any edit.
     notes : tuple of str
         What else there is to know.
+    script : mapping or None
+        What was asked for as data: with it, `assoc_hull.variants.vary_by` repeats the variation.
+        None where layers were given that are not data.
     """
 
     targets: tuple[Target, ...]
@@ -95,6 +101,7 @@ class VariationReport:
     certificate: Certificate
     edit: EditReport
     notes: tuple[str, ...] = ()
+    script: Mapping[str, Any] | None = None
 
     def __str__(self) -> str:
         return "\n".join([*(str(each) for each in self.targets), *self.notes, str(self.edit)])
@@ -122,9 +129,9 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
             raise BadInputError(
                 f"cannot vary '{name}': {before.absent[name]}", "in vary", "leave it out"
             )
-    was = _values(before, ask)
+    was = present(before, ask.layout)
     found = _settle(document.state, parent, ask, was)
-    applied, report = _apply(document, found.map, parent, ask)
+    applied, report = _apply(document, found.map, parent, ask, was)
     reached = _measured(document.state, ask)
     targets = tuple(
         Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
@@ -133,7 +140,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     regions = (*found.map.regions(), *applied.regions)
     return found.map, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        _notes(found.map, document.state, ask),
+        _notes(found.map, document.state, ask), script_of(ask),
     )  # fmt: skip
 
 
@@ -148,13 +155,15 @@ class _Settled:
 
 def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]) -> _Settled:
     """Find the map whose applied values are the asked ones."""
-    aim, box = dict(ask.values), hull_box(state, ask.tolerance)
+    room = Room(parent, was, ask.layout, hull_box(state, ask.tolerance))
+    room.check(ask.values)
+    aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > _SAME}
     best, least = None, np.inf
     for rounds in range(1, _ROUNDS + 1):
-        vmap = _map(parent, aim, ask)
-        certificate = certified(vmap, box, parent, was, ask.layout)
+        vmap = VMap((*room.map(aim).layers, *ask.layers))
+        certificate = room.certified(vmap, aim)
         trial = Document(copy_of(state))
-        _apply(trial, vmap, parent, ask)
+        _apply(trial, vmap, parent, ask, was)
         reached = _measured(trial.state, ask)
         miss = {name: value - reached[name] for name, value in ask.values.items()}
         worst = max((abs(each) for each in miss.values()), default=0.0)
@@ -162,7 +171,11 @@ def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]
             best, least = _Settled(vmap, rounds, certificate), worst
         if worst <= _MET:
             break
-        aim = {name: aim[name] + miss[name] for name in aim}
+        # what others move away from a value that was to stay is asked for as well
+        aim = {
+            name: aim.get(name, ask.values[name]) + each
+            for name, each in miss.items() if name in aim or abs(each) > _MET
+        }  # fmt: skip
     if best is None or least > _PROMISED:
         name = max(miss, key=lambda each: abs(miss[each]))
         raise BadInputError(
@@ -181,12 +194,9 @@ def _notes(vmap: VMap, state: HullState, ask: Ask) -> tuple[str, ...]:
     return (f"fold_outside_hull: the map folds at x={x:.3f} z={z:.3f}, where there is no hull",)
 
 
-def _map(parent: Parent, aim: Mapping[str, float], ask: Ask) -> VMap:
-    named = compose(parent, aim, ask.layout)
-    return VMap((*named.layers, *ask.layers))
-
-
-def _apply(document: Document, vmap: VMap, parent: Parent, ask: Ask) -> tuple[Applied, EditReport]:
+def _apply(
+    document: Document, vmap: VMap, parent: Parent, ask: Ask, was: Mapping[str, float]
+) -> tuple[Applied, EditReport]:
     """Apply a map as one step."""
     drivers = None if ask.drivers is None else Given(document.state).driving(ask.drivers)
     with Transaction(document, ask.name) as edit:
@@ -194,7 +204,7 @@ def _apply(document: Document, vmap: VMap, parent: Parent, ask: Ask) -> tuple[Ap
             edit, vmap, drivers=drivers, stations=ask.stations,
             follow=ask.planes == "follow", tolerance=ask.tolerance,
             particulars=_particulars(document.state, vmap, parent, ask),
-            radii=_radii(document.state, parent, ask),
+            radii=_radii(document.state, parent, ask, was),
         )  # fmt: skip
     report = edit.report
     if report is None:
@@ -202,13 +212,16 @@ def _apply(document: Document, vmap: VMap, parent: Parent, ask: Ask) -> tuple[Ap
     return applied, report
 
 
-def _radii(state: HullState, parent: Parent, ask: Ask) -> dict[str, float]:
+def _radii(
+    state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]
+) -> dict[str, float]:
     """Give the radius that is asked for of the bossing's end, by the key of the feature."""
-    if "bossing_radius" not in ask.values or not parent.has("boss"):
+    asked = ask.values.get("bossing_radius")
+    if asked is None or abs(asked - was["bossing_radius"]) <= _SAME or not parent.has("boss"):
         return {}
     boss = parent.places["boss"]
     return {
-        each.key: ask.values["bossing_radius"] for each in state.features
+        each.key: asked for each in state.features
         if each.centre is not None and each.kind == "circle"
         and bool((np.abs(boss - each.centre) <= _PROMISED).all())
     }  # fmt: skip
@@ -234,23 +247,10 @@ def _in_proportion(stored: float, measured: float, asked: float) -> float:
     return asked if stored == measured else stored * (asked / measured)
 
 
-def _values(measures: Measures, ask: Ask) -> dict[str, float]:
-    """Give measured values; that of the deck is taken where it is asked for."""
-    found = dict(measures)
-    place = {"fore": "at_FP", "aft": "at_AP"}.get(ask.layout.deck)
-    if place is not None and "deck_height" in found:
-        there = measures.anchors["deck_height"].numbers.get(place)
-        if there is None:
-            found.pop("deck_height")
-        else:
-            found["deck_height"] = there
-    return found
-
-
 def _measured(state: HullState, ask: Ask) -> dict[str, float]:
     """Measure what was asked for; amplitudes are what was asked for."""
     names = [name for name in ask.values if not CATALOGUE[name].amplitude]
-    found = _values(measure_all(state, names), ask)
+    found = present(measure_all(state, names), ask.layout)
     lost = [name for name in names if name not in found]
     if lost:
         raise BadInputError(

@@ -217,6 +217,7 @@ FLOATING: dict[str, Given] = {
         "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
         "stations": "number", "tolerance": 2e-3, "name": None, "in_place": False,
     },
+    "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip
 
 

@@ -2,11 +2,13 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
+from assoc_hull.variation.catalogue import NAMES
 from tests.unit.cli.conftest import Json
 
 
@@ -36,11 +38,28 @@ def test_a_script_and_options_are_one_request(hull: Path, tmp_path: Path, facts:
 
 
 def test_the_list_has_a_line_per_parameter(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Twenty, each with its value or the reason why there is none."""
+    """Twenty below the head, each with its value or the reason why there is none."""
     assert main(["vary", str(hull), "--list"]) == 0
     rows = capsys.readouterr().out.splitlines()
-    assert len(rows) == 20
+    assert [row.split()[0] for row in rows[1:21]] == list(NAMES)
     assert any(row.startswith("bulb_length") and "no profile" in row for row in rows)
+    assert any(row.startswith("depth") and "not with deck_height" in row for row in rows)
+
+
+def test_intervals_are_those_of_the_layout(hull: Path, facts: Json) -> None:
+    """A field that reaches further leaves more room; an interval holds the present value."""
+
+    def listed(*options: str) -> dict[str, dict[str, Any]]:
+        found = facts("vary", hull, "--list", *options)["parameters"]
+        return {each["name"]: each for each in found}
+
+    usual, far = listed(), listed("--layout", "bow_from=0.5")
+    assert usual["draught"]["low"] < usual["draught"]["value"] < usual["draught"]["high"]
+    assert far["stem_rake_deg"]["low"] < usual["stem_rake_deg"]["low"] < 0.0
+    assert far["breadth"] == usual["breadth"]
+    assert usual["deadrise_deg"]["reason"] == (
+        "cannot be varied: parent has no parallel middle body"
+    )
 
 
 @pytest.mark.parametrize(

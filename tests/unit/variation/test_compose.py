@@ -66,6 +66,23 @@ def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
     assert (foot == ship.places["stem"]).all()
 
 
+def test_a_shaft_is_raised_as_a_whole(ship: Parent) -> None:
+    """The map is level at its height, so that the bossing keeps its radius; the base stays."""
+    vmap = compose(ship, {"shaft_height": 6.0}, Layout())
+    boss = ship.places["boss"][None]
+    assert np.abs(vmap.jacobian(boss)[0] - np.eye(3)).max() < 1e-14
+    assert (vmap(boss - [0.0, 0.0, 5.0]) == boss - [0.0, 0.0, 5.0]).all()
+    assert vmap(boss)[0, 2] == 6.0
+
+
+def test_a_rigid_shaft_moves_its_bossing_by_one_amount(ship: Parent) -> None:
+    """Where the layout says so: from its lower to its upper side."""
+    vmap = compose(ship, {"shaft_height": 6.0}, Layout(rigid=True))
+    z = np.linspace(4.275, 5.725, 51)
+    places = np.column_stack([np.full(51, 6.0), np.zeros(51), z])
+    assert np.abs(vmap(places)[:, 2] - z - 1.0).max() < 1e-14
+
+
 @pytest.mark.parametrize("name", [each for each in NAMES if each not in ("draught", "length")])
 def test_a_parameter_alone_leaves_the_rest_of_the_ship_to_the_bit(ship: Parent, name: str) -> None:
     """Outside its regions no place moves, and the Jacobian is the unit matrix."""
