@@ -17,7 +17,7 @@ from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
 from drawings.stern import bulk_carrier, carrier_combs, counter
-from drawings.variation import variation_fields
+from drawings.variation import rounded_hat, variation_fields
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
@@ -106,6 +106,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "counter": counter,
     "carrier_combs": carrier_combs,
     "variation_fields": variation_fields,
+    "rounded_hat": rounded_hat,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }

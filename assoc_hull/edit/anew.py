@@ -15,6 +15,7 @@ from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.marks import find_marks
 from assoc_hull.edit.remeet import strike_line
 from assoc_hull.edit.shift import cut_anew, rows_of
+from assoc_hull.edit.stays import NO_STAYS, Stays, rest
 from assoc_hull.edit.touching import Touch, clear, with_touches
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.crossing import meet_planes
@@ -29,14 +30,16 @@ def take_out(edit: Transaction, work: Carried) -> None:
     state, put = edit.state, edit.journal.put
     for line in sorted(work.anew, key=lambda line: str(state.lines.key.data[line])):
         mine = np.array(state.lines.curves.data[line], np.int64)
-        crossings, placed = rows_of(state, mine)
+        stays = work.stays[line]
+        crossings, placed = (np.setdiff1d(rows, stays.rows()) for rows in rows_of(state, mine))
         edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
+        rest(edit.maker, stays)
         strike_line(edit, line)
         put(state.rows.xyz, placed, work.image[placed])
         put(state.curves.alive, mine, False)
         put(state.lines.alive, [line], False)
         touches = work.touched(line)
-        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line], touches))
+        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line], touches, stays))
 
 
 def bring_back(
@@ -44,8 +47,9 @@ def bring_back(
     line: int,
     known: dict[tuple[int, int], int],
     touches: Sequence[Touch] = (),
+    stays: Stays = NO_STAYS,
 ) -> None:
-    """Cut a line that was taken out from the others as they are now.
+    """Cut a line that was taken out from the others as they are now; what stays joins the cut.
 
     Raises
     ------
@@ -61,7 +65,7 @@ def bring_back(
         clear(edit.maker, [each for each in touches if _bounds(state, each)])
     put(state.lines.alive, [line], True)
     put(state.curves.alive, state.lines.curves.data[line], True)
-    cut_anew(edit, line, marks, _still_there(edit, line, known))
+    cut_anew(edit, line, marks, _still_there(edit, line, known), stays)
 
 
 def _bounds(state: HullState, touch: Touch) -> bool:

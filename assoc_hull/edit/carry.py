@@ -14,6 +14,7 @@ import numpy as np
 
 from assoc_hull.edit.carry_planes import PLANE, Planes, flat_borders, heights, into_planes
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.stays import Stays
 from assoc_hull.edit.touching import Touch
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
@@ -86,6 +87,10 @@ class Carried:
     anew : dict of int to dict of (int, int) to int
         Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
         Crossings with drivers by the driver and the meeting, counted along it.
+    stays : dict of int to Stays
+        What of followers that are cut wholly anew stays as it was, nevertheless.
+    held : set of int
+        All points that stay so.
     touches : dict of (int, int) to Touch
         Where planes are tangent to features, by the curve of the feature and the line.
     fine : dict of int to float, m
@@ -114,6 +119,8 @@ class Carried:
     come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
     contacts: list[tuple[int, int]] = attrs.field(factory=list)
     anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    stays: dict[int, Stays] = attrs.field(factory=dict)
+    held: set[int] = attrs.field(factory=set)
     touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
     fine: dict[int, float] = attrs.field(factory=dict)
     driven: set[int] = attrs.field(factory=set)
@@ -147,7 +154,9 @@ class Carried:
         return bool(self.driver[self.state.line_of(curve)])
 
     def apart(self, row: int) -> bool:
-        """Tell whether a point lies on a follower that is cut wholly anew."""
+        """Tell whether a point lies on a follower that is cut wholly anew, and does not stay."""
+        if row in self.held:
+            return False
         curves = self.state.rows.curve.data[row].tolist()
         return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
 

@@ -24,6 +24,7 @@ from assoc_hull.edit.keep import deviation_with
 from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.planes import new_plane, ready_group
 from assoc_hull.edit.remeet import enter_line
+from assoc_hull.edit.stays import NO_STAYS, Stays
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import generates
 from assoc_hull.edit.touching import NO_ROOT
@@ -150,6 +151,7 @@ def make_piece(
     keep: float,
     curve: int | None = None,
     known: Mapping[tuple[int, int], int] | None = None,
+    stays: Stays = NO_STAYS,
 ) -> int:
     """Make one curve of a line from marks in order along it.
 
@@ -167,6 +169,8 @@ def make_piece(
         The curve to define; a new one if None.
     known : mapping of (int, int) to int, or None
         Crossings that are there already, by the other curve and the mark's `root`.
+    stays : Stays
+        Runs of points that take the place of the marks on them.
 
     Returns
     -------
@@ -177,29 +181,31 @@ def make_piece(
     kind, direction = _kinds(state, line, marks)
     ruled = _pick(state, line, marks, kind, direction)
     picked = hold(state, marks, kind, direction, ruled)
+    run = stays.of(state, marks)
+    picked |= (run >= 0) & ((np.roll(run, 1) != run) | (np.roll(run, -1) != run))
     if curve is None:
         curve = edit.maker.curve(line, Ends())
-    chosen = marks.take(np.flatnonzero(picked))
+    chosen, run = marks.take(np.flatnonzero(picked)), run[picked]
     roles = [
         role if ruled[i] else Role.WATCHED
         for i, role in zip(np.flatnonzero(picked), _roles(state, line, chosen, keep), strict=True)
     ]
-    own = np.flatnonzero(~chosen.guide)
+    own = np.flatnonzero(~chosen.guide & (run < 0))
     specs = [
         _spec(state, curve, chosen, i, roles[i], int(kind[picked][i]), direction[picked][i])
         for i in own.tolist()
     ]
     rows = dict(zip(own.tolist(), _rows(edit, chosen.take(own), specs, known or {}), strict=True))
-    stand_in = [
-        PointSpec(curve, chosen.xyz[i], Sort.ADOPTED)
-        for i, role in enumerate(roles)
-        if role is Role.WATCHED
-    ]
-    new = iter(edit.maker.points(stand_in).tolist())
-    order = [next(new) if role is Role.WATCHED else rows[i] for i, role in enumerate(roles)]
-    edit.maker.define(curve, _rounded(edit, curve, chosen, order))
+    adopted = [i for i, role in enumerate(roles) if role is Role.WATCHED and run[i] < 0]
+    points = edit.maker.points([PointSpec(curve, chosen.xyz[i], Sort.ADOPTED) for i in adopted])
+    rows |= dict(zip(adopted, points.tolist(), strict=True))
+    order = [stays.stand_in(int(on)) if on >= 0 else rows[i] for i, on in enumerate(run)]
+    order = _rounded(edit, curve, chosen, order)
+    whole = stays.splice(state, order)
+    edit.maker.remove_rows(sorted({row for row in order if row >= 0} - set(whole)))
+    edit.maker.define(curve, whole)
     for i, role in enumerate(roles):
-        if role is Role.SHARED:
+        if role is Role.SHARED and run[i] < 0:
             thread(edit.maker, int(chosen.curve[i]), int(rows[i]))
             edit.pending.curves.add(int(chosen.curve[i]))
     return curve

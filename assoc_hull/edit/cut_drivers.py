@@ -14,14 +14,14 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
+from assoc_hull.edit.find_stays import find_stays
 from assoc_hull.edit.image import Image, Roots, misfit
-from assoc_hull.edit.topology import ONE_PLACE
-from assoc_hull.edit.touching import NO_ROOT, touch_rows, without_double
+from assoc_hull.edit.other_ends import ends_change, pairs_of, recognise
+from assoc_hull.edit.touching import touch_rows
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
 from assoc_hull.geometry.spline import loft
 from assoc_hull.model.address import address
-from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import BoundaryKind, Role, Sort
 from assoc_hull.model.index import Index
 from assoc_hull.model.make import CrossingSpec
@@ -61,6 +61,7 @@ def cut_drivers(work: Carried, index: Index) -> Image:
         some = _partners(work, index, line, curves)
         if len(some):
             _cut_with(work, image, curves, some, line, slid)
+    find_stays(work)
     for local, curve in enumerate(curves.tolist()):
         knots = image.batch.knot[image.batch.start[local] : image.batch.start[local + 1]]
         _order(work, curve, knots, slid)
@@ -102,10 +103,10 @@ def _cut_with(
     if not needed:
         return
     roots = image.meet(normal, offset)
-    if any(_ends_change(work, int(curves[local]), line, local, roots) for local in needed):
+    if any(ends_change(work, int(curves[local]), line, local, roots) for local in needed):
         work.anew[line] = {}
         for local in some.tolist():
-            _recognise(work, int(curves[local]), line, local, roots)
+            recognise(work, int(curves[local]), line, local, roots)
         return
     for local in needed:
         _match(work, int(curves[local]), line, local, roots, slid)
@@ -118,56 +119,12 @@ def _off(work: Carried, curve: int, line: int) -> bool:
     return not bool(work.direct[rows].all())
 
 
-def _pairs(
-    work: Carried, curve: int, line: int, local: int, roots: Roots
-) -> tuple[IntArray, IntArray, list[tuple[int, int]]]:
-    """Align the old meetings of a driver with a plane with the new ones of its image."""
-    meets: Meets = work.state.curves.meets.data[curve]
-    old = np.flatnonzero(meets.line == line)
-    new = np.flatnonzero(roots.curve == local)
-    touch = work.touches.get((curve, line))
-    new = new[without_double(roots.xyz[new], touch.xyz if touch else None)]
-    carried = work.space.places(meets.xyz[old]) if len(old) else np.zeros((0, 3))
-    return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
-
-
-def _ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) -> bool:
-    """Tell whether a follower would end on a boundary curve more or fewer times, or far off."""
-    state = work.state
-    if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
-        return False
-    meets: Meets = state.curves.meets.data[curve]
-    # A crossing at a double root has no meeting; a line may end squarely on sign 0 as well.
-    double = set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
-    if bool(double) != ((curve, line) in work.touches):
-        return True
-    old, new, pairs = _pairs(work, curve, line, local, roots)
-    lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
-    if len(pairs) < len(new) or bool((meets.row[old[lost]] >= 0).any()):
-        return True
-    slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
-    return any(float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip)
-
-
-def _recognise(work: Carried, curve: int, line: int, local: int, roots: Roots) -> None:
-    """Note which crossings of a line that is cut anew are which meetings of a driver."""
-    meets: Meets = work.state.curves.meets.data[curve]
-    old, _, pairs = _pairs(work, curve, line, local, roots)
-    for one, other in pairs:
-        row = int(meets.row[old[one]])
-        if row >= 0:
-            work.anew[line][curve, other] = row
-    if (curve, line) in work.touches:
-        for row in touch_rows(work.state, curve, line):
-            work.anew[line][curve, NO_ROOT] = row
-
-
 def _match(
     work: Carried, curve: int, line: int, local: int, roots: Roots, slid: dict[int, float]
 ) -> None:
     """Say which crossing each meeting of one image with one plane is."""
     meets: Meets = work.state.curves.meets.data[curve]
-    old, new, pairs = _pairs(work, curve, line, local, roots)
+    old, new, pairs = pairs_of(work, curve, line, local, roots)
     if (curve, line) in work.touches:
         for row in touch_rows(work.state, curve, line):
             work.value[row] = work.touches[curve, line].xyz

@@ -18,10 +18,14 @@ from assoc_hull.model.state import HullState, Meets, curve_node
 __all__ = ["enter_line", "meet_groups", "partner_curves", "strike_line", "strike_planes"]
 
 _ROUNDS = 4
+_NO_POINTS: IntArray = np.zeros(0, np.int64)
 
 
-def enter_line(edit: Transaction, line: int) -> None:
-    """Loft the curves of a new line, and enter its plane with the curves it may meet."""
+def enter_line(edit: Transaction, line: int, stay: IntArray = _NO_POINTS) -> None:
+    """Loft the curves of a new line, and enter its plane with the curves it may meet.
+
+    At crossings that `stay` the line is as it was, and needs no points to be held there.
+    """
     state, journal = edit.state, edit.journal
     edit.document.refresh()
     mine = np.array(state.lines.curves.data[line], np.int64)
@@ -35,7 +39,7 @@ def enter_line(edit: Transaction, line: int) -> None:
         meets: Meets = state.curves.meets.data[curve]
         for spot in np.flatnonzero(meets.row < 0).tolist():
             bear(edit.maker, curve, spot, set(), watch=True)
-    _hold_shape(edit, network, mine)
+    _hold_shape(edit, network, mine, stay)
     set_limits(state, journal, watched_on(state, mine))
     edit.pending.fresh += mine.tolist()
 
@@ -63,11 +67,11 @@ def meet_groups(edit: Transaction, a: str, b: str) -> None:
     set_limits(state, edit.journal, np.array(born, np.int64))
 
 
-def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray) -> None:
+def _hold_shape(edit: Transaction, network: HullNetwork, mine: IntArray, stay: IntArray) -> None:
     """Give a new line adopted points where it would else pass the others too far off."""
     state = edit.state
     for _ in range(_ROUNDS):
-        rows = watched_on(state, mine)
+        rows = np.setdiff1d(watched_on(state, mine), stay)
         wide = rows[gap_at(state, rows) > 0.5 * state.tolerances.adoption]
         if not len(wide):
             return

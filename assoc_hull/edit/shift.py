@@ -16,6 +16,7 @@ from assoc_hull.edit.marks import Marks, find_marks, spread
 from assoc_hull.edit.pieces import gather, match_pieces
 from assoc_hull.edit.planes import shifted_plane
 from assoc_hull.edit.remeet import enter_line, strike_line
+from assoc_hull.edit.stays import NO_STAYS, Stays, come_back, compute, give_up, settle_runs
 from assoc_hull.edit.thread import thread
 from assoc_hull.edit.topology import unmeet
 from assoc_hull.edit.touching import NO_ROOT
@@ -66,7 +67,13 @@ def shift_line(edit: Transaction, line: int, position: float) -> None:
     cut_anew(edit, line, marks, known)
 
 
-def cut_anew(edit: Transaction, line: int, marks: Marks, known: dict[tuple[int, int], int]) -> None:
+def cut_anew(
+    edit: Transaction,
+    line: int,
+    marks: Marks,
+    known: dict[tuple[int, int], int],
+    stays: Stays = NO_STAYS,
+) -> None:
     """Cut a line again where its plane now meets the hull; nothing else may read it.
 
     Parameters
@@ -80,23 +87,32 @@ def cut_anew(edit: Transaction, line: int, marks: Marks, known: dict[tuple[int, 
     known : dict of (int, int) to int
         Crossings that keep their identity, by the other curve and the meeting, counted
         along it.
+    stays : Stays
+        Runs of the line that stay as they are.
     """
     state = edit.state
     mine = np.array(state.lines.curves.data[line], np.int64)
-    crossings, placed = rows_of(state, mine)
+    every, placed = rows_of(state, mine)
+    parts = pieces_of(edit, line, marks)
+    left = stays.on(state, [spread(part) for part in parts])
+    give_up(edit.maker, stays, left)
+    crossings, placed = (np.setdiff1d(rows, left.rows()) for rows in (every, placed))
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
-    _drop_adopted(edit, mine)
-    pieces = match_pieces(edit, line, pieces_of(edit, line, marks), known)
+    _drop_adopted(edit, mine, left.rows())
+    pieces = match_pieces(edit, line, parts, known)
+    settle_runs(edit.maker, left, pieces)
     for curve, piece in pieces:
-        make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known)
+        make_piece(edit, line, spread(piece), state.tolerances.keep, curve, known, left)
+    come_back(edit.maker, left)
     kept = set(known.values())
     edit.maker.remove_rows([row for row in crossings.tolist() if row not in kept])
     _bring_along(edit, line, known)
     gather(edit, line, pieces, known)
-    enter_line(edit, line)
+    enter_line(edit, line, left.rows())
+    edit.pending.curves |= compute(edit.maker, left)
     _carry(edit, np.array([curve for curve, _ in pieces]), placed)
     _drop_lost(edit, np.array([curve for curve, _ in pieces]), np.array(sorted(kept), np.int64))
-    _tell(edit, crossings, np.array([curve for curve, _ in pieces]))
+    _tell(edit, every, np.array([curve for curve, _ in pieces]))
 
 
 def _tell(edit: Transaction, before: IntArray, curves: IntArray) -> None:
@@ -107,11 +123,12 @@ def _tell(edit: Transaction, before: IntArray, curves: IntArray) -> None:
     edit.pending.gone += sorted(keys[row] for row in np.setdiff1d(before, after).tolist())
 
 
-def _drop_adopted(edit: Transaction, mine: IntArray) -> None:
+def _drop_adopted(edit: Transaction, mine: IntArray, stay: IntArray) -> None:
     """Take the line's own adopted points out: they held the shape of another place."""
     table = edit.state.rows
     own = table.alive.data & np.isin(table.curve.data[:, 0], mine)
-    edit.maker.remove_rows(np.flatnonzero(own & (table.sort.data == Sort.ADOPTED)))
+    own = np.flatnonzero(own & (table.sort.data == Sort.ADOPTED))
+    edit.maker.remove_rows(np.setdiff1d(own, stay))
 
 
 def rows_of(state: HullState, mine: IntArray) -> tuple[IntArray, IntArray]:

@@ -257,7 +257,8 @@ def _remove(edit: Transaction, work: Carried) -> None:
 def _tell(edit: Transaction, work: Carried, added: int, before: Particulars) -> None:
     """Put into the report what was carried and what was cut again."""
     state, pending = edit.state, edit.pending
-    lines = sorted(state.live("lines").tolist(), key=lambda line: str(state.lines.key.data[line]))
+    every = {*state.live("lines").tolist(), *work.anew}
+    lines = sorted(every, key=lambda line: str(state.lines.key.data[line]))
     for line in lines:
         key = str(state.lines.key.data[line])
         (pending.carried if work.driver[line] else pending.cut_again).append(key)

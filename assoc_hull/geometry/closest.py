@@ -197,9 +197,8 @@ def _nearest_of(
     t, xyz, distance = _extremes(batch, segment, points[item])
     begins = np.searchsorted(item, np.arange(len(points)))
     least = np.minimum.reduceat(distance.min(axis=1), begins)
-    # Pairs and their places run along the curve, so the first good one has the lowest t. A place
-    # of the curve itself has no rounding to be forgiven.
-    good = distance <= np.where(least > 0.0, least + slack, 0.0)[item][:, None]
+    # Pairs and their places run along the curve, so the first good one has the lowest t.
+    good = distance <= (least + slack)[item][:, None]
     rank = np.where(good, np.arange(good.size).reshape(good.shape), good.size)
     chosen = np.minimum.reduceat(rank.min(axis=1), begins)
     return t.ravel()[chosen], xyz.reshape(-1, 3)[chosen], distance.ravel()[chosen]
