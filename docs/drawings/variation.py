@@ -28,13 +28,13 @@ _MORE = {
 
 
 def variation_fields() -> Figure:
-    """Draw the local fields that six named parameters lay out together."""
+    """Draw the fields that six named parameters lay out together."""
     hull = ah.examples.bulk_carrier_207k()
     found = measure_all(hull.state)
     asked = {name: found[name] + more for name, more in _MORE.items()}
-    (layer,) = compose(parent_of(hull.state, found), asked, Layout()).layers
-    assert isinstance(layer, FieldLayer)
-    return field_plan(hull, layer, paper="A4")
+    layers = compose(parent_of(hull.state, found), asked, Layout()).layers
+    fields = [field for each in layers if isinstance(each, FieldLayer) for field in each.fields]
+    return field_plan(hull, FieldLayer("all", tuple(fields)), paper="A4")
 
 
 def rounded_hat() -> Figure:
