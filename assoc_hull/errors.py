@@ -339,11 +339,9 @@ class FoldError(AssocHullError, ValueError):
         Boundary curves of the field below and above the witness, with their heights, m.
     node : float or None, m
         The nearest node along the ship.
-    interval : (float, float) or None
+    interval, unit : (float, float) or None, {"m", "deg"}
         Between these values the named parameter at fault may be asked for alone; infinite where
         nothing ends it.
-    unit : {"m", "deg"}
-        Of the interval.
     part : float or None
         So much of all changes that were asked for together is allowed, if each alone is.
     """
@@ -363,11 +361,9 @@ class FoldError(AssocHullError, ValueError):
 
     def __str__(self) -> str:
         x, y, z = self.witness
-        across = f" y={y:.3f}" if y else ""
-        text = (
-            f"variation: '{self.field or self.layer}' {self._verdict()} at x={x:.3f}{across} "
-            f"z={z:.3f} ({self.minor}={self.least:.3f})"
-        )
+        at = f"x={x:.3f}" + (f" y={y:.3f}" if y else "") + f" z={z:.3f}"
+        text = f"variation: '{self.field or self.layer}' {self._verdict()} at {at}"
+        text += f" ({self.minor}={self.least:.3f})"
         if self.between:
             walls = " and ".join(f"'{name}' ({height:.3f})" for name, height in self.between)
             text += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
