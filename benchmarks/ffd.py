@@ -37,7 +37,8 @@ class Lattice:
         size = self.box[1] - self.box[0]
         st = (xyz - self.box[0]) / size
         rows = [_slopes(st[:, i]) / size[i] if i == along else _values(st[:, i]) for i in range(3)]
-        return np.einsum("ni,nj,nk->nijk", *rows).reshape(len(xyz), SIDE**3)
+        found: FloatArray = np.einsum("ni,nj,nk->nijk", *rows).reshape(len(xyz), SIDE**3)
+        return found
 
 
 def _values(t: FloatArray) -> FloatArray:

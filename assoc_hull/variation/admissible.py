@@ -17,7 +17,10 @@ __all__ = ["admissible"]
 
 _ROUNDS = 60
 _NEAR = 1e-9
-"""The least minor at an end is the margin to so much, or the end is known to so much of itself."""
+"""An end is known to so much of itself,"""
+
+_UNSURE = 1e-7
+"""or the least minor there is the margin to twice so much: nearer, bounds leave it undecided."""
 
 _LARGE = 16.0
 """Steps grow so much at most."""
@@ -76,7 +79,7 @@ def admissible(
             found = certify(layer_of(amplitude), box, least)
         except BadInputError:
             return -math.inf
-        return found.least - least if found.certified else min(found.least - least, -_NEAR)
+        return found.least - least if found.certified else min(found.least - least, -_UNSURE)
 
     return _end(spare, present, -step), _end(spare, present, step)
 
@@ -97,7 +100,7 @@ def _end(spare: Callable[[float], float], present: float, step: float) -> float:
         held, room = failed, lack
         failed, lack = held + beyond, spare(held + beyond)
     for rounds in range(_ROUNDS):
-        if abs(failed - held) <= _NEAR * abs(failed - present) or room <= _NEAR:
+        if abs(failed - held) <= _NEAR * abs(failed - present) or room <= 2.0 * _UNSURE:
             break
         tried = _between(held, room, failed, lack, halve=rounds % 3 == 2)
         value = spare(tried)

@@ -53,7 +53,8 @@ def certify(what: VMap | Layer, box: ArrayLike, least: float = MARGIN) -> Certif
     Returns
     -------
     Certificate
-        Of a map, that of the layer with the least minor, refused ones first.
+        Of a map, that of the layer with the least minor, refused ones first; its bound holds for
+        all layers.
 
     Raises
     ------
@@ -82,7 +83,10 @@ def certify(what: VMap | Layer, box: ArrayLike, least: float = MARGIN) -> Certif
         found.append(_layer(layer, corners, margin))
     refused = [each for each in found if not each.certified]
     nothing = _nothing(corners, margin)
-    return min(refused or found, key=lambda each: each.least, default=nothing)
+    worst = min(refused or found, key=lambda each: each.least, default=nothing)
+    if refused or not found:
+        return worst
+    return attrs.evolve(worst, bound=min(each.bound for each in found))
 
 
 def _box(box: ArrayLike) -> FloatArray:

@@ -29,8 +29,10 @@ _REFUSED = 20_000
 _SHARP = 1e-3
 """What is refused is looked at in so many boxes, to find its least value to so much."""
 
-_ZOOMS = 24
-_SAMPLES = 5
+_ZOOMS = 18
+_CLOSER = 0.4
+_SAMPLES = {1: 5, 2: 5, 3: 3}
+"""A side of a box, by how many sides boxes have: what they miss, halving them finds."""
 
 _Lows = Callable[[FloatArray, FloatArray], FloatArray]
 _Values = Callable[[FloatArray], FloatArray]
@@ -86,7 +88,7 @@ def search_boxes(
 def _first(values: _Values, lower: FloatArray, upper: FloatArray) -> tuple[float, FloatArray]:
     """Find a low value on a grid in each of some boxes."""
     k = lower.shape[1]
-    grid = (np.array(list(np.ndindex(*(_SAMPLES,) * k))) + 0.5) / _SAMPLES
+    grid = (np.array(list(np.ndindex(*(_SAMPLES[k],) * k))) + 0.5) / _SAMPLES[k]
     places = lower[:, None, :] + grid[None, :, :] * (upper - lower)[:, None, :]
     met = values(places.reshape(-1, k))
     box, place = divmod(int(met.argmin()), len(grid))
@@ -106,7 +108,7 @@ def _lowest(
         met = values(places)
         if met.min() < least:
             least, where = float(met.min()), places[int(met.argmin())]
-        reach = 0.5 * reach
+        reach = _CLOSER * reach
     return least, where
 
 

@@ -18,12 +18,16 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.certify_breadth import half_breadths
 from assoc_hull.variation.certify_cells import Found, Minor, search
+from assoc_hull.variation.chain import Course
 from assoc_hull.variation.corner import CornerLayer
 
 __all__ = ["corner_minors", "skew_box"]
 
 _PLACES = 2000
 """Along the ship, to find where the course has a value."""
+
+_ZOOMS = 4
+_FINER = np.linspace(-1.0, 1.0, 41)
 
 
 def skew_box(layer: CornerLayer, box: FloatArray) -> tuple[tuple[float, float], ...]:
@@ -87,12 +91,27 @@ def _derivatives(
 
 def _place(layer: CornerLayer, box: FloatArray, parameters: FloatArray) -> FloatArray:
     a, eta, zeta = parameters.T
-    nodes = layer.course.nodes
-    x = np.append(np.linspace(box[0, 0], box[1, 0], _PLACES), np.clip(nodes, *box[:, 0]))
-    nearest = np.abs(layer.course.at(x)[None, :] - a[:, None]).argmin(axis=1)
     inward = eta * math.cos(layer.rise)
     z = zeta + layer.z - inward * math.tan(layer.rise)
-    return np.stack([x[nearest], layer.y - inward, z], axis=1)
+    return np.stack([_along(layer.course, box[:, 0], a), layer.y - inward, z], axis=1)
+
+
+def _along(course: Course, span: FloatArray, a: FloatArray) -> FloatArray:
+    """Find where a course has given values (n,), on ever finer grids."""
+    every = np.append(np.linspace(span[0], span[1], _PLACES), np.clip(course.nodes, *span))
+    x = np.broadcast_to(every, (len(a), len(every)))
+    reach = float(span[1] - span[0]) / _PLACES
+    found = _nearest(course, x, a)
+    for _ in range(_ZOOMS):
+        found = _nearest(course, np.clip(found[:, None] + reach * _FINER, *span), a)
+        reach *= 2.0 / (len(_FINER) - 1)
+    return found
+
+
+def _nearest(course: Course, x: FloatArray, a: FloatArray) -> FloatArray:
+    """Choose of places (n, m) those, (n,), whose values are nearest to given ones."""
+    chosen = np.abs(course.at(x) - a[:, None]).argmin(axis=1)
+    return np.asarray(x[np.arange(len(a)), chosen])
 
 
 def _centre(layer: CornerLayer, box: FloatArray) -> Found | None:
@@ -101,5 +120,8 @@ def _centre(layer: CornerLayer, box: FloatArray) -> Found | None:
     reach = layer.y / math.cos(layer.rise)
     if low > 0.0 or layer.eta_ratio == 1.0 or float(layer.fade.at(np.array([reach]))[0]) == 0.0:
         return None
-    x = float(layer.course.nodes[0])
+    least, most = layer.course.bounds(box[0, :1], box[1, :1])
+    if float(least[0]) == float(most[0]) == 0.0:
+        return None
+    x = float(_along(layer.course, box[:, 0], np.where(most > -least, most, least))[0])
     return Found("Y_y", -math.inf, -math.inf, (x, 0.0, layer.z), 1, 0)

@@ -2,7 +2,7 @@
 
 Dimensions of the whole hull come first, all else is laid out on the hull so scaled. Local
 fields add; as one may act at the anchor of another, their sizes are solved for, so that all
-targets are met together. Bilge and bottom follow as layers of their own.
+targets are met together. The rake of the stem, bilge and bottom follow as layers of their own.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["STEEPEST", "compose", "conflicts", "solve"]
+__all__ = ["STEEPEST", "compose", "conflicts", "refuse_clashes", "solve"]
 
 _CONDITION = 50.0
 """Above this, two parameters ask for the movement of one place."""
@@ -33,6 +33,9 @@ _LARGEST = 3.0
 STEEPEST = 80.0
 """Degrees; beyond, a small change of an angle moves a place by metres."""
 
+_RAKE = ("stem_rake_deg",)
+"""An angle between two places that other fields move: laid out where they have come to."""
+
 _BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
 _CLASHES = (
     ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
@@ -40,6 +43,7 @@ _CLASHES = (
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
 )
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
+"""No contradiction where the height is asked for at a perpendicular."""
 
 
 def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
@@ -71,31 +75,38 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     >>> vmap(np.array([[6.0, 5.0, 5.0]])).round(12).tolist()
     [[6.0, 5.1, 6.0]]
     """
-    _refuse_clashes(asked, layout)
+    refuse_clashes(asked, layout)
     _refuse_angles(asked)
     layers = list[Layer]()
     main = main_layer(parent, asked, layout)
     if main is not None:
         layers.append(main)
         parent = _scaled(parent, main, asked)
-    shares = list[Share]()
-    for name in CATALOGUE:
-        lays = CATALOGUE[name].lays
-        if name in asked and lays is not None and name not in _BILGE:
-            share = lays(parent, asked[name], layout)
-            if isinstance(share, Share) and share.change != 0.0:
-                shares.append(share)
-    if shares:
-        local = FieldLayer("local fields", solve(shares))
-        layers.append(local)
-        parent = parent.mapped(VMap((local,)))
+    local = [name for name in CATALOGUE if name not in (*_RAKE, *_BILGE)]
+    for title, names in (("local fields", local), ("rake", _RAKE)):
+        shares = _shares(parent, {name: asked[name] for name in names if name in asked}, layout)
+        if shares:
+            layer = FieldLayer(title, solve(shares))
+            layers.append(layer)
+            parent = parent.mapped(VMap((layer,)))
     for name in _BILGE:
         lays = CATALOGUE[name].lays
         if name in asked and lays is not None:
-            layer = lays(parent, asked[name], layout)
-            if not isinstance(layer, Share):
-                layers.append(layer)
+            own = lays(parent, asked[name], layout)
+            if not isinstance(own, Share):
+                layers.append(own)
     return VMap(tuple(layers))
+
+
+def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[Share]:
+    """Give what parameters put into a layer of fields; nothing where a value is as it was."""
+    found = list[Share]()
+    for name, value in asked.items():
+        lays = CATALOGUE[name].lays
+        share = None if lays is None else lays(parent, value, layout)
+        if isinstance(share, Share) and share.change != 0.0:
+            found.append(share)
+    return found
 
 
 def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Parent:
@@ -131,7 +142,14 @@ def _clashes(layout: Layout) -> tuple[tuple[str, str, str], ...]:
     return (*_CLASHES, _DECKS) if layout.deck == "midship" else _CLASHES
 
 
-def _refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+def refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+    """Refuse parameters that are one number.
+
+    Raises
+    ------
+    BadInputError
+        Both named, and why.
+    """
     for one, other, why in _clashes(layout):
         if one in asked and other in asked:
             raise BadInputError(

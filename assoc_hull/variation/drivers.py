@@ -58,22 +58,25 @@ def keeps(state: HullState, space: SpaceMap) -> Keeps:
     curves = state.live("curves")
     start, xyz = sample(SplineBatch.join([state.spline(c) for c in curves.tolist()]), _SAMPLES)
     line = np.repeat(state.curves.line.data[curves], np.diff(start))
-    slope, after = space.jacobians(xyz), space.places(xyz)
-    moved = np.abs(after - xyz) > PLANE
+    slope, image = space.jacobians(xyz), space.places(xyz)
+    moved = np.abs(image - xyz) > PLANE
     bent, gone = np.zeros((state.lines.count, 3), bool), np.zeros((state.lines.count, 3), bool)
     for axis in range(3):
         others = [each for each in range(3) if each != axis]
         np.logical_or.at(bent[:, axis], line, (slope[:, axis, others] != 0.0).any(axis=1))
-        bent[:, axis] |= _spread(after[:, axis], line, state.lines.count) > PLANE
         np.logical_or.at(gone[:, axis], line, moved[:, axis])
+        bent[:, axis] |= _spread(line, image[:, axis], state.lines.count) > PLANE
     return Keeps(~bent, ~gone)
 
 
-def _spread(level: FloatArray, line: IntArray, count: int) -> FloatArray:
-    """Give how far the places of each line lie apart along an axis, (count,), m."""
-    high, low = np.full(count, -np.inf), np.full(count, np.inf)
-    np.maximum.at(high, line, level)
+def _spread(line: IntArray, level: FloatArray, count: int) -> FloatArray:
+    """Give how far apart places of each line lie along an axis, (l,), m; nil without places.
+
+    A circle drawn anew moves its own points by less than a slope tells.
+    """
+    low, high = np.full(count, np.inf), np.full(count, -np.inf)
     np.minimum.at(low, line, level)
+    np.maximum.at(high, line, level)
     found: FloatArray = np.maximum(high - low, 0.0)
     return found
 

@@ -7,8 +7,9 @@ neighbourhood, in full on the circle, and fading with the distance from it,
     w = 1 - b5(distance / (6 r))
 
 so that the join stays smooth and the fade turns nowhere more than the hull does. Between two
-circles each counts in full at its own and not at all at the other. Beyond the fade nothing is
-added, and places keep the bits of the map. The tangent of the image of the circle is that of
+circles each counts in full at its own and not at all at the other, and their shares add up: what
+is straight between two that move alike stays straight. Beyond the fade nothing is added, and
+places keep the bits of the map. The tangent of the image of the circle is that of
 the new circle.
 """
 
@@ -125,7 +126,28 @@ class FeatureMap:
         return np.array([JOIN * each.before.radius for each in self.circles])
 
     def _weight(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give the weight of a circle at places, (n,), and its slopes by the distances, (c, n)."""
+        """Give the weight of a circle at places, (n,), and its slopes by the distances, (c, n).
+
+        The fade of all circles together, parted among them.
+        """
+        each = [self._part(k, away) for k in range(len(away))]
+        part, turn = np.array([p for p, _ in each]), np.array([t for _, t in each])
+        left, sink = self._left(away)
+        total, slope = part.sum(axis=0), turn.sum(axis=0)
+        total[total == 0.0] = 1.0
+        share = part[i] / total
+        bend = (turn[i] - share * slope) / total
+        return left * share, sink * share + left * bend
+
+    def _left(self, away: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give what the fades of all circles leave of corrections, (n,), and its slopes, (c, n)."""
+        reach = self._reach()[:, None]
+        gone, rise = QUINTIC.value(away / reach), QUINTIC.slope(away / reach) / reach
+        rest = [np.prod(np.delete(gone, j, axis=0), axis=0) for j in range(len(away))]
+        return 1.0 - np.prod(gone, axis=0), -rise * np.array(rest)
+
+    def _part(self, i: int, away: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give how much a circle counts beside the others, (n,), and its slopes, (c, n)."""
         reach, own = float(self._reach()[i]), away[i]
         both = own + away
         both[both == 0.0] = 1.0

@@ -7,7 +7,7 @@ asked, whatever the blend, and slopes stay near those of the lines.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -16,11 +16,13 @@ from assoc_hull.variation.blend import QUINTIC, Blend
 from assoc_hull.variation.chain import Course
 from assoc_hull.variation.field import Axis, Field, Piece, stack
 
-__all__ = ["hat"]
+__all__ = ["hat", "level"]
 
 _WINDOW = 0.3
 """Half-width of a window as a part of the smaller gap beside its anchor. At one half two
 boundaries would coincide."""
+
+_HALVINGS = 60
 
 
 def hat(
@@ -31,6 +33,7 @@ def hat(
     axis: Axis = "z",
     blend: Blend = QUINTIC,
     outward: Sequence[str] = (),
+    windows: Mapping[str, tuple[float, float]] | None = None,
 ) -> Field:
     """Lay out a field over anchors, from below.
 
@@ -47,11 +50,14 @@ def hat(
     blend : Blend
     outward : sequence of str
         Anchors whose windows point away from the plateau beside them, so that this stays rigid.
+    windows : mapping of str to (float, float) or None
+        How far windows reach down and up where that is not the usual, as parts of the gaps there.
+        Below the first and above the last anchor the gap next to it counts.
 
     Raises
     ------
     BadInputError
-        Anchors that do not rise, or fewer than two.
+        Anchors that do not rise, or fewer than two; windows that meet.
 
     Examples
     --------
@@ -69,11 +75,15 @@ def hat(
         raise BadInputError(f"field '{name}' has {len(z)} anchors", "in vary", "give at least two")
     stack(names, z.tolist())
     gap = np.diff(z)
-    reach = _WINDOW * np.column_stack([np.append(gap[0], gap), np.append(gap, gap[-1])])
+    beside = np.column_stack([np.append(gap[0], gap), np.append(gap, gap[-1])])
+    special = windows or {}
     slope = np.concatenate([[0.0], np.diff(d) / gap, [0.0]])
     labels, heights, pieces = list[str](), list[float](), list[Piece]()
     for j, anchor in enumerate(names):
-        below, above = _window(reach[j], d, j, rigid=anchor in outward)
+        if anchor in special:
+            below, above = (np.array(special[anchor]) * beside[j]).tolist()
+        else:
+            below, above = _window(_WINDOW * beside[j], d, j, rigid=anchor in outward)
         for sign, part, k in (("-", below, j), ("+", above, j + 1)):
             labels.append(f"{anchor}{sign}")
             heights.append(float(z[j]) - part if sign == "-" else float(z[j]) + part)
@@ -97,3 +107,39 @@ def _window(
         return min(below, above), min(below, above)
     plateau_above = j + 1 < len(d) and d[j + 1] == d[j]
     return (below, 0.0) if plateau_above else (0.0, above)
+
+
+def level(below: float, above: float, blend: Blend = QUINTIC) -> float:
+    """Give how wide a window is above its anchor, by its width below, to be level there.
+
+    Parameters
+    ----------
+    below, above : float, m
+        Gaps to the anchors beside, which stay.
+    blend : Blend
+
+    Returns
+    -------
+    float
+        Width above / width below.
+
+    Notes
+    -----
+    The lines rise by D / below and fall by D / above. Both give D at the anchor, so that the
+    slope there is D / below - b(s) (D / below + D / above), nil for b(s) = above / (below + above).
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.hat import level
+    >>> level(5.0, 5.0)
+    1.0
+    """
+    wanted = above / (below + above)
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if float(blend.value(np.array(middle))) < wanted:
+            low = middle
+        else:
+            high = middle
+    return (1.0 - high) / high

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import attrs
@@ -10,6 +10,10 @@ import attrs
 from assoc_hull.arguments import positive, shown
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
+from assoc_hull.variation.chain import Course
+from assoc_hull.variation.field import Field
+from assoc_hull.variation.hat import hat
+from assoc_hull.variation.ratios import ratios
 
 __all__ = ["Layout"]
 
@@ -18,18 +22,23 @@ __all__ = ["Layout"]
 class Layout:
     """Reaches of the fields of named parameters.
 
-    Lengths are parts of Lpp (``stern``, ``bow_from``, ``bilge_length``), of the draught or of
-    the radius they belong to.
+    Lengths are parts of Lpp (``stern``, ``shaft``, ``bow_from``, ``bilge_length``), of the
+    draught or of the radius they belong to.
 
     Attributes
     ----------
-    blend : {"quintic", "cubic"}
-        How pieces go over into each other.
+    blend : {"quintic", "cubic", "paper"}
+        How pieces go over into each other; "paper" is the form of Choi & Lee (1999), ratios of
+        heights blended by the cubic, see `assoc_hull.variation.ratios`.
     rigid : bool
-        Whether the bossing end moves as a whole, windows outward; else its circle is rounded at
-        the windows, and made a circle again.
+        Whether the bossing end moves as a whole between two windows; else one dome is level at
+        its centre, and its circle is made a circle again.
     stern : float
-        Fields of the stern fade over this part of Lpp forward of where they are measured.
+        Fields of the transom fade over this part of Lpp forward of it.
+    shaft : float
+        The shaft's height fades over this part of Lpp forward of the bossing end.
+    shaft_top : float
+        It fades up to this part of the draught.
     bossing : float
         That of the bossing's radius fades over this many radii.
     tube : float
@@ -40,8 +49,8 @@ class Layout:
         The bulb's height fades up to this part of the draught.
     bulb_side : float
         The bulb's half-breadth fades up to this part of the draught.
-    bulb_stem : float, m
-        The bulb's length fades up to this height above the design waterline; 0 pins the stem there.
+    bulb_stem : float
+        The bulb's length fades up to this part of the draught; 1 pins the stem at the waterline.
     transom_low : float
         The transom's height fades down to this part of the draught.
     transom_side : float
@@ -66,16 +75,18 @@ class Layout:
     0.3
     """
 
-    blend: Literal["quintic", "cubic"] = "quintic"
-    rigid: bool = True
+    blend: Literal["quintic", "cubic", "paper"] = "quintic"
+    rigid: bool = False
     stern: float = 0.25
+    shaft: float = 0.12
+    shaft_top: float = 1.25
     bossing: float = 20.0
     tube: float = 6.0
-    bow_from: float = 0.9
+    bow_from: float = 0.85
     bulb_top: float = 1.25
     bulb_side: float = 1.15
-    bulb_stem: float = 2.0
-    transom_low: float = 0.3
+    bulb_stem: float = 1.25
+    transom_low: float = 0.15
     transom_side: float = 0.5
     bilge: float = 8.0
     bilge_length: float = 0.2
@@ -88,6 +99,19 @@ class Layout:
     def curve(self) -> Blend:
         """The blend itself."""
         return QUINTIC if self.blend == "quintic" else CUBIC
+
+    def over(
+        self,
+        name: str,
+        anchors: Sequence[tuple[str, float, float]],
+        course: Course,
+        outward: Sequence[str] = (),
+        windows: Mapping[str, tuple[float, float]] | None = None,
+    ) -> Field:
+        """Lay out a z-field over anchors (name, height, displacement), m, as `hat` or `ratios`."""
+        if self.blend == "paper":
+            return ratios(name, anchors, course, blend=self.curve)
+        return hat(name, anchors, course, blend=self.curve, outward=outward, windows=windows or {})
 
     @classmethod
     def of(cls, given: Mapping[str, Any] | Layout | None) -> Layout:
@@ -113,7 +137,7 @@ class Layout:
 
 
 _WORDS = {
-    "blend": ("quintic", "cubic"),
+    "blend": ("quintic", "cubic", "paper"),
     "deck": ("fore", "midship", "aft"),
     "shift": ("c1", "c2", "end", "half", "lackenby"),
 }
@@ -128,7 +152,5 @@ def _check(name: str, value: object) -> None:
     elif name == "rigid":
         if not isinstance(value, bool):
             raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
-    elif name == "bulb_stem" and value == 0.0:
-        return
     else:
         positive(value, name, "in vary")

@@ -9,12 +9,14 @@ import numpy as np
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Field, Piece, stack
 from assoc_hull.variation.fields_layer import Rake
-from assoc_hull.variation.hat import hat
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
 
 __all__ = ["bulb_half_breadth", "bulb_height", "bulb_length", "stem_rake_deg"]
+
+_BULB = {"base": (0.3, 0.0), "bulb": (0.95, 0.3)}
+"""Windows of the bulb's hat, as parts of the gaps: one long bend from the base up."""
 
 
 def _fade(parent: Parent, layout: Layout) -> Chain:
@@ -29,7 +31,7 @@ def bulb_height(parent: Parent, asked: float, layout: Layout) -> Share:
     tip = parent.at("bulb tip", name)
     z, top = float(tip[2]), layout.bulb_top * parent.draught
     anchors = [("base", 0.0, 0.0), ("bulb", z, asked - z), ("above T", top, 0.0)]
-    field = hat(name, anchors, _fade(parent, layout), blend=layout.curve)
+    field = layout.over(name, anchors, _fade(parent, layout), windows=_BULB)
     return Share.at(name, "z", asked - z, tip, field)
 
 
@@ -48,12 +50,12 @@ def bulb_half_breadth(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 def bulb_length(parent: Parent, asked: float, layout: Layout) -> Share:
-    """Shift the bulb forward as a whole; the stem above it moves along by what fades."""
+    """Shift the bulb forward, full from its foremost point down; the stem moves by what fades."""
     name = "bulb_length"
-    tip, top = parent.at("bulb tip", name), parent.at("bulb top", name)
+    tip = parent.at("bulb tip", name)
     change = asked - (float(tip[0]) - parent.length)
     fade = _fade(parent, layout)
-    walls = stack(["bulb top", "above T"], [float(top[2]), parent.draught + layout.bulb_stem])
+    walls = stack(["bulb", "above T"], [float(tip[2]), layout.bulb_stem * parent.draught])
     pieces = Piece.along(fade, 0.0, change), Piece.along(fade, 0.0, 0.0)
     return Share.at(name, "x", change, tip, Field(name, "x", walls, pieces, layout.curve))
 

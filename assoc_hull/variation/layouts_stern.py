@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Field, Piece, Tube, stack
-from assoc_hull.variation.hat import hat
+from assoc_hull.variation.hat import level
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.share import Share
@@ -12,28 +12,46 @@ from assoc_hull.variation.share import Share
 __all__ = ["bossing_radius", "shaft_height", "transom_half_breadth", "transom_height"]
 
 
-def _fade(parent: Parent, layout: Layout, x: float, reach: float | None = None) -> Chain:
+_WINDOW, _DOME, _HIGHEST = 0.3, 0.95, 0.65
+"""Windows as parts of the gaps they lie in: the usual one, that of a dome down, and most up."""
+
+_FOOT = {"transom foot": (_WINDOW, 0.0), "transom": (0.5, 0.5)}
+"""A long slow bend from the foot up; nothing of it lies above the foot."""
+
+
+def _fade(layout: Layout, x: float, reach: float) -> Chain:
     """Give 1 up to x, and 0 from a reach (m) forward of it."""
-    length = layout.stern * parent.length if reach is None else reach
-    return Chain.through([x, x + length], [1.0, 0.0], layout.curve, "stern")
+    return Chain.through([x, x + reach], [1.0, 0.0], layout.curve, "stern")
 
 
 def shaft_height(parent: Parent, asked: float, layout: Layout) -> Share:
-    """Raise the shaft: a hat over base, bossing and design waterline."""
+    """Raise the shaft: a hat over base, bossing and above the design waterline.
+
+    One dome rises from the base, is level at the shaft and comes down far above it: frames of the
+    after body are nearly straight, and show every bend of a field.
+    """
     name = "shaft_height"
     boss = parent.at("boss", name)
     x, z = float(boss[0]), float(boss[2])
-    change = asked - z
-    anchors = [("shaft", z, change)]
-    rigid: tuple[str, ...] = ()
-    if parent.has("boss top"):
+    change, top = asked - z, layout.shaft_top * parent.draught
+    fade = _fade(layout, _cylinder(parent, x), layout.shaft * parent.length)
+    if layout.blend == "paper":
+        return Share.at(name, "z", change, boss, _ratio_shaft(parent, change, layout, fade))
+    anchors, rigid = [("shaft", z, change)], tuple[str, ...]()
+    if layout.rigid and parent.has("boss top"):
         r = float(parent.places["boss top"][2]) - z
         anchors = [("shaft-r", z - r, change), ("shaft+r", z + r, change)]
-        rigid = ("shaft-r", "shaft+r") if layout.rigid else ()
-    anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
-    fade = _fade(parent, layout, _cylinder(parent, x))
-    field = hat(name, anchors, fade, blend=layout.curve, outward=rigid)
+        rigid = ("shaft-r", "shaft+r")
+    anchors = [("base", 0.0, 0.0), *anchors, ("above T", top, 0.0)]
+    windows = {} if rigid else _dome(z, top, layout)
+    field = layout.over(name, anchors, fade, rigid, windows)
     return Share.at(name, "z", change, boss, field)
+
+
+def _dome(z: float, top: float, layout: Layout) -> dict[str, tuple[float, float]]:
+    """Give windows of one dome over z (m), level there; below the base there is no hull to bend."""
+    up = min(_DOME * z * level(z, top - z, layout.curve), _HIGHEST * (top - z))
+    return {"base": (_WINDOW, 0.0), "shaft": (_DOME, up / (top - z))}
 
 
 def _cylinder(parent: Parent, x: float) -> float:
@@ -47,7 +65,9 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
     x, h, y = float(boss[0]), float(boss[2]), float(side[1])
     r = float(top[2]) - h
-    fade = _fade(parent, layout, _cylinder(parent, x), layout.bossing * r)
+    fade = _fade(layout, _cylinder(parent, x), layout.bossing * r)
+    if layout.blend == "paper":
+        return Share.at(name, "y", asked - y, side, *_ratio_bossing(parent, asked, layout, fade))
     names = [f"boss{each}r" for each in ("-4", "-", "+", "+5")]
     walls = stack(names, [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
     wide, high = asked / y - 1.0, asked / r - 1.0
@@ -61,6 +81,35 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     return Share.at(name, "y", asked - y, side, out, up)
 
 
+def _ratio_shaft(parent: Parent, change: float, layout: Layout, fade: Chain) -> Field:
+    """Give the field of the shaft's height as Choi & Lee lay it out, of ratios of heights."""
+    h = float(parent.at("boss", "shaft_height")[2])
+    anchors = [("shaft", h, change)]
+    if parent.has("boss top"):
+        r = float(parent.places["boss top"][2]) - h
+        anchors = [("shaft-r", h - r, change), *anchors, ("shaft+r", h + r, change)]
+    anchors = [("base", 0.0, 0.0), *anchors, ("T", parent.draught, 0.0)]
+    return layout.over("shaft_height", anchors, fade)
+
+
+def _ratio_bossing(
+    parent: Parent, asked: float, layout: Layout, fade: Chain
+) -> tuple[Field, Field]:
+    """Give the bossing's fields as Choi & Lee lay them out: no tube, no pivot at its centre."""
+    name = "bossing_radius"
+    side, boss, top = (parent.at(key, name) for key in ("boss side", "boss", "boss top"))
+    h, y = float(boss[2]), float(side[1])
+    r = float(top[2]) - h
+    walls = stack(["shaft-3r", "shaft", "shaft+3r"], [h - 3.0 * r, h, h + 3.0 * r])
+    none, broad = Piece.along(fade, 0.0, 0.0), Piece.along(fade, asked / y - 1.0, 0.0)
+    anchors = [
+        ("base", 0.0, 0.0), ("shaft-r", h - r, r - asked), ("shaft", h, 0.0),
+        ("shaft+r", h + r, asked - r), ("T", parent.draught, 0.0),
+    ]  # fmt: skip
+    out = Field(name, "y", walls, (none, broad, none), layout.curve)
+    return out, layout.over(name, anchors, fade)
+
+
 def transom_height(parent: Parent, asked: float, layout: Layout) -> Share:
     """Raise the transom's lowest point; what lies above it, the deck included, moves along."""
     name = "transom_height"
@@ -68,7 +117,8 @@ def transom_height(parent: Parent, asked: float, layout: Layout) -> Share:
     x, z = float(low[0]), float(low[2])
     foot = min(layout.transom_low * parent.draught, 0.5 * z)
     anchors = [("transom foot", foot, 0.0), ("transom", z, asked - z)]
-    field = hat(name, anchors, _fade(parent, layout, x), blend=layout.curve)
+    fade = _fade(layout, x, layout.stern * parent.length)
+    field = layout.over(name, anchors, fade, windows=_FOOT)
     return Share.at(name, "z", asked - z, low, field)
 
 
@@ -78,7 +128,7 @@ def transom_half_breadth(parent: Parent, asked: float, layout: Layout) -> Share:
     side, low = parent.at("transom side", name), parent.at("transom", name)
     x, y, z = float(low[0]), float(side[1]), float(low[2])
     foot = min(layout.transom_side * parent.draught, 0.5 * z)
-    fade = _fade(parent, layout, x)
+    fade = _fade(layout, x, layout.stern * parent.length)
     pieces = Piece.along(fade, 0.0, 0.0), Piece.along(fade, asked / y - 1.0, 0.0)
     walls = stack(["transom foot", "transom"], [foot, z])
     field = Field(name, "y", walls, pieces, layout.curve)

@@ -16,7 +16,7 @@ from assoc_hull.variation.bounds import bounds
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.certify import certify
-from assoc_hull.variation.compose import compose
+from assoc_hull.variation.compose import compose, refuse_clashes
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.vmap import VMap
@@ -116,19 +116,26 @@ class Room:
     present: Mapping[str, float]
     layout: Layout
     box: FloatArray
+    _found: dict[str, tuple[float, float]] = attrs.field(factory=dict, init=False, repr=False)
 
     def interval(self, name: str) -> tuple[float, float]:
-        """Give the least and greatest value of a parameter, asked for alone."""
-        return interval(self.parent, name, self.present[name], self.layout, self.box)
+        """Give the least and greatest value of a parameter, asked for alone; sought once."""
+        if name not in self._found:
+            now = self.present[name]
+            self._found[name] = interval(self.parent, name, now, self.layout, self.box)
+        return self._found[name]
 
     def check(self, asked: Mapping[str, float]) -> None:
-        """Refuse values that make no hull.
+        """Refuse values that make no hull, or contradict each other.
 
         Raises
         ------
         OutOfRangeError
             With the interval, and what becomes of the hull beyond.
+        BadInputError
+            Two parameters that are one number.
         """
+        refuse_clashes(asked, self.layout)
         parent = attrs.evolve(self.parent, breadth=asked.get("breadth", self.parent.breadth))
         for name, value in asked.items():
             rule = bounds(name, parent, self.present[name], self.layout)

@@ -215,7 +215,8 @@ FLOATING: dict[str, Given] = {
     "measure": {"only": None},
     "vary": {
         "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
-        "stations": "number", "tolerance": 2e-3, "name": None, "in_place": False,
+        "stations": "number", "planes": "follow", "tolerance": 2e-3, "name": None,
+        "in_place": False,
     },
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip

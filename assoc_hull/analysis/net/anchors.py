@@ -10,6 +10,7 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net, Part
 from assoc_hull.analysis.net.loops import Frame
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.evaluation import derivative, evaluate
 
@@ -94,7 +95,7 @@ def spans(net: Net) -> Spans:
                 marks.setdefault(both[own], []).append((place[own], both[other], place[other]))
     for curve in sorted(marks):
         order = sorted(marks[curve])
-        rank = len(_PLACES) if net.flat[curve] else _PLACES.index(net.family[curve])
+        rank = len(_PLACES) if net.flat[curve] else _place(net, curve)
         for (t0, c0, s0), (t1, c1, s1) in itertools.pairwise(order):
             if t1 > t0:
                 found.append(((curve, t0, t1), (c0, s0), (c1, s1), rank))
@@ -104,6 +105,17 @@ def spans(net: Net) -> Spans:
         of[key] = (*of.get(key, ()), i)
     parts = [each[0] for each in found]
     return Spans(tuple(found), steady(net, parts), of, _courses(net, parts))
+
+
+def _place(net: Net, curve: int) -> int:
+    """Give the place of a line's family among those that run along the ship."""
+    family = net.family[curve]
+    if family not in _PLACES:
+        raise BadInputError(
+            f"{net.name[curve]} of the {family} is a curve in space, in no plane across the ship",
+            "in the surface through the lines", "replace it by lines that lie in planes",
+        )  # fmt: skip
+    return _PLACES.index(family)
 
 
 def steady(net: Net, parts: Sequence[Part]) -> tuple[bool, ...]:

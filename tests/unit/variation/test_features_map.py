@@ -66,6 +66,20 @@ def test_the_jacobian_is_the_derivative() -> None:
     assert np.linalg.det(slope).min() > 0.5
 
 
+def test_between_circles_that_move_alike_the_hull_moves_with_them() -> None:
+    """The shares of three add up: a cylinder between them stays straight within 0.01 mm."""
+    up = hat("shaft", [("base", 0, 0), ("shaft", 5, 0.6), ("T", 18, 0)], Chain.constant(1.0))
+    vmap = VMap((FieldLayer("local", (up,)),))
+    circles = tuple(
+        redraw(each.name, each.before, vmap, vmap.jacobian, radius=0.75) for each in CIRCLES
+    )
+    x = np.linspace(6.0, 7.5, 31)
+    side = np.column_stack([x, np.full(31, 0.725), np.full(31, 5.0)])
+    assert np.abs(circles[0].correction(np.array([[0.0, 1.0, 0.0]]))).max() > 0.01
+    found = FeatureMap(vmap, vmap.jacobian, circles)(side)
+    assert np.abs(found - found[0] - (side - side[0])).max() < 1e-5
+
+
 def test_beyond_the_join_places_keep_the_bits_of_the_map() -> None:
     """Six radii from all circles on, in values and slopes."""
     rng = np.random.default_rng(8)

@@ -11,7 +11,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.variation.blend import CUBIC, Blend
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.field import Field
-from assoc_hull.variation.hat import hat
+from assoc_hull.variation.hat import hat, level
 from tests.variation_strategies import blends
 
 FULL = Chain.constant(1.0)
@@ -64,6 +64,30 @@ def test_windows_outward_are_as_wide_as_the_gap_on_their_side_allows() -> None:
     field = hat("shaft", anchors, FULL, outward=("low", "high"))
     heights = [float(each.height.at(np.zeros(1))[0]) for each in field.boundaries]
     assert heights == pytest.approx([-1.2, 1.2, 2.8, 4.0, 4.5, 8.7, 14.3, 22.7])
+
+
+@given(gap=st.tuples(st.floats(2.0, 9.0), st.floats(2.0, 9.0)), blend=blends)
+def test_windows_can_make_a_hat_level_at_its_top(gap: tuple[float, float], blend: Blend) -> None:
+    """Of the widths that are asked for; the anchor moves by what is asked, and its slope is nil."""
+    low, high = gap
+    ratio = level(low, high, blend)
+    down = 0.6 * min(low, high / ratio)
+    up = down * ratio
+    windows = {"a": (0.3, 0.0), "b": (down / low, up / high), "c": (0.0, 0.3)}
+    anchors = [("a", 0.0, 0.0), ("b", low, 1.0), ("c", low + high, 0.0)]
+    field = hat("hat", anchors, FULL, blend=blend, windows=windows)
+    heights = [float(each.height.at(np.zeros(1))[0]) for each in field.boundaries]
+    wanted = [-0.3 * low, 0.0, low - down, low + up, low + high, low + 1.3 * high]
+    assert heights == pytest.approx(wanted)
+    assert moved(field, [0.0, low]) == [0.0, 1.0]
+    assert abs(field.gradient(np.array([[0.0, 0.0, low]]))[0, 2]) < 1e-14
+
+
+def test_windows_that_meet_are_refused() -> None:
+    """With the names of the boundaries."""
+    anchors = [("a", 0.0, 0.0), ("b", 2.0, 1.0), ("c", 4.0, 0.0)]
+    with pytest.raises(BadInputError, match=r"'a\+' and 'b-' touch"):
+        hat("hat", anchors, FULL, windows={"a": (0.3, 0.6), "b": (0.5, 0.3)})
 
 
 @given(gap=st.tuples(st.floats(2.0, 9.0), st.floats(2.0, 9.0)), blend=blends)

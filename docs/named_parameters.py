@@ -1,0 +1,138 @@
+"""Write the named parameters into their page: `python docs/named_parameters.py`.
+
+The tables stand between two marks of `docs/variation.md`. What they say comes from the catalogue,
+from measures and layouts on the bulk carrier, and from its list of what may be asked;
+`tests/unit/test_docs.py` compares.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+import assoc_hull as ah
+from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.catalogue import CATALOGUE
+from assoc_hull.variation.field import Region
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.listing import Listed, listing
+from assoc_hull.variation.main_layer import main_layer
+from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.share import Share
+
+PAGE = Path(__file__).resolve().parent / "variation.md"
+MARK = "<!-- Made by `python docs/named_parameters.py`; edit nothing from here ... -->\n"
+END = "<!-- ... to here. -->\n"
+REACHES = [field.name for field in attrs.fields(Layout) if field.name != "blend"]
+
+
+def tables() -> str:
+    """Give what the parameters are, and what moves, as Markdown."""
+    hull = ah.examples.bulk_carrier_207k()
+    found = measure_all(hull.state)
+    parent, listed = parent_of(hull.state, found), listing(hull.state)
+    lines = ["", "| parameter | in formulas | unit | what it is | how it is measured | not with |"]
+    lines += ["|---|---|---|---|---|---|"]
+    lines += [_what(each, found.anchors[each.name].how) for each in listed]
+    lines += ["", "| parameter | carrier | from | to | how it moves | what moves | keywords |"]
+    lines += ["|---|---|---|---|---|---|---|"]
+    lines += [_moves(each, parent) for each in listed]
+    return "\n".join(lines) + "\n\n"
+
+
+def _what(each: Listed, how: str) -> str:
+    entry = CATALOGUE[each.name]
+    apart = ", ".join(f"`{other}`" for other in each.conflicts)
+    return _row(f"`{each.name}`", entry.short, entry.unit, entry.meaning, how, apart)
+
+
+def _moves(each: Listed, parent: Parent) -> str:
+    layout = _Told()
+    regions = _regions(each, parent, layout)
+    reaches = ", ".join(
+        f"`{name}={getattr(Layout(), name)}`" for name in REACHES if name in layout.told
+    )
+    _, now, unit, low, high, _ = each.words
+    ends = ["" if end == "any" else end for end in (low, high)]
+    where = "; ".join(dict.fromkeys(map(_where, regions)))
+    return _row(
+        f"`{each.name}`", f"{now} {unit}", *ends, CATALOGUE[each.name].field, where, reaches
+    )
+
+
+def _regions(each: Listed, parent: Parent, layout: Layout) -> tuple[Region, ...]:
+    """Give the boxes of what moves where a parameter is a little more than it is."""
+    value, lays = each.value, CATALOGUE[each.name].lays
+    assert value is not None
+    more = value + 0.1
+    if lays is not None:
+        laid = lays(parent, more, layout)
+        if isinstance(laid, Share):
+            return tuple(field.region() for field in laid.fields)
+        return laid.regions()
+    main = main_layer(parent, {each.name: more}, layout)
+    assert main is not None
+    return main.regions()
+
+
+class _Told(Layout):
+    """A layout that keeps which of its reaches were asked for."""
+
+    told: set[str]
+
+    def __init__(self) -> None:
+        object.__setattr__(self, "told", set())
+        super().__init__()
+        self.told.clear()
+
+    def __getattribute__(self, name: str) -> Any:
+        if name in REACHES:
+            object.__getattribute__(self, "told").add(name)
+        return object.__getattribute__(self, name)
+
+
+def _where(region: Region) -> str:
+    """Give a region in words; a coordinate that does not bound it is not told."""
+    parts = [
+        words for axis, ends in (("x", region.x), ("z", region.z)) if (words := _span(axis, ends))
+    ]
+    return ", ".join(parts) or "everywhere"
+
+
+def _span(axis: str, ends: tuple[float, float]) -> str:
+    low, high = ends
+    if math.isinf(low) and math.isinf(high):
+        return ""
+    if math.isinf(high):
+        return f"{axis} above {low:.4g}"
+    return f"{axis} below {high:.4g}" if math.isinf(low) else f"{axis} {low:.4g} to {high:.4g}"
+
+
+def _row(*cells: str) -> str:
+    return "| " + " | ".join(cells) + " |"
+
+
+def _split(page: str) -> Iterator[str]:
+    above, mark, rest = page.partition(MARK)
+    _, end, below = rest.partition(END)
+    assert all((mark, end)), "the page has lost the marks between which the tables stand"
+    yield above
+    yield below
+
+
+def refreshed(page: str) -> str:
+    """Give the page with the tables as they are now."""
+    above, below = _split(page)
+    return above + MARK + tables() + END + below
+
+
+if __name__ == "__main__":
+    old = PAGE.read_text("utf-8")
+    new = refreshed(old)
+    PAGE.write_text(new, "utf-8")
+    print(f"docs/{PAGE.name}: {'changed' if new != old else 'as it was'}")

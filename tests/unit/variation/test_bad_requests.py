@@ -1,0 +1,251 @@
+"""What a variation refuses: an error of the family, in one line, and the hull as it was."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.errors import (
+    AssocHullError,
+    BadInputError,
+    FoldError,
+    OutOfRangeError,
+    UnknownNameError,
+    WrongTypeError,
+)
+from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.catalogue import NAMES
+from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.limits import Room, hull_box, present
+from assoc_hull.variation.parent_of import parent_of
+
+Given = dict[str, Any]
+
+SCREW = {"set": {"shaft_height": 6.0}}
+HAT = {"name": "skeg", "along": 1.0, "anchors": [["base", 0, 0], ["skeg", 4, 0.5], ["T", 18, 0]]}
+
+
+def asked(**values: object) -> Given:
+    """Named parameters only."""
+    return {"set": values}
+
+
+def raw(**changes: object) -> Given:
+    """A hat as data, with changes."""
+    return {"layers": [[{"hat": {**HAT, **changes}}]]}
+
+
+WORDS: dict[str, tuple[Given, type[AssocHullError], tuple[str, ...]]] = {
+    "a name with a slip": (asked(shaft_hight=6.0), UnknownNameError, ("'shaft_height'", "nearest")),
+    "a name of formulas": (asked(Lpp=300.0), UnknownNameError, ("it is called 'length'",)),
+    "another of these": (asked(pmb_end=1.0), UnknownNameError, ("'parallel_body_end'",)),
+    "a name that is none": ({"set": {3: 6.0}}, UnknownNameError, ("'3'",)),
+    "nan": (asked(breadth=math.nan), BadInputError, ("breadth is nan",)),
+    "infinite": (asked(breadth=math.inf), BadInputError, ("breadth is inf",)),
+    "a word": (asked(breadth="fifty"), BadInputError, ("breadth is 'fifty'",)),
+    "a truth value": (asked(breadth=True), BadInputError, ("breadth is True",)),
+    "nothing": (asked(breadth=None), BadInputError, ("breadth is None",)),
+    "a list": (asked(breadth=[51.0, 52.0]), BadInputError, ("breadth is [51.0, 52.0]",)),
+    "negative": (asked(breadth=-50.0), BadInputError, ("breadth is -50 m", "above 0")),
+    "nil": (asked(bilge_radius=0.0), BadInputError, ("bilge_radius is 0 m",)),
+    "no values": ({"set": {}}, BadInputError, ("nothing is asked for",)),
+    "nothing at all": ({}, BadInputError, ("nothing is asked for",)),
+    "values without names": ({"set": [6.0]}, WrongTypeError, ("set is list",)),
+    "a reach with a slip": (
+        {**SCREW, "layout": {"sten": 0.3}}, UnknownNameError, ("'stern'", "reach of a field"),
+    ),
+    "a reach of nil": ({**SCREW, "layout": {"stern": 0.0}}, BadInputError, ("stern is 0",)),
+    "a reach of nan": ({**SCREW, "layout": {"stern": math.nan}}, BadInputError, ("stern is nan",)),
+    "an unknown blend": ({**SCREW, "layout": {"blend": "septic"}}, BadInputError, ("quintic",)),
+    "a layout that is none": ({**SCREW, "layout": "wide"}, WrongTypeError, ("layout is 'wide'",)),
+    "unknown stations": ({**SCREW, "stations": "y"}, BadInputError, ("use number or x",)),
+    "no tolerance": ({**SCREW, "tolerance": 0.0}, BadInputError, ("tolerance is 0",)),
+    "an empty name": ({**SCREW, "name": " "}, BadInputError, ("the name is ' '",)),
+    "a driver in words": ({**SCREW, "drivers": "sections"}, WrongTypeError, ("drivers is str",)),
+    "layers in words": ({"layers": "skeg"}, WrongTypeError, ("layers is str",)),
+    "a layer that is none": ({"layers": [3]}, WrongTypeError, ("fields is int",)),
+    "an unknown kind of field": (
+        {"layers": [[{"hut": HAT}]]}, UnknownNameError, ("'hat'", "part of a field"),
+    ),
+    "an unknown part of a field": (raw(high=3.0), UnknownNameError, ("part of hat", "'high'")),
+    "a field without a part": (
+        {"layers": [[{"hat": {"name": "a", "along": 1.0}}]]}, BadInputError, ("no 'anchors'",),
+    ),
+    "a chain with nan": (raw(along={"x": [6, 66], "v": [1, math.nan]}), BadInputError, ("nan",)),
+    "nodes that fall": (raw(along={"x": [66, 6], "v": [1, 0]}), BadInputError, ("must rise",)),
+    "anchors that fall": (
+        raw(anchors=[["T", 18, 0], ["base", 0, 0]]), BadInputError, ("touch", "'base'"),
+    ),
+    "two kinds in one field": (
+        {"layers": [[{"hat": HAT, "stack": {}}]]}, BadInputError, ("has the keys",),
+    ),
+}  # fmt: skip
+"""Requests that are refused whatever the hull, with what the message says."""
+
+
+@pytest.fixture(scope="module")
+def wigley(shipped: Callable[[str], ah.Hull]) -> ah.Hull:
+    """A hull that has neither bulb nor bossing, transom, bilge or parallel body."""
+    return shipped("wigley")
+
+
+def refused(hull: ah.Hull, given: Given) -> AssocHullError:
+    """Vary in place; give the error, which is one line and leaves the hull as it was."""
+    before, steps = hull.fingerprint, hull.history
+    with pytest.raises(AssocHullError) as found:
+        ah.vary(hull, **given, in_place=True)
+    assert "\n" not in str(found.value)
+    assert len(str(found.value)) < 400
+    assert (hull.fingerprint, hull.history) == (before, steps)
+    return found.value
+
+
+@pytest.mark.parametrize("case", WORDS)
+def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
+    """The error tells the part at fault."""
+    given, kind, words = WORDS[case]
+    error = refused(wigley, given)
+    assert isinstance(error, kind)
+    assert [word for word in words if word not in str(error)] == []
+
+
+FOLDS: dict[str, tuple[Given, tuple[str, ...]]] = {
+    "a shaft above its room": (
+        asked(shaft_height=12.0),
+        ("'shaft_height' folds", "between 'shaft+r-'", "admissible shaft_height from 2.7"),
+    ),
+    "a bossing too large": (asked(bossing_radius=1.4), ("'boss-4r'", "0.037 to 1.253 m")),
+    "a deck below the waterline": (asked(depth=17.0), ("'T' (18.000)", "from 22.142 m up")),
+    "a draught above the deck": (asked(draught=50.0), ("'draught' folds", "to 39.985 m")),
+    "a hull of no length": (asked(length=10.0), ("'length'", "from 15.001 m up")),
+    "a bilge too large": (asked(bilge_radius=6.0), ("'bilge_radius' folds", "to 4.688 m")),
+    "no side for the bottom": (
+        asked(parallel_body_start=170.0), ("X_x", "from 56.734 to 160.853 m"),
+    ),
+    "a rake in degrees": (asked(stem_rake_deg=-60.0), ("'stem_rake_deg'", "to 80 deg")),
+    "a shift of stations": (asked(fore_shift=40.0), ("'fore_shift'", "-23.095 to 23.095 m")),
+    "two that fold together": (
+        asked(parallel_body_start=150.0, parallel_body_end=165.0),
+        ("not beside the others asked for", "% of each"),
+    ),
+}  # fmt: skip
+"""Requests that fold the carrier, with what the message says."""
+
+
+@pytest.mark.parametrize("case", FOLDS)
+def test_a_value_that_folds_is_told_with_its_interval(bulk_carrier: ah.Hull, case: str) -> None:
+    """What folds, where, and between which values one may ask."""
+    given, words = FOLDS[case]
+    error = refused(bulk_carrier, given)
+    assert isinstance(error, FoldError)
+    assert [word for word in words if word not in str(error)] == []
+
+
+OUTSIDE: dict[str, tuple[Given, tuple[str, ...]]] = {
+    "a bulb of 30 m": (asked(bulb_length=30.0), ("stretches the bow", "to 22.4")),
+    "a transom broader than the ship": (asked(transom_half_breadth=26.0), ("to 25 m",)),
+    "a bilge larger than the side": (asked(bilge_radius=30.0), ("cannot be laid out", "to 4.688")),
+    "a flat bottom beyond the side": (asked(flat_of_bottom=25.5), ("leaves no bilge",)),
+    "an upright stem the other way": (asked(stem_rake_deg=85.0), ("too steep", "to 80 deg")),
+    "a bottom that falls": (asked(deadrise_deg=-20.0), ("from -14.3",)),
+}  # fmt: skip
+"""Requests from which no ship comes, with what the message says."""
+
+
+@pytest.mark.parametrize("case", OUTSIDE)
+def test_a_value_that_makes_no_ship_is_told_with_its_interval(
+    bulk_carrier: ah.Hull, case: str
+) -> None:
+    """The map would be one to one; the interval is the same as that of folds."""
+    given, words = OUTSIDE[case]
+    error = refused(bulk_carrier, given)
+    assert isinstance(error, OutOfRangeError)
+    assert [word for word in words if word not in str(error)] == []
+
+
+CLASHES = [
+    ("bilge_radius", "flat_of_bottom"), ("bilge_radius", "deadrise_deg"),
+    ("flat_of_bottom", "deadrise_deg"), ("depth", "deck_height"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("one", "other"), CLASHES)
+def test_parameters_that_contradict_each_other_are_both_named(
+    bulk_carrier: ah.Hull, one: str, other: str
+) -> None:
+    """With the reason, even where one of them has its value already."""
+    now = {"bilge_radius": 2.4, "flat_of_bottom": 22.0, "deadrise_deg": 1.0, "depth": 28.0,
+           "deck_height": 27.5}  # fmt: skip
+    error = refused(bulk_carrier, asked(**{one: now[one], other: now[other]}))
+    assert f"'{one}' and '{other}' cannot be asked for together" in str(error)
+    assert "drop one of them" in str(error)
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("bulb_length", "no profile forward of FP"),
+        ("shaft_height", "no bossing end"),
+        ("bossing_radius", "parent has no bossing circle"),
+        ("transom_height", "parent has no transom"),
+        ("bilge_radius", "parent has no bilge"),
+        ("parallel_body_end", "parent has no parallel middle body"),
+        ("deadrise_deg", "parent has no parallel middle body"),
+        ("fore_shift", "parent has no parallel middle body"),
+    ],
+)
+def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why: str) -> None:
+    """The parameter and the reason; what cannot be laid out names what it needs."""
+    error = refused(wigley, asked(**{name: 3.0}))
+    assert f"cannot vary '{name}': " in str(error)
+    assert why in str(error)
+
+
+def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
+    """Neither it nor a copy of it: what would be varied is not there yet."""
+    with wigley.edit("open"), pytest.raises(AssocHullError, match="vary"):
+        ah.vary(wigley, set={"breadth": 11.0})
+    assert wigley.history == ()
+
+
+@pytest.fixture(scope="module")
+def room(bulk_carrier: ah.Hull) -> Room:
+    """What the carrier's parameters may be asked for."""
+    measures, usual = measure_all(bulk_carrier.state), Layout()
+    return Room(
+        parent_of(bulk_carrier.state, measures), present(measures, usual), usual,
+        hull_box(bulk_carrier.state, 2e-3),
+    )  # fmt: skip
+
+
+def certify_alone(room: Room, name: str, value: float) -> bool:
+    """Check a value, lay it out, certify the map."""
+    asked_for = {name: value}
+    room.check(asked_for)
+    return room.certified(room.map(asked_for), asked_for).certified
+
+
+def told_interval(error: AssocHullError) -> tuple[float, float] | None:
+    """The interval that an error tells."""
+    if isinstance(error, FoldError):
+        return error.interval
+    return (error.least, error.most) if isinstance(error, OutOfRangeError) else None
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_intervals_are_true(room: Room, name: str) -> None:
+    """Within, the map is certified; beyond, the value is refused, and the error says how far."""
+    now, ends = room.present[name], room.interval(name)
+    assert ends[0] < now < ends[1]
+    for end in ends:
+        if math.isinf(end):
+            assert certify_alone(room, name, 3.0 * now)
+            continue
+        assert certify_alone(room, name, end - 1e-4 * (end - now))
+        beyond = end + 1e-4 * (end - now)
+        if beyond > 0.0 or end < 0.0:
+            with pytest.raises((FoldError, OutOfRangeError)) as found:
+                certify_alone(room, name, beyond)
+            assert told_interval(found.value) == ends
