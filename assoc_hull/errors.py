@@ -348,7 +348,8 @@ class FoldError(AssocHullError, ValueError):
     node : float or None, m
         The nearest node along the ship.
     admissible : (float, float) or None
-        Range of the field's displacement that is allowed.
+        Range of the field's displacement that is allowed, m; of the change of an angle, degrees,
+        where the field's name ends in ``_deg``. Infinite where nothing ends it.
     interval : (float, float) or None
         Between these values the named parameter at fault may be asked for alone; infinite where
         nothing ends it.
@@ -403,12 +404,24 @@ class FoldError(AssocHullError, ValueError):
                 for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
             )
             return f"admissible {self.field or self.layer} {_span(low, high, self.unit)}"
-        if self.admissible is None or not all(map(math.isfinite, self.admissible)):
+        if self.admissible is None:
             return "ask for less, or let the field reach further"
-        low, high = (math.trunc(1e3 * each) / 1e3 for each in self.admissible)
+        unit = "degrees" if self.field.endswith("_deg") else "m"
+        low, high = (_inward(each) for each in self.admissible)
+        if math.isinf(low) and math.isinf(high):
+            return "ask for less, or let the field reach further"
+        if math.isinf(low):
+            return f"admissible up to {high:.3f} {unit}"
+        if math.isinf(high):
+            return f"admissible from {low:.3f} {unit}"
         if low == -high:
-            return f"admissible +-{high:.3f} m"
-        return f"admissible {low:.3f} to {high:.3f} m"
+            return f"admissible +-{high:.3f} {unit}"
+        return f"admissible {low:.3f} to {high:.3f} {unit}"
+
+
+def _inward(change: float) -> float:
+    """Round a change to thousandths, toward nil."""
+    return math.trunc(1e3 * change) / 1e3 if math.isfinite(change) else change
 
 
 @attrs.define(slots=False, eq=False)

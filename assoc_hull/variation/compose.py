@@ -2,7 +2,7 @@
 
 Dimensions of the whole hull come first, all else is laid out on the hull so scaled. Local
 fields add; as one may act at the anchor of another, their sizes are solved for, so that all
-targets are met together. Bilge and bottom follow as layers of their own.
+targets are met together. The rake of the stem, bilge and bottom follow as layers of their own.
 """
 
 from __future__ import annotations
@@ -33,6 +33,9 @@ _LARGEST = 3.0
 STEEPEST = 80.0
 """Degrees; beyond, a small change of an angle moves a place by metres."""
 
+_RAKE = ("stem_rake_deg",)
+"""An angle between two places that other fields move: laid out where they have come to."""
+
 _BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
 _CLASHES = (
     ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
@@ -40,6 +43,7 @@ _CLASHES = (
     ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
 )
 _DECKS = ("depth", "deck_height", "both set the deck edge amidships")
+"""No contradiction where the height is asked for at a perpendicular."""
 
 
 def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
@@ -78,24 +82,31 @@ def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
     if main is not None:
         layers.append(main)
         parent = _scaled(parent, main, asked)
-    shares = list[Share]()
-    for name in CATALOGUE:
-        lays = CATALOGUE[name].lays
-        if name in asked and lays is not None and name not in _BILGE:
-            share = lays(parent, asked[name], layout)
-            if isinstance(share, Share) and share.change != 0.0:
-                shares.append(share)
-    if shares:
-        local = FieldLayer("local fields", solve(shares))
-        layers.append(local)
-        parent = parent.mapped(VMap((local,)))
+    local = [name for name in CATALOGUE if name not in (*_RAKE, *_BILGE)]
+    for title, names in (("local fields", local), ("rake", _RAKE)):
+        shares = _shares(parent, {name: asked[name] for name in names if name in asked}, layout)
+        if shares:
+            layer = FieldLayer(title, solve(shares))
+            layers.append(layer)
+            parent = parent.mapped(VMap((layer,)))
     for name in _BILGE:
         lays = CATALOGUE[name].lays
         if name in asked and lays is not None:
-            layer = lays(parent, asked[name], layout)
-            if not isinstance(layer, Share):
-                layers.append(layer)
+            own = lays(parent, asked[name], layout)
+            if not isinstance(own, Share):
+                layers.append(own)
     return VMap(tuple(layers))
+
+
+def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[Share]:
+    """Give what parameters put into a layer of fields; nothing where a value is as it was."""
+    found = list[Share]()
+    for name, value in asked.items():
+        lays = CATALOGUE[name].lays
+        share = None if lays is None else lays(parent, value, layout)
+        if isinstance(share, Share) and share.change != 0.0:
+            found.append(share)
+    return found
 
 
 def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Parent:

@@ -146,11 +146,17 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
 
 @attrs.frozen
 class _Settled:
-    """A map whose applied values are the asked ones, and how it was found."""
+    """A map whose applied values are nearly the asked ones, how it was found, what it misses."""
 
     map: VMap
     rounds: int
     certificate: Certificate
+    miss: dict[str, float]
+
+    @property
+    def worst(self) -> float:
+        """The largest miss, m or degrees."""
+        return max((abs(each) for each in self.miss.values()), default=0.0)
 
 
 def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]) -> _Settled:
@@ -158,36 +164,47 @@ def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]
     room = Room(parent, was, ask.layout, hull_box(state, ask.tolerance))
     room.check(ask.values)
     aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > _SAME}
-    best, least = None, np.inf
-    for rounds in range(1, _ROUNDS + 1):
-        try:
-            vmap = VMap((*room.map(aim).layers, *ask.layers))
-            certificate = room.certified(vmap, aim)
-        except AssocHullError:
-            if rounds == 1:
-                raise
-            break  # what the lines would need beyond the asked value cannot be had
-        trial = Document(copy_of(state))
-        _apply(trial, vmap, parent, ask, was)
-        reached = _measured(trial.state, ask)
-        miss = {name: value - reached[name] for name, value in ask.values.items()}
-        worst = max((abs(each) for each in miss.values()), default=0.0)
-        if worst < least:
-            best, least = _Settled(vmap, rounds, certificate), worst
-        if worst <= _MET:
+    best = found = _tried(state, room, ask, aim, 1)
+    for rounds in range(2, _ROUNDS + 1):
+        if best.worst <= _MET:
             break
         # what others move away from a value that was to stay is asked for as well
         aim = {
             name: aim.get(name, ask.values[name]) + each
-            for name, each in miss.items() if name in aim or abs(each) > _MET
+            for name, each in found.miss.items() if name in aim or abs(each) > _MET
         }  # fmt: skip
-    if best is None or least > _PROMISED:
-        name = max(miss, key=lambda each: abs(miss[each]))
-        raise BadInputError(
-            f"{name} reached {ask.values[name] - miss[name]:.7g}, asked {ask.values[name]:.7g}",
-            "in vary", "ask for less, or give a finer tolerance",
-        )  # fmt: skip
+        try:
+            found = _tried(state, room, ask, aim, rounds)
+        except AssocHullError:
+            break  # the aim went astray: what was asked for is not at fault
+        if found.worst < best.worst:
+            best = found
+    if best.worst > _PROMISED:
+        raise _missed(best, ask)
     return best
+
+
+def _tried(
+    state: HullState, room: Room, ask: Ask, aim: Mapping[str, float], rounds: int
+) -> _Settled:
+    """Lay out the map of an aim, and measure what it gives beside the published hull."""
+    vmap = VMap((*room.map(aim).layers, *ask.layers))
+    certificate = room.certified(vmap, aim)
+    trial = Document(copy_of(state))
+    _apply(trial, vmap, room.parent, ask, room.present)
+    reached = _measured(trial.state, ask)
+    miss = {name: value - reached[name] for name, value in ask.values.items()}
+    return _Settled(vmap, rounds, certificate, miss)
+
+
+def _missed(best: _Settled, ask: Ask) -> BadInputError:
+    """Say which value cannot be had, and what came nearest to it."""
+    name, miss = max(best.miss.items(), key=lambda each: abs(each[1]))
+    asked, unit = ask.values[name], CATALOGUE[name].unit
+    return BadInputError(
+        f"{name} reached {asked - miss:.9g} {unit}, asked {asked:.9g} {unit}, {abs(miss):.2g} off",
+        "in vary", "ask for less, or give a finer tolerance",
+    )  # fmt: skip
 
 
 def _notes(vmap: VMap, state: HullState, ask: Ask) -> tuple[str, ...]:

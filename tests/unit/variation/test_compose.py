@@ -32,6 +32,11 @@ def ship() -> Parent:
     return Parent(300, 50, 27, 18, 27, places)
 
 
+def rake_deg(foot: FloatArray, top: FloatArray) -> float:
+    """The angle of a chord of the stem from the vertical."""
+    return float(np.degrees(np.arctan2(top[0] - foot[0], top[2] - foot[2])))
+
+
 ASKED = {
     "length": 306.0, "breadth": 51.5, "draught": 18.9, "depth": 28.5, "shaft_height": 6.0,
     "bossing_radius": 1.0, "transom_height": 19.9, "transom_half_breadth": 21.5,
@@ -56,13 +61,14 @@ def test_all_anchors_are_met_together(ship: Parent) -> None:
     for name, value in found.items():
         assert value == pytest.approx(ASKED[name], abs=1e-12), name
     assert here["corner"][1] == pytest.approx(25.75, abs=1e-12)
+    assert rake_deg(here["stem"], here["stem top"]) == pytest.approx(22.0, abs=1e-12)
 
 
 def test_a_rake_turns_the_chord_of_the_stem(ship: Parent) -> None:
     """Its top moves, the fore perpendicular stays."""
     vmap = compose(ship, {"stem_rake_deg": 22.0}, Layout())
     foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
-    assert np.degrees(np.arctan2(top[0] - foot[0], top[2] - foot[2])) == pytest.approx(22.0)
+    assert rake_deg(foot, top) == pytest.approx(22.0)
     assert (foot == ship.places["stem"]).all()
 
 
@@ -81,6 +87,23 @@ def test_a_rigid_shaft_moves_its_bossing_by_one_amount(ship: Parent) -> None:
     z = np.linspace(4.275, 5.725, 51)
     places = np.column_stack([np.full(51, 6.0), np.zeros(51), z])
     assert np.abs(vmap(places)[:, 2] - z - 1.0).max() < 1e-14
+
+
+@pytest.mark.parametrize("deck", [{"depth": 30.0}, {"deck_height": 25.5}])
+def test_a_rake_holds_on_a_stem_that_the_deck_made_longer(
+    ship: Parent, deck: dict[str, float]
+) -> None:
+    """The angle is that of the stem as it comes to be, by one map."""
+    vmap = compose(ship, {"stem_rake_deg": 22.0, **deck}, Layout())
+    foot, top = vmap(np.array([ship.places["stem"], ship.places["stem top"]]))
+    assert rake_deg(foot, top) == pytest.approx(22.0, abs=1e-12)
+
+
+def test_a_deck_raised_at_the_bow_goes_with_a_depth(ship: Parent) -> None:
+    """They contradict each other amidships only."""
+    vmap = compose(ship, {"depth": 28.0, "deck_height": 29.0}, Layout(deck="fore"))
+    here = vmap(np.array([ship.places["deck"], ship.places["deck fore"]]))
+    assert here[:, 2] == pytest.approx([28.0, 29.0], abs=1e-12)
 
 
 @pytest.mark.parametrize("name", [each for each in NAMES if each not in ("draught", "length")])
@@ -114,8 +137,8 @@ def test_parameters_that_contradict_each_other_are_both_named(
     """Whatever their values are."""
     with pytest.raises(BadInputError, match=f"'{one}' and '{other}'"):
         compose(ship, {one: 3.0, other: 2.0}, Layout())
-    if "depth" not in (one, other):
-        assert other in conflicts(one)
+    assert other in conflicts(one)
+    assert one in conflicts(other)
 
 
 def test_two_changes_of_one_place_are_refused(ship: Parent) -> None:
