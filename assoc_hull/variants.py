@@ -173,7 +173,7 @@ def vary_by(
 
 
 def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:
-    state_of(hull)
+    state_of(hull, "in vary")
     hull.document.require_ended("vary")
     varied = hull if in_place else Hull(copy_of(hull.state))
     vmap, report = vary_document(varied.document, ask)
