@@ -78,11 +78,11 @@ def interval(
     >>> from assoc_hull.variation.layout import Layout
     >>> from assoc_hull.variation.limits import interval
     >>> from assoc_hull.variation.parent import Parent
-    >>> ship = Parent(300, 50, 27, 18, 27, {"boss": np.array([6.0, 0.0, 5.0])})
+    >>> ship = Parent(300, 50, 27, 18, 27, {})
     >>> box = np.array([[-5.0, -25.0, 0.0], [306.0, 25.0, 27.0]])
-    >>> low, high = interval(ship, "shaft_height", 5.0, Layout(), box)
+    >>> low, high = interval(ship, "draught", 18.0, Layout(), box)
     >>> round(low, 2), round(high, 2)
-    (1.17, 12.6)
+    (0.9, 39.99)
     """
     laid = _alone(parent, name, layout)
     laid(now)

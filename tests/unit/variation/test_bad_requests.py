@@ -19,6 +19,7 @@ from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.catalogue import NAMES
 from assoc_hull.variation.certify import certify
+from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.limits import Room, hull_box, present
 from assoc_hull.variation.parent_of import parent_of
@@ -62,12 +63,24 @@ WORDS: dict[str, tuple[Given, type[AssocHullError], tuple[str, ...]]] = {
     "a reach of nan": ({**SCREW, "layout": {"stern": math.nan}}, BadInputError, ("stern is nan",)),
     "an unknown blend": ({**SCREW, "layout": {"blend": "septic"}}, BadInputError, ("quintic",)),
     "a layout that is none": ({**SCREW, "layout": "wide"}, WrongTypeError, ("layout is 'wide'",)),
+    "a layout made amiss": ({**SCREW, "layout": Layout(stern=-1.0)}, BadInputError, ("stern is",)),
+    "a reach that ends before it begins": (
+        {**SCREW, "layout": {"draught_top": 0.5}}, BadInputError, ("number above 1",),
+    ),
     "unknown stations": ({**SCREW, "stations": "y"}, BadInputError, ("use number or x",)),
     "no tolerance": ({**SCREW, "tolerance": 0.0}, BadInputError, ("tolerance is 0",)),
     "an empty name": ({**SCREW, "name": " "}, BadInputError, ("the name is ' '",)),
     "a driver in words": ({**SCREW, "drivers": "sections"}, WrongTypeError, ("drivers is str",)),
     "layers in words": ({"layers": "skeg"}, WrongTypeError, ("layers is str",)),
     "a layer that is none": ({"layers": [3]}, WrongTypeError, ("fields is int",)),
+    "the class of a layer": ({"layers": [FieldLayer]}, WrongTypeError, ("fields is type",)),
+    "an unknown anchor": (raw(outward=["skig"]), UnknownNameError, ("'skeg'",)),
+    "a contour of one node": (
+        raw(along={"x": [6], "v": [1], "smooth": True}), BadInputError, ("smooth through one",),
+    ),
+    "a contour or not": (
+        raw(along={"x": [6, 66], "v": [1, 0], "smooth": "no"}), WrongTypeError, ("smooth is 'no'",),
+    ),
     "an unknown kind of field": (
         {"layers": [[{"hut": HAT}]]}, UnknownNameError, ("'hat'", "part of a field"),
     ),
@@ -239,6 +252,14 @@ def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why:
     error = refused(wigley, asked(**{name: 3.0}))
     assert f"cannot vary '{name}': " in str(error)
     assert why in str(error)
+
+
+@pytest.mark.parametrize("given", [3, None, "ship.hull"])
+def test_what_is_no_hull_is_not_varied(given: Any) -> None:
+    """Neither by a call nor by a script."""
+    for act in (ah.vary, ah.vary_by):
+        with pytest.raises(WrongTypeError, match=r"the hull is .*, in vary; give a Hull"):
+            act(given, **({"set": {"breadth": 11}} if act is ah.vary else {"script": SCREW}))
 
 
 def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
