@@ -17,7 +17,8 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.arguments import flag, instance
+from assoc_hull.analysis.measured_hull import state_of
+from assoc_hull.arguments import flag
 from assoc_hull.hull import Hull
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.handles import Group, Line
@@ -173,7 +174,7 @@ def vary_by(
 
 
 def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:
-    instance(hull, Hull, "the hull", "in vary")
+    state_of(hull, "in vary")
     hull.document.require_ended("vary")
     varied = hull if in_place else Hull(copy_of(hull.state))
     vmap, report = vary_document(varied.document, ask)

@@ -75,8 +75,11 @@ def slip_along(work: Carried, curve: int) -> None:
     if not len(mine):
         return
     knot = dict(zip(rows.tolist(), state.spline(curve).knot.tolist(), strict=True))
+    lost = _at_new_ends(work, curve, mine, knot)
+    work.gone |= set(lost)
+    mine = mine[~np.isin(mine, lost)]
     shadow = shadow_of(work, curve)
-    if shadow is None:
+    if shadow is None or not len(mine):
         work.gone |= set(mine.tolist())
         return
     at = np.array([knot[row] for row in mine.tolist()])
@@ -84,6 +87,18 @@ def slip_along(work: Carried, curve: int) -> None:
     work.doubt |= dict(zip(mine.tolist(), shadow.doubt(at).tolist(), strict=True))
     work.value[mine] = into_planes(state, work.planes, mine, places)
     work.known[mine] = True
+
+
+def _at_new_ends(work: Carried, curve: int, mine: IntArray, knot: dict[int, float]) -> list[int]:
+    """Give the own points beside ends that were handed over: they held another course."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    low, high = 0.0, float(work.state.spline(curve).knot[-1])
+    if (curve, 0) in work.new_ends:
+        low = min((knot[row] for row in inner), default=high)
+    if (curve, 1) in work.new_ends:
+        high = max((knot[row] for row in inner), default=low)
+    return [row for row in mine.tolist() if not low <= knot[row] <= high]
 
 
 def round_turns(work: Carried, curve: int, found: Through) -> None:

@@ -62,7 +62,8 @@ class Layout:
     deadrise_top : float
         Deadrise fades up to this part of the draught.
     draught_top : float
-        Heights are scaled up to the draught, and shifted from this part of the draught up.
+        Heights are scaled up to the draught, and shifted from this part of the draught up, or from
+        the top of the hull if that is lower.
     deck : {"midship", "fore", "aft"}
         Where ``deck_height`` holds: amidships, the whole deck with it, or at a perpendicular.
     shift : str
@@ -80,7 +81,7 @@ class Layout:
     stern: float = 0.25
     shaft: float = 0.12
     shaft_top: float = 1.25
-    bossing: float = 20.0
+    bossing: float = 6.0
     tube: float = 6.0
     bow_from: float = 0.85
     bulb_top: float = 1.25
@@ -91,7 +92,7 @@ class Layout:
     bilge: float = 8.0
     bilge_length: float = 0.2
     deadrise_top: float = 0.8
-    draught_top: float = 1.6
+    draught_top: float = 2.4
     deck: Literal["midship", "fore", "aft"] = "midship"
     shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
 

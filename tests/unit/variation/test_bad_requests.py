@@ -21,8 +21,9 @@ from assoc_hull.variation.catalogue import NAMES
 from assoc_hull.variation.certify import certify
 from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import Room, hull_box, present
+from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.room import Room
 
 Given = dict[str, Any]
 
@@ -136,11 +137,10 @@ def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
 @pytest.fixture(scope="module")
 def room(bulk_carrier: ah.Hull) -> Room:
     """What the carrier's parameters may be asked for."""
-    measures, usual = measure_all(bulk_carrier.state), Layout()
-    return Room(
-        parent_of(bulk_carrier.state, measures), present(measures, usual), usual,
-        hull_box(bulk_carrier.state, TOLERANCE),
-    )  # fmt: skip
+    state, usual = bulk_carrier.state, Layout()
+    measures = measure_all(state)
+    now, box = present(measures, usual), hull_box(state, TOLERANCE)
+    return Room(state, parent_of(state, measures), now, usual, box)
 
 
 FOLDS = {
@@ -175,7 +175,7 @@ def test_a_value_that_folds_is_told_with_its_interval(
 OUTSIDE = {
     "a bulb of 30 m": ("bulb_length", 30.0, "stretches the bow"),
     "a transom broader than the ship": ("transom_half_breadth", 26.0, "to 25 m"),
-    "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be laid out"),
+    "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be had"),
     "a flat bottom beyond the side": ("flat_of_bottom", 25.5, "leaves no bilge"),
     "a stem that lies down": ("stem_rake_deg", 85.0, "too steep"),
     "a bottom that falls": ("deadrise_deg", -20.0, "turns the bottom too far"),
@@ -248,7 +248,7 @@ def test_parameters_that_contradict_each_other_are_both_named(
     ],
 )
 def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why: str) -> None:
-    """The parameter and the reason; what cannot be laid out names what it needs."""
+    """The parameter and the reason; what cannot be had names what it needs."""
     error = refused(wigley, asked(**{name: 3.0}))
     assert f"cannot vary '{name}': " in str(error)
     assert why in str(error)
