@@ -142,9 +142,11 @@ _WORDS = {
     "deck": ("fore", "midship", "aft"),
     "shift": ("c1", "c2", "end", "half", "lackenby"),
 }
+_LEAST = {"draught_top": 1.0, "tube": 1.0, "bilge": 1.0}
+"""Reaches that begin at 1 and end at what is given."""
 
 
-def _check(name: str, value: object) -> None:
+def _check(name: str, value: Any) -> None:
     if name in _WORDS:
         if value not in _WORDS[name]:
             raise BadInputError(
@@ -153,5 +155,7 @@ def _check(name: str, value: object) -> None:
     elif name == "rigid":
         if not isinstance(value, bool):
             raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
-    else:
-        positive(value, name, "in vary")
+    elif not positive(value, name, "in vary") > _LEAST.get(name, 0.0):
+        raise BadInputError(
+            f"{name} is {value:g}", "in vary", f"give a number above {_LEAST[name]:g}"
+        )
