@@ -19,9 +19,11 @@ from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.catalogue import NAMES
 from assoc_hull.variation.certify import certify
+from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import Room, hull_box, present
+from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.room import Room
 
 Given = dict[str, Any]
 
@@ -62,12 +64,24 @@ WORDS: dict[str, tuple[Given, type[AssocHullError], tuple[str, ...]]] = {
     "a reach of nan": ({**SCREW, "layout": {"stern": math.nan}}, BadInputError, ("stern is nan",)),
     "an unknown blend": ({**SCREW, "layout": {"blend": "septic"}}, BadInputError, ("quintic",)),
     "a layout that is none": ({**SCREW, "layout": "wide"}, WrongTypeError, ("layout is 'wide'",)),
+    "a layout made amiss": ({**SCREW, "layout": Layout(stern=-1.0)}, BadInputError, ("stern is",)),
+    "a reach that ends before it begins": (
+        {**SCREW, "layout": {"draught_top": 0.5}}, BadInputError, ("number above 1",),
+    ),
     "unknown stations": ({**SCREW, "stations": "y"}, BadInputError, ("use number or x",)),
     "no tolerance": ({**SCREW, "tolerance": 0.0}, BadInputError, ("tolerance is 0",)),
     "an empty name": ({**SCREW, "name": " "}, BadInputError, ("the name is ' '",)),
     "a driver in words": ({**SCREW, "drivers": "sections"}, WrongTypeError, ("drivers is str",)),
     "layers in words": ({"layers": "skeg"}, WrongTypeError, ("layers is str",)),
     "a layer that is none": ({"layers": [3]}, WrongTypeError, ("fields is int",)),
+    "the class of a layer": ({"layers": [FieldLayer]}, WrongTypeError, ("fields is type",)),
+    "an unknown anchor": (raw(outward=["skig"]), UnknownNameError, ("'skeg'",)),
+    "a contour of one node": (
+        raw(along={"x": [6], "v": [1], "smooth": True}), BadInputError, ("smooth through one",),
+    ),
+    "a contour or not": (
+        raw(along={"x": [6, 66], "v": [1, 0], "smooth": "no"}), WrongTypeError, ("smooth is 'no'",),
+    ),
     "an unknown kind of field": (
         {"layers": [[{"hut": HAT}]]}, UnknownNameError, ("'hat'", "part of a field"),
     ),
@@ -123,11 +137,10 @@ def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
 @pytest.fixture(scope="module")
 def room(bulk_carrier: ah.Hull) -> Room:
     """What the carrier's parameters may be asked for."""
-    measures, usual = measure_all(bulk_carrier.state), Layout()
-    return Room(
-        parent_of(bulk_carrier.state, measures), present(measures, usual), usual,
-        hull_box(bulk_carrier.state, TOLERANCE),
-    )  # fmt: skip
+    state, usual = bulk_carrier.state, Layout()
+    measures = measure_all(state)
+    now, box = present(measures, usual), hull_box(state, TOLERANCE)
+    return Room(state, parent_of(state, measures), now, usual, box)
 
 
 FOLDS = {
@@ -162,7 +175,7 @@ def test_a_value_that_folds_is_told_with_its_interval(
 OUTSIDE = {
     "a bulb of 30 m": ("bulb_length", 30.0, "stretches the bow"),
     "a transom broader than the ship": ("transom_half_breadth", 26.0, "to 25 m"),
-    "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be laid out"),
+    "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be had"),
     "a flat bottom beyond the side": ("flat_of_bottom", 25.5, "leaves no bilge"),
     "a stem that lies down": ("stem_rake_deg", 85.0, "too steep"),
     "a bottom that falls": ("deadrise_deg", -20.0, "turns the bottom too far"),
@@ -235,10 +248,18 @@ def test_parameters_that_contradict_each_other_are_both_named(
     ],
 )
 def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why: str) -> None:
-    """The parameter and the reason; what cannot be laid out names what it needs."""
+    """The parameter and the reason; what cannot be had names what it needs."""
     error = refused(wigley, asked(**{name: 3.0}))
     assert f"cannot vary '{name}': " in str(error)
     assert why in str(error)
+
+
+@pytest.mark.parametrize("given", [3, None, "ship.hull"])
+def test_what_is_no_hull_is_not_varied(given: Any) -> None:
+    """Neither by a call nor by a script."""
+    for act in (ah.vary, ah.vary_by):
+        with pytest.raises(WrongTypeError, match=r"the hull is .*, in vary; give a Hull"):
+            act(given, **({"set": {"breadth": 11}} if act is ah.vary else {"script": SCREW}))
 
 
 def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
