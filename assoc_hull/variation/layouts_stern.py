@@ -18,6 +18,9 @@ _WINDOW, _DOME, _HIGHEST = 0.3, 0.95, 0.65
 _BOSS = {"boss-": (_HIGHEST, 0.0), "boss+": (0.0, _HIGHEST)}
 """Between them heights are stretched evenly, so that a circle stays one."""
 
+_SLENDER = 1.25
+"""A transom less than the ship's breadth by this factor is widened with nothing at the sides."""
+
 _FOOT = {"transom foot": (_WINDOW, 0.0), "transom": (0.5, 0.5)}
 """A long slow bend from the foot up; nothing of it lies above the foot."""
 
@@ -139,5 +142,7 @@ def transom_half_breadth(parent: Parent, asked: float, layout: Layout) -> Share:
     fade = _fade(layout, x, layout.stern * parent.length)
     pieces = Piece.along(fade, 0.0, 0.0), Piece.along(fade, asked / y - 1.0, 0.0)
     walls = stack(["transom foot", "transom"], [foot, z])
-    field = Field(name, "y", walls, pieces, layout.curve)
+    n = 0.5 * parent.breadth / y
+    tube = Tube(y, n, layout.curve) if n > _SLENDER else None
+    field = Field(name, "y", walls, pieces, layout.curve, tube)
     return Share.at(name, "y", asked - y, side, field)

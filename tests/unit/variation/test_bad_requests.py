@@ -174,7 +174,7 @@ def test_a_value_that_folds_is_told_with_its_interval(
 
 OUTSIDE = {
     "a bulb of 30 m": ("bulb_length", 30.0, "stretches the bow"),
-    "a transom broader than the ship": ("transom_half_breadth", 26.0, "to 25 m"),
+    "a transom broader than the ship": ("transom_half_breadth", 26.0, "broader than the ship"),
     "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be had"),
     "a flat bottom beyond the side": ("flat_of_bottom", 25.5, "leaves no bilge"),
     "a stem that lies down": ("stem_rake_deg", 85.0, "too steep"),

@@ -140,6 +140,16 @@ def test_a_transom_stays_within_the_breadth_unless_it_makes_it(
     assert bounds("transom_half_breadth", ship, now, Layout()).high == most
 
 
+def test_a_slender_transom_is_widened_and_the_ship_is_not(ship: Parent) -> None:
+    """What lies at the ship's side keeps its bits: the breadth and the flat of side stay."""
+    places = {**ship.places, "transom side": at(-5, 12, 27)}
+    vmap = compose(attrs.evolve(ship, places=places), {"transom_half_breadth": 15.0}, Layout())
+    here = vmap(np.array([[-5.0, 12.0, 27.0], [30.0, 25.0, 20.0], [-5.0, 6.0, 20.0]]))
+    assert here[0].tolist() == [-5.0, 15.0, 27.0]
+    assert here[1].tolist() == [30.0, 25.0, 20.0]
+    assert here[2].tolist() == [-5.0, 7.5, 20.0]
+
+
 def test_a_rake_is_straight_above_the_middle_of_the_stem(ship: Parent) -> None:
     """It bends from the draught up to half the height over it, and goes on straight."""
     z = np.array([18.0, 22.5, 24.75, 27.0])
