@@ -17,6 +17,7 @@ from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
 from drawings.stern import bulk_carrier, carrier_combs, counter
+from drawings.story import bossing_lines, bossing_profile
 from drawings.variation import rounded_hat, variation_fields
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -107,6 +108,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "carrier_combs": carrier_combs,
     "variation_fields": variation_fields,
     "rounded_hat": rounded_hat,
+    "bossing_profile": bossing_profile,
+    "bossing_lines": bossing_lines,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }

@@ -74,10 +74,7 @@ class FeatureMap:
     circles: tuple[Redrawn, ...]
 
     def __call__(self, xyz: FloatArray) -> FloatArray:
-        """Map places (n, 3), m; those on a circle to the bits of the new one.
-
-        Where the map itself makes the circle, all keep its bits: planes that it keeps stay planes.
-        """
+        """Map places (n, 3), m; those on a circle to the bits of the new one."""
         found = self.image(xyz)
         away = self._away(xyz)
         for i in np.flatnonzero(self._near(away).any(axis=1)).tolist():
@@ -87,7 +84,7 @@ class FeatureMap:
             if not circle.carried:
                 weight = self._weight(i, away[:, some])[0][:, None]
                 moved = moved + weight * circle.correction(unit)
-                moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
+            moved[away[i, some] == 0.0] = circle.after.at(unit[away[i, some] == 0.0])
             level = np.abs((xyz[some] - circle.before.centre) @ circle.before.normal)
             moved[np.maximum(size, level) <= circle.gap] = circle.after.centre
             found[some] = moved
