@@ -253,7 +253,10 @@ def _rows(
 def _kinds(
     state: HullState, line: int, marks: Marks
 ) -> tuple[np.typing.NDArray[np.int8], FloatArray]:
-    """Give each mark its kind; at the border of a flat the direction lies in the flat."""
+    """Give each mark its kind; at the border of a flat the direction lies in the flat.
+
+    Where a line leaves the centre plane after running along it, it turns in a knuckle.
+    """
     kind = np.zeros(len(marks.curve), np.int8)
     flat = marks.boundary == BoundaryKind.FLAT
     flat &= state.lines.planar.data[state.curves.line.data[marks.curve]]
@@ -265,7 +268,20 @@ def _kinds(
         along = np.cross(border, state.lines.normal.data[line])
         chord = marks.xyz[min(i + 1, len(kind) - 1)] - marks.xyz[max(i - 1, 0)]
         direction[i] = along if float(along @ chord) >= 0.0 else -along
+    kind[_leaving(marks.xyz[:, 1] == 0.0)] = PointKind.KNUCKLE
     return kind, direction
+
+
+def _leaving(central: np.typing.NDArray[np.bool_]) -> IntArray:
+    """Give the marks at which a line that begins or ends along the centre plane leaves it.
+
+    So runs a waterline along the top of a cylinder that it touches, before it turns outward.
+    """
+    off = np.flatnonzero(~central)
+    if not len(off):
+        return off
+    ends = np.array([off[0] - 1, off[-1] + 1])
+    return ends[[off[0] > 1, off[-1] < len(central) - 2]]
 
 
 def _pick(

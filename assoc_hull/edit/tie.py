@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
-from assoc_hull.edit.fair_cut import Option, choose_fair
+from assoc_hull.edit.fair_cut import Option, choose_fair, too_near
 from assoc_hull.edit.shadow import Shadow, shadow_of
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
@@ -46,11 +46,14 @@ _NEAR = 0.15
 
 
 def insert(found: Through, row: int, place: FloatArray, least: float = 0.0) -> bool:
-    """Put a point where it makes the least detour, unless one is nearer than `least` (m)."""
+    """Put a point where it makes the least detour, unless one is nearer than `least` (m).
+
+    Nor is it put where it would lie too near to one for the chord it comes into.
+    """
     places = np.array(found.place)
-    if least and float(np.sqrt(((places - place) ** 2).sum(axis=1)).min()) < least:
-        return False
     index = interval_of(places, place)
+    if least and too_near(places, index, place, least):
+        return False
     found.row.insert(index, row)
     found.place.insert(index, place.copy())
     return True

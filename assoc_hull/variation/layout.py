@@ -40,7 +40,7 @@ class Layout:
     shaft_top : float
         It fades up to this part of the draught.
     bossing : float
-        That of the bossing's radius fades over this many radii.
+        The bossing's breadth fades over this many radii, its height over half of them.
     tube : float
         It widens nothing beyond this many radii from the centre plane.
     bow_from : float
@@ -81,13 +81,13 @@ class Layout:
     stern: float = 0.25
     shaft: float = 0.12
     shaft_top: float = 1.25
-    bossing: float = 6.0
+    bossing: float = 12.0
     tube: float = 6.0
     bow_from: float = 0.85
     bulb_top: float = 1.25
     bulb_side: float = 1.15
     bulb_stem: float = 1.25
-    transom_low: float = 0.15
+    transom_low: float = 0.3
     transom_side: float = 0.5
     bilge: float = 8.0
     bilge_length: float = 0.2

@@ -71,8 +71,8 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     fade = _fade(layout, _cylinder(parent, x), layout.bossing * r)
     if layout.blend == "paper":
         return Share.at(name, "y", asked - y, side, *_ratio_bossing(parent, asked, layout, fade))
-    names = [f"boss{each}r" for each in ("-5", "-", "+", "+4")]
-    walls = stack(names, [h - 5.0 * r, h - r, h + r, h + 4.0 * r])
+    names = [f"boss{each}r" for each in ("-6", "-", "+", "+4")]
+    walls = stack(names, [h - 6.0 * r, h - r, h + r, h + 4.0 * r])
     wide, high = asked / y - 1.0, asked - r
     none, broad = Piece.along(fade, 0.0, 0.0), Piece.along(fade, wide, 0.0)
     out = Field(
@@ -83,7 +83,9 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
         ("boss-6r", h - 6.0 * r, 0.0), ("boss-", h - r, -high),
         ("boss+", h + r, high), ("boss+5r", h + 5.0 * r, 0.0),
     ]  # fmt: skip
-    up = layout.over(name, anchors, fade, windows=_BOSS)
+    # breadths need the length: the hull must not become narrower than its bossing ahead of it
+    sooner = _fade(layout, _cylinder(parent, x), 0.5 * layout.bossing * r)
+    up = layout.over(name, anchors, sooner, windows=_BOSS)
     return Share.at(name, "y", asked - y, side, out, up)
 
 

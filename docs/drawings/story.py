@@ -113,7 +113,7 @@ def bossing_lines() -> Figure:
     _label(plan, hulls[1], _WATER, (0, 1), (0, 24.0))
     body.set_aspect("equal")
     body.set(xlabel="y (m)", ylabel="z (m)", title="sections", xlim=(0, 7.4), ylim=(0, 12.6))
-    plan.set(xlabel="x (m)", ylabel="y (m)", title="waterlines", xlim=(5, 24), ylim=(0, 6.8))
+    plan.set(xlabel="x (m)", ylabel="y (m)", title="waterlines", xlim=(5, 24), ylim=(0, 7.6))
     handles = [
         Line2D([], [], color=PALE, label="parent"),
         Line2D([], [], color=ACCENT, label="variant"),

@@ -77,12 +77,12 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
             "shaft_height",
             (("shaft+r", 4.73), ("T", 10.8)),
             4.37,
-            (-4.0467, 4.0467),
+            (0.9533, 9.0467),
         ),
         ValueError,
         [
             "folds at x=5.625 z=7.813 (Z_z=-0.036) between 'shaft+r' (4.730) and 'T' (10.800), "
-            "node x=4.370; admissible +-4.046 m"
+            "node x=4.370; admissible shaft_height from 0.954 to 9.046 m"
         ],
     ),
     (

@@ -154,6 +154,21 @@ def test_identity_is_certified_with_minors_of_one() -> None:
     assert certify(FieldLayer("none", ()), BOX).certified
 
 
+def test_field_that_moves_nothing_in_the_box_costs_nothing() -> None:
+    """Beside fields that are nil, or act beyond the box, a field is checked as if alone."""
+    walls = (
+        Boundary("low", Chain.through([0.0, 200.0], [2.0, 4.0])),
+        Boundary("high", Chain.through([50.0, 150.0], [9.0, 8.0])),
+    )
+    none = Piece(Chain.constant(0.0), 0.0, Chain.constant(0.0))
+    lift = Piece(Chain.constant(0.0), 0.0, Chain.through([60.0, 90.0], [0.0, -3.0]))
+    far = Piece(Chain.constant(0.0), 0.0, Chain.through([240.0, 260.0], [0.0, 3.0]))
+    one = Field("lift", "z", walls, (none, lift))
+    idle = Field("idle", "z", walls, (none, none)), Field("far", "z", walls, (none, far))
+    alone, beside = (certify(FieldLayer("local", each), BOX) for each in ((one,), (one, *idle)))
+    assert beside == alone
+
+
 def test_box_without_extent_is_refused() -> None:
     """The corners must come in order."""
     with pytest.raises(BadInputError, match="extent"):
