@@ -155,15 +155,7 @@ class FileBusyError(AssocHullError, TimeoutError):
 
 @attrs.define(slots=False, eq=False)
 class StaleHullError(AssocHullError, RuntimeError):
-    """A hull file has moved on since it was opened; nothing was changed.
-
-    Attributes
-    ----------
-    path : str
-        The file.
-    newer : tuple of str
-        Names of the edits that were committed since.
-    """
+    """A hull file has moved on since it was opened, by edits `newer`; nothing was changed."""
 
     path: str
     newer: tuple[str, ...]
@@ -347,14 +339,9 @@ class FoldError(AssocHullError, ValueError):
         Boundary curves of the field below and above the witness, with their heights, m.
     node : float or None, m
         The nearest node along the ship.
-    admissible : (float, float) or None
-        Range of the field's displacement that is allowed, m; of the change of an angle, degrees,
-        where the field's name ends in ``_deg``. Infinite where nothing ends it.
-    interval : (float, float) or None
+    interval, unit : (float, float) or None, {"m", "deg"}
         Between these values the named parameter at fault may be asked for alone; infinite where
         nothing ends it.
-    unit : {"m", "deg"}
-        Of the interval.
     part : float or None
         So much of all changes that were asked for together is allowed, if each alone is.
     """
@@ -368,32 +355,25 @@ class FoldError(AssocHullError, ValueError):
     field: str = ""
     between: tuple[tuple[str, float], ...] = ()
     node: float | None = None
-    admissible: tuple[float, float] | None = None
     interval: tuple[float, float] | None = None
     unit: str = "m"
     part: float | None = None
 
     def __str__(self) -> str:
         x, y, z = self.witness
-        across = f" y={y:.3f}" if y else ""
-        parts = [
-            f"variation: '{self.field or self.layer}' {self._verdict()} at x={x:.3f}{across} "
-            f"z={z:.3f} ({self.minor}={self.least:.3f})"
-        ]
+        at = f"x={x:.3f}" + (f" y={y:.3f}" if y else "") + f" z={z:.3f}"
+        text = f"variation: '{self.field or self.layer}' {self._verdict()} at {at}"
+        text += f" ({self.minor}={self.least:.3f})"
         if self.between:
             walls = " and ".join(f"'{name}' ({height:.3f})" for name, height in self.between)
-            parts[0] += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
+            text += f" {'between' if len(self.between) > 1 else 'beyond'} {walls}"
         if self.node is not None:
-            parts[0] += f", node x={self.node:.3f}"
-        parts.append(self._remedy())
-        return "; ".join(parts)
+            text += f", node x={self.node:.3f}"
+        return f"{text}; {self._remedy()}"
 
     def _verdict(self) -> str:
-        if self.reason == "folds":
-            return "folds"
-        if self.reason == "thin":
-            return f"leaves less than {self.margin:g}"
-        return "is not decided: bounds too wide"
+        words = {"folds": "folds", "thin": f"leaves less than {self.margin:g}"}
+        return words.get(self.reason, "is not decided: bounds too wide")
 
     def _remedy(self) -> str:
         if self.part is not None:
@@ -404,24 +384,7 @@ class FoldError(AssocHullError, ValueError):
                 for inward, end in zip((math.ceil, math.floor), self.interval, strict=True)
             )
             return f"admissible {self.field or self.layer} {_span(low, high, self.unit)}"
-        if self.admissible is None:
-            return "ask for less, or let the field reach further"
-        unit = "degrees" if self.field.endswith("_deg") else "m"
-        low, high = (_inward(each) for each in self.admissible)
-        if math.isinf(low) and math.isinf(high):
-            return "ask for less, or let the field reach further"
-        if math.isinf(low):
-            return f"admissible up to {high:.3f} {unit}"
-        if math.isinf(high):
-            return f"admissible from {low:.3f} {unit}"
-        if low == -high:
-            return f"admissible +-{high:.3f} {unit}"
-        return f"admissible {low:.3f} to {high:.3f} {unit}"
-
-
-def _inward(change: float) -> float:
-    """Round a change to thousandths, toward nil."""
-    return math.trunc(1e3 * change) / 1e3 if math.isfinite(change) else change
+        return "ask for less, or let the field reach further"
 
 
 @attrs.define(slots=False, eq=False)

@@ -81,8 +81,9 @@ def vary(
         Values by name, m, or degrees where the name ends in ``_deg``; x from AP forward, z from
         the base line up. `measure` gives the names and the present values.
     layers : sequence
-        Raw layers that act after those of the named parameters: objects with `displacement` and
-        `jacobian`, or lists of fields as data (see `assoc_hull.variation.raw`).
+        Raw layers that act after those of the named parameters: a `FieldLayer`, `AdditiveLayer`,
+        `CornerLayer` or `DeadriseLayer`, or a list of fields as data (see
+        `assoc_hull.variation.raw`).
     layout : mapping or Layout
         How far the fields reach; see `assoc_hull.variation.layout.Layout`.
     drivers : sequence of Group, Line or str
@@ -173,7 +174,7 @@ def vary_by(
 
 
 def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:
-    state_of(hull)
+    state_of(hull, "in vary")
     hull.document.require_ended("vary")
     varied = hull if in_place else Hull(copy_of(hull.state))
     vmap, report = vary_document(varied.document, ask)

@@ -34,7 +34,18 @@ from benchmarks.ffd import SIDE, LatticePlan
 from benchmarks.ships import duisburg_test_case
 from benchmarks.variation_tasks import METHODS, Task, active_points, lattice, tasks
 
-__all__ = ["Fared", "fared", "figures", "main"]
+__all__ = [
+    "Fared",
+    "cloud",
+    "fared",
+    "figures",
+    "lines",
+    "main",
+    "mapped",
+    "sections",
+    "ships",
+    "title",
+]
 
 VARIANTS = 1000
 _FIELD = "rounded hat, quintic"
@@ -69,7 +80,7 @@ class Fared:
     most: float
 
 
-def _sections(state: HullState) -> IntArray:
+def sections(state: HullState) -> IntArray:
     """Give the curves of the sections."""
     return np.array(
         [
@@ -80,7 +91,7 @@ def _sections(state: HullState) -> IntArray:
     )
 
 
-def _mapped(data: CurveData, vmap: VMap) -> CurveData:
+def mapped(data: CurveData, vmap: VMap) -> CurveData:
     """Give curves through the images of points; given directions go along."""
     turn = vmap.jacobian(data.xyz)
     tangent = (data.kind == PointKind.TANGENT)[:, None]
@@ -94,9 +105,9 @@ def _mapped(data: CurveData, vmap: VMap) -> CurveData:
 
 def fared(state: HullState, task: Task, layer: Layer) -> Fared:
     """Measure what a method did."""
-    curves = _sections(state)
+    curves = sections(state)
     data, vmap = curve_data(state, curves), VMap((layer,))
-    image = _mapped(data, vmap)
+    image = mapped(data, vmap)
     old, new = loft(data), loft(image)
     touched = np.logical_or.reduceat((image.xyz != data.xyz).any(axis=1), data.start[:-1])
     normal = np.array([1.0, 0.0, 0.0])
@@ -143,7 +154,7 @@ def _widths(state: HullState, curves: IntArray) -> FloatArray:
     return found
 
 
-def _hulls() -> Iterator[tuple[str, ah.Hull]]:
+def ships() -> Iterator[tuple[str, ah.Hull]]:
     """Give the carrier, and DTC where its folder is named."""
     yield "carrier", ah.examples.bulk_carrier_207k()
     ship = duisburg_test_case()
@@ -153,22 +164,30 @@ def _hulls() -> Iterator[tuple[str, ah.Hull]]:
 
 def main() -> int:
     """Print what the methods do."""
-    head = f"{'':24} {'comb':>6} {'worst':>7} {'signs':>11} {'Z_z':>6} {'spill':>6} {'most m':>6}"
-    for name, hull in _hulls():
-        state = hull.document.state
-        for task in tasks(state):
-            print(f"{name}, {task.name} at x {task.x:.2f}, z {task.z:.2f} m\n{head}")
-            for method, (lay, blend) in METHODS.items():
-                it = fared(state, task, lay(task, blend))
-                print(
-                    f"{method:24} {it.median:6.3f} {it.worst:7.2f} {it.before:4d} -> {it.after:3d}"
-                    f" {it.least:6.3f} {it.spill:6.3f} {it.most:6.3f}"
-                )
-            print()
+    for name, hull in ships():
+        for task in tasks(hull.document.state):
+            print(f"{name}, {title(task)}")
+            print("\n".join(lines(hull.document.state, task)), end="\n\n")
     return 0
 
 
-def _cloud(state: HullState) -> FloatArray:
+def title(task: Task) -> str:
+    """Say what is raised, where."""
+    return f"{task.name} at x {task.x:.2f}, z {task.z:.2f} m"
+
+
+def lines(state: HullState, task: Task) -> Iterator[str]:
+    """Give what the methods do on one task, line by line."""
+    yield f"{'':24} {'comb':>6} {'worst':>7} {'signs':>11} {'Z_z':>6} {'spill':>6} {'most m':>6}"
+    for method, (lay, blend) in METHODS.items():
+        it = fared(state, task, lay(task, blend))
+        yield (
+            f"{method:24} {it.median:6.3f} {it.worst:7.2f} {it.before:4d} -> {it.after:3d}"
+            f" {it.least:6.3f} {it.spill:6.3f} {it.most:6.3f}"
+        )
+
+
+def cloud(state: HullState) -> FloatArray:
     """Give places all over a hull: on each segment of each of its lines."""
     found = [sample(state.spline(curve), CHORDS)[1] for curve in state.live("curves").tolist()]
     return np.concatenate(found)
@@ -191,22 +210,22 @@ def _fastest(
 def figures(quick: bool = False) -> list[Figure]:
     """Measure times on the carrier: one variant, a thousand, laying out, certifying, re-lofting."""
     hull = ah.examples.bulk_carrier_207k()
-    cloud = _cloud(hull.document.state)
+    places = cloud(hull.document.state)
     task = next(each for each in tasks(hull.document.state) if each.name.startswith("transom"))
     return [
-        Figure("variation: places on the hull", float(len(cloud)), ""),
-        *_variants(task, cloud, 5 if quick else 30),
-        *_apart(hull, task, cloud, 1 if quick else 5),
+        Figure("variation: places on the hull", float(len(places)), ""),
+        *_variants(task, places, 5 if quick else 30),
+        *_apart(hull, task, places, 1 if quick else 5),
     ]
 
 
-def _variants(task: Task, cloud: FloatArray, rounds: int) -> list[Figure]:
+def _variants(task: Task, places: FloatArray, rounds: int) -> list[Figure]:
     """Compare one variant and a thousand, weights kept."""
     layer = METHODS[_FIELD][0](task, METHODS[_FIELD][1])
-    plan, frame = FieldPlan.of([layer], cloud), lattice(task)
-    whole = LatticePlan.of(frame, cloud, 2)
+    plan, frame = FieldPlan.of([layer], places), lattice(task)
+    whole = LatticePlan.of(frame, places, 2)
     few = np.flatnonzero(active_points(task).ravel())
-    part = LatticePlan.of(frame, cloud, 2, few)
+    part = LatticePlan.of(frame, places, 2, few)
     rng = np.random.default_rng(1)
     sizes, moves = rng.uniform(-1.0, 1.0, (VARIANTS, 1)), rng.uniform(-1, 1, (VARIANTS, SIDE**3))
     some = np.ascontiguousarray(moves[:, few])
@@ -247,17 +266,17 @@ def _ratios(name: str, times: dict[str, float], goal: float) -> list[Figure]:
     ]
 
 
-def _apart(hull: ah.Hull, task: Task, cloud: FloatArray, rounds: int) -> list[Figure]:
+def _apart(hull: ah.Hull, task: Task, places: FloatArray, rounds: int) -> list[Figure]:
     """Time what is no mapping: laying out, computing weights, certifying, lofting again."""
     named = {"field": _FIELD, "additive": "additive, quintic", "FFD": "FFD 5 x 5 x 5"}
     layers = {key: METHODS[name][0](task, METHODS[name][1]) for key, name in named.items()}
-    box = np.stack([cloud.min(axis=0), cloud.max(axis=0)])
+    box = np.stack([places.min(axis=0), places.max(axis=0)])
     frame = lattice(task)
     jobs: dict[str, Callable[[], object]] = {
-        "weights": lambda: FieldPlan.of([layers["field"]], cloud),
-        "lattice": lambda: LatticePlan.of(frame, cloud, 2),
-        "map": lambda: VMap((layers["field"],))(cloud),
-        "FFD map": lambda: VMap((layers["FFD"],))(cloud),
+        "weights": lambda: FieldPlan.of([layers["field"]], places),
+        "lattice": lambda: LatticePlan.of(frame, places, 2),
+        "map": lambda: VMap((layers["field"],))(places),
+        "FFD map": lambda: VMap((layers["FFD"],))(places),
         "fold": lambda: certify(layers["field"], box),
         "fold, additive": lambda: certify(layers["additive"], box),
     }

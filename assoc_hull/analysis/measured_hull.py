@@ -23,8 +23,8 @@ class HasState(Protocol):
         ...
 
 
-def state_of(hull: HasState) -> HullState:
-    """Take a hull, and give its tables.
+def state_of(hull: HasState, where: str = "in hydrostatics") -> HullState:
+    """Take a hull, and give its tables; `where` is for the message.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def state_of(hull: HasState) -> HullState:
     if not isinstance(state, HullState):
         # The value itself is not shown: tables are long.
         what = f"the hull is a {type(hull).__name__}"
-        raise WrongTypeError(what, "in hydrostatics", "give a Hull")
+        raise WrongTypeError(what, where, "give a Hull")
     return state
 
 

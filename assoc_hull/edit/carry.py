@@ -99,6 +99,11 @@ class Carried:
         Crossings that a driver has come to drive, as they slid onto another of its points.
     doubt : dict of int to float, m
         Own points of followers that slip over the hull, and how uncertain it is where to.
+    ends : dict of (int, int) to (int, int)
+        Meetings of drivers with followers, by the driver and the number of the root, at which a
+        piece comes to begin (0) or end (1).
+    new_ends : dict of (int, int) to int
+        The crossings there, by the piece and its side.
     extra : dict of int to list of (float, int)
         Points that come to define a driver, with their parameters on it before the mapping.
     """
@@ -126,6 +131,8 @@ class Carried:
     driven: set[int] = attrs.field(factory=set)
     kept: set[int] = attrs.field(factory=set)
     doubt: dict[int, float] = attrs.field(factory=dict)
+    ends: dict[tuple[int, int], tuple[int, int]] = attrs.field(factory=dict)
+    new_ends: dict[tuple[int, int], int] = attrs.field(factory=dict)
     extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
 
     @property
@@ -148,6 +155,11 @@ class Carried:
             for curve in curves
         ]
         return int(curves[int(np.argmin(away))])
+
+    def end(self, curve: int, side: int) -> int:
+        """Give the point at which a curve comes to begin (0) or end (1)."""
+        rows: IntArray = self.state.curves.rows.data[curve]
+        return self.new_ends.get((curve, side), int(rows[-side]))
 
     def drives(self, curve: int) -> bool:
         """Tell whether a curve belongs to a driving line."""

@@ -15,6 +15,7 @@ import numpy as np
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import PLANE, into_planes
 from assoc_hull.edit.find_stays import find_stays
+from assoc_hull.edit.hand_over import hand_over
 from assoc_hull.edit.image import Image, Roots, misfit
 from assoc_hull.edit.other_ends import ends_change, pairs_of, recognise
 from assoc_hull.edit.touching import touch_rows
@@ -103,7 +104,8 @@ def _cut_with(
     if not needed:
         return
     roots = image.meet(normal, offset)
-    if any(ends_change(work, int(curves[local]), line, local, roots) for local in needed):
+    other = any(ends_change(work, int(curves[local]), line, local, roots) for local in needed)
+    if other and not hand_over(work, curves, some, line, roots):
         work.anew[line] = {}
         for local in some.tolist():
             recognise(work, int(curves[local]), line, local, roots)
@@ -158,15 +160,19 @@ def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
     state, xyz = work.state, roots.xyz[at]
     border = state.line_of(curve)
     kind = PointKind.KNUCKLE
-    if state.lines.boundary.data[border] == BoundaryKind.FLAT:
+    end = work.ends.get((curve, at))
+    if state.lines.boundary.data[border] == BoundaryKind.END:
+        kind = PointKind.SMOOTH
+    elif state.lines.boundary.data[border] == BoundaryKind.FLAT:
         kind = PointKind.TANGENT if work.planes.planar[border] else PointKind.SMOOTH
     sign = int(roots.sign[at])
-    spec = CrossingSpec(
-        curve, work.piece(line, xyz), xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind
-    )
+    piece = work.piece(line, xyz) if end is None else end[0]
+    spec = CrossingSpec(curve, piece, xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind)
     row = int(work.maker.crossings([spec])[0])
     work.add(into_planes(state, work.planes, np.array([row]), xyz[None])[0])
     work.contacts.append((line, row))
+    if end is not None:
+        work.new_ends[end] = row
     meets: Meets = state.curves.meets.data[curve]
     before = np.flatnonzero(meets.line == line)
     where = int(before[0]) if len(before) else len(meets.line)

@@ -17,6 +17,7 @@ from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
 from assoc_hull.edit.fair_cut import Option
 from assoc_hull.edit.shadow import gaps_across
+from assoc_hull.edit.thread import detour
 from assoc_hull.edit.tie import (
     choose,
     free_points,
@@ -139,14 +140,14 @@ def _points(work: Carried, curve: int) -> Through:
     are put between them by the least detour.
     """
     state = work.state
-    rows: IntArray = state.curves.rows.data[curve]
-    order = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    order = _ordered(work, curve)
     if not _slides(work, curve):
         return Through(order, [work.value[row].copy() for row in order], [])
-    order = [row for row in order if row not in work.watched]
+    work.watched -= set(order)
     loose = loose_points(work, curve, order)
     order = [row for row in order if row not in set(loose)]
     new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    new = [row for row in new if row not in work.new_ends.values()]
     base = _base(work, curve, order)
     found = Through(base, [work.value[row].copy() for row in base], [])
     for row in [*new, *(each for each in order if each not in set(base))]:
@@ -262,10 +263,28 @@ def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
 def _coming(work: Carried, curve: int) -> list[FloatArray]:
     """Give the places at which drivers have come to meet the plane of a follower's piece."""
     line = work.state.line_of(curve)
-    return [
-        place for other, place in work.come
-        if other == line and work.piece(line, place) == curve
-    ]  # fmt: skip
+    places = [place for other, place in work.come if other == line]
+    if len(work.state.lines.curves.data[line]) == 1:
+        return places
+    return [place for place in places if _piece(work, line, place) == curve]
+
+
+def _piece(work: Carried, line: int, place: FloatArray) -> int:
+    """Give the piece of a line that makes the least detour through a place."""
+    state, least = work.state, (np.inf, -1)
+    for curve in state.lines.curves.data[line]:
+        known = _ordered(work, curve)
+        if len(known) > 1:
+            least = min(least, (detour(work.value[known], place), int(curve)))
+    return least[1]
+
+
+def _ordered(work: Carried, curve: int) -> list[int]:
+    """Give the points of a curve that are known, in the order of before, with its new ends."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    ends = [work.new_ends.get((curve, side)) for side in (0, 1)]
+    return [row for row in (ends[0], *inner, ends[1]) if row is not None]
 
 
 def _base(work: Carried, curve: int, order: list[int]) -> list[int]:

@@ -20,7 +20,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import loft
 
-__all__ = ["Option", "choose_fair"]
+__all__ = ["Option", "choose_fair", "too_near"]
 
 _BAND = 2e-3
 """Curvature (1/m) up to this, of either sign, has none."""
@@ -32,6 +32,9 @@ _ROUNDS = 12
 
 _NEAR = 0.15
 """No option is taken as near as this (m) to a point of the follower."""
+
+_PART = 0.2
+"""Nor nearer to an end of the chord that it comes into than this part of it."""
 
 
 @attrs.frozen(eq=False)
@@ -47,7 +50,7 @@ class Option:
     limit : float, m
         How far the follower may pass it off where it is not made through it.
     near : float, m
-        Not taken where a point of the follower is as near as this.
+        Not taken where a point of the follower is as near as this, or nearly so; nil: anywhere.
     """
 
     row: int
@@ -62,6 +65,18 @@ class _Trial:
 
     points: Through
     taken: frozenset[int]
+
+
+def too_near(places: FloatArray, index: int, place: FloatArray, least: float) -> bool:
+    """Tell whether a place is too near to points of a curve to come before the one at an index.
+
+    Two points near to each other and a little off wave more than the curve strays without one.
+    """
+    away = np.sqrt(((places - place) ** 2).sum(axis=1))
+    step = places[index] - places[index - 1]
+    chord = float(np.sqrt((step * step).sum()))
+    beside = float(min(away[index], away[index - 1]))
+    return float(away.min()) <= least or beside < _PART * chord
 
 
 def choose_fair(
@@ -122,14 +137,13 @@ def _toggled(best: _Trial, options: Sequence[Option]) -> list[_Trial]:
             trials.append(_Trial(_without(best.points, option), best.taken - {i}))
             continue
         places = np.array(best.points.place)
-        away = np.sqrt(((places - option.place) ** 2).sum(axis=1))
-        if float(away.min()) > option.near:
-            trials.append(_Trial(_with(best.points, option, places), best.taken | {i}))
+        index = interval_of(places, option.place)
+        if not option.near or not too_near(places, index, option.place, option.near):
+            trials.append(_Trial(_with(best.points, option, index), best.taken | {i}))
     return trials
 
 
-def _with(points: Through, option: Option, places: FloatArray) -> Through:
-    index = interval_of(places, option.place)
+def _with(points: Through, option: Option, index: int) -> Through:
     row, place = list(points.row), list(points.place)
     row.insert(index, option.row)
     place.insert(index, option.place.copy())

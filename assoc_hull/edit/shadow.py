@@ -127,9 +127,8 @@ def shadow_of(work: Carried, curve: int) -> Shadow | None:
 
 def _ends(work: Carried, curve: int, spline: SplineBatch) -> tuple[float, float]:
     """Give how far the ends of a follower slide along its image, + onward."""
-    rows: IntArray = work.state.curves.rows.data[curve]
     found = [0.0, 0.0]
-    for i, row in enumerate(rows[[0, -1]].tolist()):
+    for i, row in enumerate((work.end(curve, 0), work.end(curve, 1))):
         if not work.known[row]:
             continue
         at = np.array([0.0 if i == 0 else float(spline.knot[-1])])
@@ -196,7 +195,8 @@ def _known(work: Carried, curve: int) -> tuple[IntArray, FloatArray]:
     own: IntArray = state.curves.rows.data[curve]
     at = dict(zip(meets.row.tolist(), meets.parameter.tolist(), strict=True))
     at |= dict(zip(own.tolist(), state.spline(curve).knot.tolist(), strict=True))
-    ends = set(own[[0, -1]].tolist())
+    ends = {work.end(curve, 0), work.end(curve, 1)}
+    at |= {work.end(curve, side): float(state.spline(curve).knot[-side]) for side in (0, 1)}
     rows = [
         row for row in at
         if row >= 0 and work.known[row] and row not in work.gone

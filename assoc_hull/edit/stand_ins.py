@@ -38,10 +38,10 @@ def settle_stand_ins(work: Carried) -> None:
 
 
 def _own(work: Carried, curve: int) -> IntArray:
-    """Give the adopted points of a follower that are not settled."""
+    """Give the adopted points of a follower that are not settled, and that the mapping moves."""
     rows: IntArray = work.state.curves.rows.data[curve]
     adopted = work.state.rows.sort.data[rows] == Sort.ADOPTED
-    found: IntArray = rows[adopted & ~work.known[rows]]
+    found: IntArray = rows[adopted & ~work.known[rows] & ~work.still[rows]]
     return found
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.make import Maker
 
-__all__ = ["interval_of", "thread"]
+__all__ = ["detour", "interval_of", "thread"]
 
 
 def interval_of(xyz: FloatArray, place: FloatArray) -> int:
@@ -27,9 +27,19 @@ def interval_of(xyz: FloatArray, place: FloatArray) -> int:
     >>> interval_of(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]), np.array([1.0, 0.5, 0]))
     2
     """
+    return int(_detours(xyz, place).argmin()) + 1
+
+
+def detour(xyz: FloatArray, place: FloatArray) -> float:
+    """Give the least detour (m) through a place, from one point of a curve (n, 3) to the next."""
+    return float(_detours(xyz, place).min())
+
+
+def _detours(xyz: FloatArray, place: FloatArray) -> FloatArray:
     to = np.sqrt(((xyz - place) ** 2).sum(axis=1))
     step = np.sqrt((np.diff(xyz, axis=0) ** 2).sum(axis=1))
-    return int((to[:-1] + to[1:] - step).argmin()) + 1
+    found: FloatArray = to[:-1] + to[1:] - step
+    return found
 
 
 def thread(maker: Maker, curve: int, row: int) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.carry_planes import into_planes
-from assoc_hull.edit.fair_cut import Option, choose_fair
+from assoc_hull.edit.fair_cut import Option, choose_fair, too_near
 from assoc_hull.edit.shadow import Shadow, shadow_of
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
@@ -41,16 +41,22 @@ _ROUNDS = 12
 _DOUBTS = (1.0, 0.3, 0.0)
 """How much of the doubt about where own points slip to is minded, first to last."""
 
+_STEPS = 2.0
+"""An end that is handed over changes the course up to so many times the way between the two."""
+
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
 
 
 def insert(found: Through, row: int, place: FloatArray, least: float = 0.0) -> bool:
-    """Put a point where it makes the least detour, unless one is nearer than `least` (m)."""
+    """Put a point where it makes the least detour, unless one is nearer than `least` (m).
+
+    Nor is it put where it would lie too near to one for the chord it comes into.
+    """
     places = np.array(found.place)
-    if least and float(np.sqrt(((places - place) ** 2).sum(axis=1)).min()) < least:
-        return False
     index = interval_of(places, place)
+    if least and too_near(places, index, place, least):
+        return False
     found.row.insert(index, row)
     found.place.insert(index, place.copy())
     return True
@@ -75,8 +81,11 @@ def slip_along(work: Carried, curve: int) -> None:
     if not len(mine):
         return
     knot = dict(zip(rows.tolist(), state.spline(curve).knot.tolist(), strict=True))
+    lost = _at_new_ends(work, curve, mine, knot)
+    work.gone |= set(lost)
+    mine = mine[~np.isin(mine, lost)]
     shadow = shadow_of(work, curve)
-    if shadow is None:
+    if shadow is None or not len(mine):
         work.gone |= set(mine.tolist())
         return
     at = np.array([knot[row] for row in mine.tolist()])
@@ -84,6 +93,26 @@ def slip_along(work: Carried, curve: int) -> None:
     work.doubt |= dict(zip(mine.tolist(), shadow.doubt(at).tolist(), strict=True))
     work.value[mine] = into_planes(state, work.planes, mine, places)
     work.known[mine] = True
+
+
+def _at_new_ends(work: Carried, curve: int, mine: IntArray, knot: dict[int, float]) -> list[int]:
+    """Give the own points beside ends that were handed over: they held another course."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    inner = [knot[row] for row in rows.tolist() if work.known[row] and row not in work.gone]
+    last = float(work.state.spline(curve).knot[-1])
+    low, high = 0.0, last
+    if (curve, 0) in work.new_ends:
+        low = max(min(inner, default=last), _STEPS * _handed(work, curve, 0))
+    if (curve, 1) in work.new_ends:
+        high = min(max(inner, default=0.0), last - _STEPS * _handed(work, curve, 1))
+    return [row for row in mine.tolist() if not low <= knot[row] <= high]
+
+
+def _handed(work: Carried, curve: int, side: int) -> float:
+    """Give how far an end is from where it would be had it not been handed over, m."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    step = work.value[work.end(curve, side)] - work.image[int(rows[-side])]
+    return float(np.sqrt((step * step).sum()))
 
 
 def round_turns(work: Carried, curve: int, found: Through) -> None:

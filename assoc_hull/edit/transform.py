@@ -123,8 +123,8 @@ def transform(
     _watch(edit, work)
     added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
     let_go(edit, work)
+    _move_planes(edit, planes)  # first, so that lines that come back find their new ones
     take_out(edit, work)
-    _move_planes(edit, planes)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
     return added

@@ -133,4 +133,4 @@ def measure(hull: HasState, *, only: Iterable[str] | None = None) -> Measures:
     >>> found.absent["bossing_radius"]
     'parent has no bossing circle'
     """
-    return measure_all(state_of(hull), only)
+    return measure_all(state_of(hull, "in measure"), only)

@@ -109,7 +109,7 @@ class Ask:
         level = choice(planes, "planes", get_args(Planes), "in vary")
         made = _layers(layers)
         return cls(
-            MappingProxyType(found), made, Layout.of(layout), _drivers(drivers),
+            MappingProxyType(found), made, _layout(layout), _drivers(drivers),
             "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
             positive(tolerance, "tolerance", "in vary"),
             _title(found) if name is None else text(name, "the name", "in vary"),
@@ -189,7 +189,13 @@ def _layers(given: object) -> tuple[Layer, ...]:
 
 def _acts(given: object) -> bool:
     """Tell a layer from the data of one."""
-    return hasattr(given, "displacement") and hasattr(given, "jacobian")
+    parts = ("name", "displacement", "jacobian", "regions")
+    return not isinstance(given, type) and all(hasattr(given, part) for part in parts)
+
+
+def _layout(given: Mapping[str, Any] | Layout | None) -> Layout:
+    """Take reaches by name, or a layout, whose reaches are looked at as well."""
+    return Layout.of(attrs.asdict(given) if isinstance(given, Layout) else given)
 
 
 def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:

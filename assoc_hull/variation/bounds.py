@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 import attrs
 
 from assoc_hull.variation.catalogue import CATALOGUE
+from assoc_hull.variation.certify import MARGIN
 from assoc_hull.variation.compose import STEEPEST
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
@@ -20,6 +21,9 @@ __all__ = ["Bounds", "bounds"]
 
 _ROUNDING = 1e-9
 """What lies beyond a bound by no more (m, degrees) was asked for at the bound."""
+
+_SPARE = 1.0 - MARGIN
+"""What is left of a stretch, as of a squeeze, for the margin of minors."""
 
 _BROADEST = 0.999
 """A transom of so much of the breadth is the broadest part itself: widening it widens the ship."""
@@ -87,15 +91,15 @@ def _flat_of_bottom(parent: Parent, present: float, layout: Layout) -> Bounds:
 
 def _bulb_length(parent: Parent, present: float, layout: Layout) -> Bounds:
     """Stretch the bow as much as it may be compressed: beyond, frames cross the stem twice."""
-    most = (1.0 - layout.bow_from) * parent.length / layout.curve.steepest
-    why = "stretches the bow more than twofold, or folds it"
+    most = _SPARE * (1.0 - layout.bow_from) * parent.length / layout.curve.steepest
+    why = "stretches the bow nearly twofold, or folds it"
     return Bounds(max(0.0, present - most), present + most, why)
 
 
 def _deadrise_deg(parent: Parent, present: float, layout: Layout) -> Bounds:
     """Let the bottom fall no more than it may rise."""
     low = float(parent.places["bilge high"][2]) if parent.has("bilge high") else 0.0
-    tall = (layout.deadrise_top * parent.draught - low) / layout.curve.steepest
+    tall = _SPARE * (layout.deadrise_top * parent.draught - low) / layout.curve.steepest
     slope, half = math.tan(math.radians(present)), 0.5 * parent.breadth
     least, most = (math.degrees(math.atan(slope + sign * tall / half)) for sign in (-1.0, 1.0))
     return Bounds(least, most, "turns the bottom too far for the side to take it up")

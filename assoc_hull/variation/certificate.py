@@ -43,8 +43,6 @@ class Certificate:
         The node nearest to the witness along the ship.
     minors : tuple of (str, float)
         The least value met of every minor that is not 1 by itself.
-    admissible : (float, float) or None
-        Displacements of the field that would be certified, if they were looked for.
     """
 
     reason: Reason
@@ -60,7 +58,6 @@ class Certificate:
     between: tuple[tuple[str, float], ...] = ()
     node: float | None = None
     minors: tuple[tuple[str, float], ...] = ()
-    admissible: tuple[float, float] | None = None
 
     @property
     def certified(self) -> bool:
@@ -78,5 +75,5 @@ class Certificate:
         if not self.certified:
             raise FoldError(
                 self.reason, self.minor, self.least, self.margin, self.witness, self.layer,
-                self.field, self.between, self.node, self.admissible,
+                self.field, self.between, self.node,
             )  # fmt: skip

@@ -27,9 +27,11 @@ def field_minors(layer: FieldLayer, box: FloatArray, margin: float) -> list[Foun
     """Give the least value of every principal minor that is not 1 by itself.
 
     The derivatives of y by x and z are no part of any; those of x and z by y are nil. So X_x,
-    Z_z, their determinant D, and Y_y are all there is to check.
+    Z_z, their determinant D, and Y_y are all there is to check. Fields that move nothing in the
+    box are left out: one field alone is checked more sharply than two.
     """
-    along, breadth, up = ([each for each in layer.fields if each.axis == axis] for axis in "xyz")
+    acting = [each for each in layer.fields if _acts(each, box)]
+    along, breadth, up = ([each for each in acting if each.axis == axis] for axis in "xyz")
     found = list[Found]()
     if along:
         found += _plane("X_x", along, [], box, margin)
@@ -40,6 +42,15 @@ def field_minors(layer: FieldLayer, box: FloatArray, margin: float) -> list[Foun
     if breadth:
         found += _breadth(breadth, box, margin)
     return found
+
+
+def _acts(field: Field | Rake, box: FloatArray) -> bool:
+    """Tell whether a field's region meets a box."""
+    region = field.region()
+    return all(
+        low <= high and low <= box[1, axis] and high >= box[0, axis]
+        for axis, (low, high) in ((0, region.x), (2, region.z))
+    )
 
 
 def _plane(name: str, along: _Fields, up: _Fields, box: FloatArray, margin: float) -> list[Found]:

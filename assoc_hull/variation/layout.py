@@ -40,7 +40,7 @@ class Layout:
     shaft_top : float
         It fades up to this part of the draught.
     bossing : float
-        That of the bossing's radius fades over this many radii.
+        The bossing's breadth fades over this many radii, its height over half of them.
     tube : float
         It widens nothing beyond this many radii from the centre plane.
     bow_from : float
@@ -62,7 +62,8 @@ class Layout:
     deadrise_top : float
         Deadrise fades up to this part of the draught.
     draught_top : float
-        Heights are scaled up to the draught, and shifted from this part of the draught up.
+        Heights are scaled up to the draught, and shifted from this part of the draught up, or from
+        the top of the hull if that is lower.
     deck : {"midship", "fore", "aft"}
         Where ``deck_height`` holds: amidships, the whole deck with it, or at a perpendicular.
     shift : str
@@ -80,18 +81,18 @@ class Layout:
     stern: float = 0.25
     shaft: float = 0.12
     shaft_top: float = 1.25
-    bossing: float = 20.0
+    bossing: float = 12.0
     tube: float = 6.0
     bow_from: float = 0.85
     bulb_top: float = 1.25
     bulb_side: float = 1.15
     bulb_stem: float = 1.25
-    transom_low: float = 0.15
+    transom_low: float = 0.3
     transom_side: float = 0.5
     bilge: float = 8.0
     bilge_length: float = 0.2
     deadrise_top: float = 0.8
-    draught_top: float = 1.6
+    draught_top: float = 2.4
     deck: Literal["midship", "fore", "aft"] = "midship"
     shift: Literal["c1", "c2", "end", "half", "lackenby"] = "c2"
 
@@ -141,9 +142,11 @@ _WORDS = {
     "deck": ("fore", "midship", "aft"),
     "shift": ("c1", "c2", "end", "half", "lackenby"),
 }
+_LEAST = {"draught_top": 1.0, "tube": 1.0, "bilge": 1.0}
+"""Reaches that begin at 1 and end at what is given."""
 
 
-def _check(name: str, value: object) -> None:
+def _check(name: str, value: Any) -> None:
     if name in _WORDS:
         if value not in _WORDS[name]:
             raise BadInputError(
@@ -152,5 +155,7 @@ def _check(name: str, value: object) -> None:
     elif name == "rigid":
         if not isinstance(value, bool):
             raise BadInputError(f"rigid is {value!r}", "in vary", "give True or False")
-    else:
-        positive(value, name, "in vary")
+    elif not positive(value, name, "in vary") > _LEAST.get(name, 0.0):
+        raise BadInputError(
+            f"{name} is {value:g}", "in vary", f"give a number above {_LEAST[name]:g}"
+        )

@@ -30,7 +30,7 @@ def depth(parent: Parent, asked: float, layout: Layout) -> Share:
 
 
 def deck_height(parent: Parent, asked: float, layout: Layout) -> Share:
-    """Raise the deck as it is, or by a fade from amidships to one of the perpendiculars."""
+    """Raise the deck by a ratio of heights, or by a fade from amidships to a perpendicular."""
     name = "deck_height"
     deck = parent.at({"fore": "deck fore", "aft": "deck aft", "midship": "deck"}[layout.deck], name)
     middle, z = 0.5 * parent.length, float(deck[2])
@@ -40,7 +40,7 @@ def deck_height(parent: Parent, asked: float, layout: Layout) -> Share:
         "midship": _ALL,
     }[layout.deck]
     walls = stack(["T", "deck"], [parent.draught, z])
-    pieces = Piece.along(course, 0.0, 0.0), Piece.along(course, 0.0, asked - z)
+    pieces = Piece.along(course, 0.0, 0.0), Piece.along(course, asked / z - 1.0, 0.0)
     return Share.at(name, "z", asked - z, deck, Field(name, "z", walls, pieces, layout.curve))
 
 

@@ -15,6 +15,9 @@ __all__ = ["bossing_radius", "shaft_height", "transom_half_breadth", "transom_he
 _WINDOW, _DOME, _HIGHEST = 0.3, 0.95, 0.65
 """Windows as parts of the gaps they lie in: the usual one, that of a dome down, and most up."""
 
+_BOSS = {"boss-": (_HIGHEST, 0.0), "boss+": (0.0, _HIGHEST)}
+"""Between them heights are stretched evenly, so that a circle stays one."""
+
 _FOOT = {"transom foot": (_WINDOW, 0.0), "transom": (0.5, 0.5)}
 """A long slow bend from the foot up; nothing of it lies above the foot."""
 
@@ -68,16 +71,21 @@ def bossing_radius(parent: Parent, asked: float, layout: Layout) -> Share:
     fade = _fade(layout, _cylinder(parent, x), layout.bossing * r)
     if layout.blend == "paper":
         return Share.at(name, "y", asked - y, side, *_ratio_bossing(parent, asked, layout, fade))
-    names = [f"boss{each}r" for each in ("-4", "-", "+", "+5")]
-    walls = stack(names, [h - 4.0 * r, h - r, h + r, h + 5.0 * r])
-    wide, high = asked / y - 1.0, asked / r - 1.0
-    none, tall = Piece.along(fade, 0.0, 0.0), Piece.along(fade, high, 0.0, h)
-    broad = Piece.along(fade, wide, 0.0)
+    names = [f"boss{each}r" for each in ("-6", "-", "+", "+4")]
+    walls = stack(names, [h - 6.0 * r, h - r, h + r, h + 4.0 * r])
+    wide, high = asked / y - 1.0, asked - r
+    none, broad = Piece.along(fade, 0.0, 0.0), Piece.along(fade, wide, 0.0)
     out = Field(
         name, "y", walls, (none, broad, broad, none), layout.curve,
         Tube(y, layout.tube, layout.curve),
     )  # fmt: skip
-    up = Field(name, "z", walls, (none, tall, tall, none), layout.curve)
+    anchors = [
+        ("boss-6r", h - 6.0 * r, 0.0), ("boss-", h - r, -high),
+        ("boss+", h + r, high), ("boss+5r", h + 5.0 * r, 0.0),
+    ]  # fmt: skip
+    # breadths need the length: the hull must not become narrower than its bossing ahead of it
+    sooner = _fade(layout, _cylinder(parent, x), 0.5 * layout.bossing * r)
+    up = layout.over(name, anchors, sooner, windows=_BOSS)
     return Share.at(name, "y", asked - y, side, out, up)
 
 

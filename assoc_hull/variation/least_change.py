@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline
 
-from assoc_hull.arguments import integer, numbers
+from assoc_hull.arguments import integer, numbers, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
@@ -222,10 +222,21 @@ def pull_surface(
         rows,
         _asked(targets),
         weights=None if weights is None else np.ravel(weights),
-        fixed=[i * shape[1] + j for i, j in fixed],
+        fixed=[_index(each, shape) for each in fixed],
         labels=[f"(u, v)=({each.u:g}, {each.v:g})" for each in targets],
     )
     return found.reshape(*shape, -1)
+
+
+def _index(point: Sequence[int], shape: tuple[int, int]) -> int:
+    """Give the number of a control point (i, j) of a net, row by row."""
+    if np.shape(point) != (2,):
+        raise BadInputError(f"fixed holds {shown(point)}", _WHERE, "give (i, j) each")
+    i, j = (
+        integer(each, "fixed", _WHERE, least=0, most=size - 1)
+        for each, size in zip(point, shape, strict=True)
+    )
+    return i * shape[1] + j
 
 
 def _some(targets: Sequence[object]) -> None:
@@ -234,7 +245,14 @@ def _some(targets: Sequence[object]) -> None:
 
 
 def _asked(targets: Sequence[CurveTarget] | Sequence[SurfaceTarget]) -> FloatArray:
-    return np.stack([numbers(each.d, "d", _WHERE) for each in targets])
+    asked = [numbers(each.d, "d", _WHERE) for each in targets]
+    size = {len(each) for each in asked}
+    if len(size) > 1:
+        raise BadInputError(
+            f"pull: changes of {' and '.join(map(str, sorted(size)))} coordinates", _WHERE,
+            "give as many coordinates of each target",
+        )  # fmt: skip
+    return np.stack(asked)
 
 
 def least_change(

@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 import attrs
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchor import Measures
 from assoc_hull.variation.anchors import measure_all
@@ -16,9 +15,9 @@ from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.compose import conflicts
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import hull_box, interval, present
-from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.room import Room
 
 __all__ = ["Listed", "list_table", "listing"]
 
@@ -28,8 +27,8 @@ _DIGITS = 4
 _HEAD = ("parameter", "present", "", "from", "to", "what it is")
 _FOOT = """\
 x from AP forward, z from the base line up. Each interval is that of the parameter asked for alone:
-beyond it the map folds, or what comes out is no ship. Towards its ends a line of the net may still
-be refused, with its name and the place."""
+beyond it the map folds, a round end cannot be made anew, or what comes out is no ship. Towards its
+ends a line of the net may still be refused, with its name and the place."""
 
 
 @attrs.frozen
@@ -131,23 +130,21 @@ def listing(state: HullState, layout: Layout | None = None) -> tuple[Listed, ...
     found = measure_all(state)
     # the box in which a variation is certified
     parent, box = parent_of(state, found), hull_box(state, TOLERANCE)
-    return tuple(_listed(name, found, parent, box, given) for name in CATALOGUE)
+    room = Room(state, parent, present(found, given), given, box)
+    return tuple(_listed(name, found, room) for name in CATALOGUE)
 
 
-def _listed(name: str, found: Measures, parent: Parent, box: FloatArray, layout: Layout) -> Listed:
+def _listed(name: str, found: Measures, room: Room) -> Listed:
     entry, reason = CATALOGUE[name], found.absent.get(name)
-    value = present(found, layout).get(name)
+    value = room.present.get(name)
     low = high = None
     if value is None:
         reason = reason or "the deck edge does not reach there"
     else:
         try:
-            low, high = (
-                each if math.isfinite(each) else None
-                for each in interval(parent, name, value, layout, box)
-            )
+            low, high = (each if math.isfinite(each) else None for each in room.interval(name))
         except BadInputError as error:
             reason = f"cannot be varied: {error.what.partition(': ')[2]}"
     return Listed(
-        name, entry.unit, entry.meaning, value, low, high, conflicts(name, layout), reason
+        name, entry.unit, entry.meaning, value, low, high, conflicts(name, room.layout), reason
     )

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import instance, places
+from assoc_hull.arguments import all_of, instance, places
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -80,7 +80,7 @@ def pull_through(
         wanted = np.concatenate([wanted, places(pins, "pins", "in pull_through")])
     data = curve_data(state, np.array([number]))
     rows: list[int] = state.curves.rows.data[number].tolist()
-    stays = {each.row for each in fixed}
+    stays = {each.row for each in all_of(fixed, Point, "fixed", "in pull_through")}
     motions = _motions(state, [-1 if row in stays else row for row in rows])
     if not len(motions):
         raise BadInputError(

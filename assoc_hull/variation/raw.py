@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from assoc_hull.arguments import choice, number, positive, text
+from assoc_hull.arguments import choice, flag, number, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import BLENDS, Blend
 from assoc_hull.variation.chain import Chain, Contour, Course
@@ -71,7 +71,11 @@ def _hat(given: object) -> Field:
         what, height, change = _row(each, 3, "an anchor", "[name, height, displacement]")
         anchors.append((text(what, "name", _WHERE), _number(height), _number(change)))
     blend = _blend(data)
+    names = [each[0] for each in anchors]
     outward = [text(each, "outward", _WHERE) for each in _items(data.get("outward", []), "outward")]
+    for each in outward:
+        if each not in names:
+            raise UnknownNameError("anchor of the hat", each, tuple(names))
     axis = choice(data.get("axis", "z"), "axis", ("x", "z"), _WHERE)
     return hat(
         text(data["name"], "name", _WHERE), anchors, _course(data["along"], blend, "along"),
@@ -130,7 +134,11 @@ def _course(given: object, blend: Blend, name: str) -> Course:
         return Chain.constant(number(given, name, _WHERE))
     data = _table(given, name, ("x", "v"), ("smooth",))
     chain = Chain.through(data["x"], data["v"], blend, name)
-    return Contour(chain.x, chain.v) if data.get("smooth") is True else chain
+    if not flag(data.get("smooth", False), "smooth", _WHERE):
+        return chain
+    if len(chain.x) < 2:
+        raise BadInputError(f"{name} is smooth through one node", _WHERE, "give two or more")
+    return Contour(chain.x, chain.v)
 
 
 def _axis(name: str) -> Axis:

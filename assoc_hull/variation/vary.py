@@ -27,9 +27,10 @@ from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.fold_outside import fold_outside
-from assoc_hull.variation.limits import Room, hull_box, present
+from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.room import SAME, Room, asked_radii
 from assoc_hull.variation.script import script_of
 from assoc_hull.variation.vmap import VMap
 
@@ -40,9 +41,6 @@ _MET = 1e-7
 
 _PROMISED = 1e-6
 _ROUNDS = 6
-
-_SAME = 1e-9
-"""A value (m, degrees) that is asked for and had already moves nothing of itself."""
 
 
 @attrs.frozen
@@ -161,9 +159,9 @@ class _Settled:
 
 def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]) -> _Settled:
     """Find the map whose applied values are the asked ones."""
-    room = Room(parent, was, ask.layout, hull_box(state, ask.tolerance))
+    room = Room(state, parent, was, ask.layout, hull_box(state, ask.tolerance))
     room.check(ask.values)
-    aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > _SAME}
+    aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
     best = found = _tried(state, room, ask, aim, 1)
     for rounds in range(2, _ROUNDS + 1):
         if best.worst <= _MET:
@@ -226,27 +224,12 @@ def _apply(
             edit, vmap, drivers=drivers, stations=ask.stations,
             follow=ask.planes == "follow", tolerance=ask.tolerance,
             particulars=_particulars(document.state, vmap, parent, ask),
-            radii=_radii(document.state, parent, ask, was),
+            radii=asked_radii(document.state, parent, ask.values, was),
         )  # fmt: skip
     report = edit.report
     if report is None:
         raise BadInputError("an edit is open", "in vary", "finish it before")
     return applied, report
-
-
-def _radii(
-    state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]
-) -> dict[str, float]:
-    """Give the radius that is asked for of the bossing's end, by the key of the feature."""
-    asked = ask.values.get("bossing_radius")
-    if asked is None or abs(asked - was["bossing_radius"]) <= _SAME or not parent.has("boss"):
-        return {}
-    boss = parent.places["boss"]
-    return {
-        each.key: asked for each in state.features
-        if each.centre is not None and each.kind == "circle"
-        and bool((np.abs(boss - each.centre) <= _PROMISED).all())
-    }  # fmt: skip
 
 
 def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:

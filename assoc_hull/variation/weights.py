@@ -148,7 +148,7 @@ class FieldPlan:
         BadInputError
             Another number of amplitudes, or not finite.
         """
-        given = np.asarray(amplitudes, np.float64)
+        given = self._numbers(amplitudes)
         row: list[float] = given.tolist()
         if given.shape != (self.count,) or not all(map(isfinite, row)):
             raise self._refused(given)
@@ -191,7 +191,7 @@ class FieldPlan:
         BadInputError
             As for `moved`; memory of another shape.
         """
-        given = np.asarray(amplitudes, np.float64)
+        given = self._numbers(amplitudes)
         if given.ndim != 2 or given.shape[1] != self.count or not np.isfinite(given).all():
             raise self._refused(given)
         shapes = [(len(given), len(each.rows)) for each in self.moving]
@@ -202,6 +202,12 @@ class FieldPlan:
                 f"give {shapes}",
             )  # fmt: skip
         return tuple(each.many(given, into) for each, into in zip(self.moving, memory, strict=True))
+
+    def _numbers(self, amplitudes: ArrayLike) -> FloatArray:
+        try:
+            return np.asarray(amplitudes, np.float64)
+        except (TypeError, ValueError):
+            raise self._refused(np.full(1, np.nan)) from None
 
     def _refused(self, given: FloatArray) -> BadInputError:
         return BadInputError(

@@ -28,13 +28,13 @@ _MORE = {
 
 
 def variation_fields() -> Figure:
-    """Draw the local fields that six named parameters lay out together."""
+    """Draw the fields that six named parameters lay out together."""
     hull = ah.examples.bulk_carrier_207k()
     found = measure_all(hull.state)
     asked = {name: found[name] + more for name, more in _MORE.items()}
-    (layer,) = compose(parent_of(hull.state, found), asked, Layout()).layers
-    assert isinstance(layer, FieldLayer)
-    return field_plan(hull, layer, paper="A4")
+    layers = compose(parent_of(hull.state, found), asked, Layout()).layers
+    fields = [field for each in layers if isinstance(each, FieldLayer) for field in each.fields]
+    return field_plan(hull, FieldLayer("all", tuple(fields)), paper="A4")
 
 
 def rounded_hat() -> Figure:
@@ -49,7 +49,7 @@ def rounded_hat() -> Figure:
         "ratios, as in the paper": _pieces("a", [0.0, 1.0 / (h - r), 1.0 / (h + r), 0.0], always),
         "shifts from anchor to anchor": _pieces("d", [0.0, 1.0, 1.0, 0.0], always),
     }
-    z = np.linspace(-2.0, 24.0, 1301)
+    z = np.linspace(-2.0, 30.0, 1601)
     places = np.column_stack([np.full_like(z, 6.0), np.zeros_like(z), z])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.6), sharey=True,
                                          layout="constrained")  # fmt: skip

@@ -73,6 +73,14 @@ def test_the_catalogue_of_form_parameters_is_that_of_the_code() -> None:
     assert script.refreshed(page) == page, "the page is out of date: python docs/catalogue.py"
 
 
+@pytest.mark.usefixtures("_made_already")
+def test_the_named_parameters_are_those_of_the_code() -> None:
+    """Each stands on its page as it is; `python docs/named_parameters.py` renews it."""
+    script = _script("named_parameters")
+    page = script.PAGE.read_text("utf-8")
+    assert script.refreshed(page) == page, "the page is out of date: docs/named_parameters.py"
+
+
 @pytest.mark.parametrize("page", PAGES, ids=_name)
 def test_links_lead_somewhere(page: Path) -> None:
     """A link within the repository leads to a file, and its anchor to a heading there."""

@@ -16,10 +16,14 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.catalogue import NAMES
+from assoc_hull.variation.certify import certify
+from assoc_hull.variation.fields_layer import FieldLayer
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import Room, hull_box, present
+from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.room import Room
 
 Given = dict[str, Any]
 
@@ -60,12 +64,24 @@ WORDS: dict[str, tuple[Given, type[AssocHullError], tuple[str, ...]]] = {
     "a reach of nan": ({**SCREW, "layout": {"stern": math.nan}}, BadInputError, ("stern is nan",)),
     "an unknown blend": ({**SCREW, "layout": {"blend": "septic"}}, BadInputError, ("quintic",)),
     "a layout that is none": ({**SCREW, "layout": "wide"}, WrongTypeError, ("layout is 'wide'",)),
+    "a layout made amiss": ({**SCREW, "layout": Layout(stern=-1.0)}, BadInputError, ("stern is",)),
+    "a reach that ends before it begins": (
+        {**SCREW, "layout": {"draught_top": 0.5}}, BadInputError, ("number above 1",),
+    ),
     "unknown stations": ({**SCREW, "stations": "y"}, BadInputError, ("use number or x",)),
     "no tolerance": ({**SCREW, "tolerance": 0.0}, BadInputError, ("tolerance is 0",)),
     "an empty name": ({**SCREW, "name": " "}, BadInputError, ("the name is ' '",)),
     "a driver in words": ({**SCREW, "drivers": "sections"}, WrongTypeError, ("drivers is str",)),
     "layers in words": ({"layers": "skeg"}, WrongTypeError, ("layers is str",)),
     "a layer that is none": ({"layers": [3]}, WrongTypeError, ("fields is int",)),
+    "the class of a layer": ({"layers": [FieldLayer]}, WrongTypeError, ("fields is type",)),
+    "an unknown anchor": (raw(outward=["skig"]), UnknownNameError, ("'skeg'",)),
+    "a contour of one node": (
+        raw(along={"x": [6], "v": [1], "smooth": True}), BadInputError, ("smooth through one",),
+    ),
+    "a contour or not": (
+        raw(along={"x": [6, 66], "v": [1, 0], "smooth": "no"}), WrongTypeError, ("smooth is 'no'",),
+    ),
     "an unknown kind of field": (
         {"layers": [[{"hut": HAT}]]}, UnknownNameError, ("'hat'", "part of a field"),
     ),
@@ -102,6 +118,13 @@ def refused(hull: ah.Hull, given: Given) -> AssocHullError:
     return found.value
 
 
+def told_interval(error: AssocHullError) -> tuple[float, float] | None:
+    """The interval that an error tells."""
+    if isinstance(error, FoldError):
+        return error.interval
+    return (error.least, error.most) if isinstance(error, OutOfRangeError) else None
+
+
 @pytest.mark.parametrize("case", WORDS)
 def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
     """The error tells the part at fault."""
@@ -111,58 +134,86 @@ def test_a_request_that_has_no_meaning(wigley: ah.Hull, case: str) -> None:
     assert [word for word in words if word not in str(error)] == []
 
 
-FOLDS: dict[str, tuple[Given, tuple[str, ...]]] = {
-    "a shaft above its room": (
-        asked(shaft_height=12.0),
-        ("'shaft_height' folds", "between 'shaft+r-'", "admissible shaft_height from 2.7"),
-    ),
-    "a bossing too large": (asked(bossing_radius=1.4), ("'boss-4r'", "0.037 to 1.253 m")),
-    "a deck below the waterline": (asked(depth=17.0), ("'T' (18.000)", "from 22.142 m up")),
-    "a draught above the deck": (asked(draught=50.0), ("'draught' folds", "to 39.985 m")),
-    "a hull of no length": (asked(length=10.0), ("'length'", "from 15.001 m up")),
-    "a bilge too large": (asked(bilge_radius=6.0), ("'bilge_radius' folds", "to 4.688 m")),
-    "no side for the bottom": (
-        asked(parallel_body_start=170.0), ("X_x", "from 56.734 to 160.853 m"),
-    ),
-    "a rake in degrees": (asked(stem_rake_deg=-60.0), ("'stem_rake_deg'", "to 80 deg")),
-    "a shift of stations": (asked(fore_shift=40.0), ("'fore_shift'", "-23.095 to 23.095 m")),
-    "two that fold together": (
-        asked(parallel_body_start=150.0, parallel_body_end=165.0),
-        ("not beside the others asked for", "% of each"),
-    ),
-}  # fmt: skip
-"""Requests that fold the carrier, with what the message says."""
+@pytest.fixture(scope="module")
+def room(bulk_carrier: ah.Hull) -> Room:
+    """What the carrier's parameters may be asked for."""
+    state, usual = bulk_carrier.state, Layout()
+    measures = measure_all(state)
+    now, box = present(measures, usual), hull_box(state, TOLERANCE)
+    return Room(state, parent_of(state, measures), now, usual, box)
+
+
+FOLDS = {
+    "a shaft above the deck": ("shaft_height", 30.0, "Z_z"),
+    "a bossing too large": ("bossing_radius", 5.0, "between 'boss"),
+    "a deck below the waterline": ("depth", 17.0, "'T' (18.000)"),
+    "a draught above the deck": ("draught", 60.0, "Z_z"),
+    "a hull of no length": ("length", 10.0, "X_x"),
+    "a bilge too large": ("bilge_radius", 6.0, "at x="),
+    "a parallel body of no length": ("parallel_body_start", 204.0, "X_x"),
+    "a stem that leans back": ("stem_rake_deg", -79.0, " deg"),
+    "stations that cross": ("fore_shift", 80.0, "X_x"),
+}
+"""Values that fold the carrier, and what else the message says."""
 
 
 @pytest.mark.parametrize("case", FOLDS)
-def test_a_value_that_folds_is_told_with_its_interval(bulk_carrier: ah.Hull, case: str) -> None:
+def test_a_value_that_folds_is_told_with_its_interval(
+    bulk_carrier: ah.Hull, room: Room, case: str
+) -> None:
     """What folds, where, and between which values one may ask."""
-    given, words = FOLDS[case]
-    error = refused(bulk_carrier, given)
+    name, value, says = FOLDS[case]
+    error = refused(bulk_carrier, asked(**{name: value}))
     assert isinstance(error, FoldError)
-    assert [word for word in words if word not in str(error)] == []
+    assert error.reason == "folds" or name == "length"
+    assert f"'{name}' " in str(error)
+    assert f"; admissible {name} from " in str(error)
+    assert says in str(error)
+    assert told_interval(error) == room.interval(name)
 
 
-OUTSIDE: dict[str, tuple[Given, tuple[str, ...]]] = {
-    "a bulb of 30 m": (asked(bulb_length=30.0), ("stretches the bow", "to 22.4")),
-    "a transom broader than the ship": (asked(transom_half_breadth=26.0), ("to 25 m",)),
-    "a bilge larger than the side": (asked(bilge_radius=30.0), ("cannot be laid out", "to 4.688")),
-    "a flat bottom beyond the side": (asked(flat_of_bottom=25.5), ("leaves no bilge",)),
-    "an upright stem the other way": (asked(stem_rake_deg=85.0), ("too steep", "to 80 deg")),
-    "a bottom that falls": (asked(deadrise_deg=-20.0), ("from -14.3",)),
-}  # fmt: skip
-"""Requests from which no ship comes, with what the message says."""
+OUTSIDE = {
+    "a bulb of 30 m": ("bulb_length", 30.0, "stretches the bow"),
+    "a transom broader than the ship": ("transom_half_breadth", 26.0, "to 25 m"),
+    "a bilge larger than the side": ("bilge_radius", 30.0, "cannot be had"),
+    "a flat bottom beyond the side": ("flat_of_bottom", 25.5, "leaves no bilge"),
+    "a stem that lies down": ("stem_rake_deg", 85.0, "too steep"),
+    "a bottom that falls": ("deadrise_deg", -20.0, "turns the bottom too far"),
+}
+"""Values from which no ship comes, and what the message says."""
 
 
 @pytest.mark.parametrize("case", OUTSIDE)
 def test_a_value_that_makes_no_ship_is_told_with_its_interval(
-    bulk_carrier: ah.Hull, case: str
+    bulk_carrier: ah.Hull, room: Room, case: str
 ) -> None:
     """The map would be one to one; the interval is the same as that of folds."""
-    given, words = OUTSIDE[case]
-    error = refused(bulk_carrier, given)
+    name, value, says = OUTSIDE[case]
+    error = refused(bulk_carrier, asked(**{name: value}))
     assert isinstance(error, OutOfRangeError)
-    assert [word for word in words if word not in str(error)] == []
+    assert str(error).startswith(f"{name} of {value:g} ")
+    assert says in str(error)
+    assert told_interval(error) == room.interval(name)
+
+
+def test_values_that_fold_together_are_told_how_much_of_them_does_not(
+    bulk_carrier: ah.Hull, room: Room
+) -> None:
+    """Each is within its interval; so much of both changes that is told is certified."""
+    given = {"parallel_body_start": 150.0, "parallel_body_end": 165.0}
+    error = refused(bulk_carrier, asked(**given))
+    assert isinstance(error, FoldError)
+    assert error.part is not None
+    assert f"not beside the others asked for: admissible {100.0 * error.part:.3g} % of" in str(
+        error
+    )
+    for factor, fits in ((0.999, True), (1.01, False)):
+        part = factor * error.part
+        values = {
+            name: room.present[name] + part * (value - room.present[name])
+            for name, value in given.items()
+        }
+        assert certify(room.map(values), room.box).certified == fits
 
 
 CLASHES = [
@@ -197,10 +248,18 @@ def test_parameters_that_contradict_each_other_are_both_named(
     ],
 )
 def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why: str) -> None:
-    """The parameter and the reason; what cannot be laid out names what it needs."""
+    """The parameter and the reason; what cannot be had names what it needs."""
     error = refused(wigley, asked(**{name: 3.0}))
     assert f"cannot vary '{name}': " in str(error)
     assert why in str(error)
+
+
+@pytest.mark.parametrize("given", [3, None, "ship.hull"])
+def test_what_is_no_hull_is_not_varied(given: Any) -> None:
+    """Neither by a call nor by a script."""
+    for act in (ah.vary, ah.vary_by):
+        with pytest.raises(WrongTypeError, match=r"the hull is .*, in vary; give a Hull"):
+            act(given, **({"set": {"breadth": 11}} if act is ah.vary else {"script": SCREW}))
 
 
 def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
@@ -210,28 +269,11 @@ def test_a_hull_that_is_being_edited_is_not_varied(wigley: ah.Hull) -> None:
     assert wigley.history == ()
 
 
-@pytest.fixture(scope="module")
-def room(bulk_carrier: ah.Hull) -> Room:
-    """What the carrier's parameters may be asked for."""
-    measures, usual = measure_all(bulk_carrier.state), Layout()
-    return Room(
-        parent_of(bulk_carrier.state, measures), present(measures, usual), usual,
-        hull_box(bulk_carrier.state, 2e-3),
-    )  # fmt: skip
-
-
 def certify_alone(room: Room, name: str, value: float) -> bool:
     """Check a value, lay it out, certify the map."""
     asked_for = {name: value}
     room.check(asked_for)
     return room.certified(room.map(asked_for), asked_for).certified
-
-
-def told_interval(error: AssocHullError) -> tuple[float, float] | None:
-    """The interval that an error tells."""
-    if isinstance(error, FoldError):
-        return error.interval
-    return (error.least, error.most) if isinstance(error, OutOfRangeError) else None
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -147,11 +147,38 @@ def test_refusal_says_where_and_between_what() -> None:
     assert caught.value.least == pytest.approx(-0.0378912685, abs=1e-9)
 
 
+@pytest.mark.parametrize("first", [0, 1])
+def test_the_field_that_shrinks_space_most_is_named(first: int) -> None:
+    """Of several that act at the witness, in whatever order they stand."""
+    shifts = [Piece.along(Chain.constant(1.0), 0.0, d) for d in (0.0, -0.5, 0.0)]
+    weak = Field("weak", "z", stack(["low", "middle", "high"], [0.0, 8.0, 16.0]), tuple(shifts))
+    strong = shaft(4.2, BLENDS["cubic"]).fields[0]
+    fields = (weak, strong) if first == 0 else (strong, weak)
+    found = certify(FieldLayer("local", fields), BOX)
+    assert not found.certified
+    assert found.field == "shaft_height"
+
+
 def test_identity_is_certified_with_minors_of_one() -> None:
     """Nothing that acts, nothing that folds."""
     found = certify(shaft(0.0, BLENDS["cubic"]), BOX)
     assert (found.certified, found.least) == (True, 1.0)
     assert certify(FieldLayer("none", ()), BOX).certified
+
+
+def test_field_that_moves_nothing_in_the_box_costs_nothing() -> None:
+    """Beside fields that are nil, or act beyond the box, a field is checked as if alone."""
+    walls = (
+        Boundary("low", Chain.through([0.0, 200.0], [2.0, 4.0])),
+        Boundary("high", Chain.through([50.0, 150.0], [9.0, 8.0])),
+    )
+    none = Piece(Chain.constant(0.0), 0.0, Chain.constant(0.0))
+    lift = Piece(Chain.constant(0.0), 0.0, Chain.through([60.0, 90.0], [0.0, -3.0]))
+    far = Piece(Chain.constant(0.0), 0.0, Chain.through([240.0, 260.0], [0.0, 3.0]))
+    one = Field("lift", "z", walls, (none, lift))
+    idle = Field("idle", "z", walls, (none, none)), Field("far", "z", walls, (none, far))
+    alone, beside = (certify(FieldLayer("local", each), BOX) for each in ((one,), (one, *idle)))
+    assert beside == alone
 
 
 def test_box_without_extent_is_refused() -> None:

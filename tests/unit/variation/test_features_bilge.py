@@ -41,7 +41,8 @@ def test_the_arc_is_tangent_to_floor_and_side(beta: float) -> None:
 
 def test_a_radius_that_leaves_no_bottom_is_refused() -> None:
     """The keel's half-width is named."""
-    with pytest.raises(BadInputError, match=r"bilge: radius 9.0 m leaves no bottom \(keel half-"):
+    words = r"bilge: radius 9\.0 m leaves no bottom \(keel half-width 17\.0\)"
+    with pytest.raises(BadInputError, match=words):
         bilge(25.0, 9.0, keel=17.0)
 
 

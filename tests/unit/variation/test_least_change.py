@@ -131,6 +131,7 @@ def test_two_targets_on_one_point_are_refused() -> None:
         ([PULL], {"fixed": [7]}, "fixed is 7"),
         ([PULL], {"weights": [1, 1, 1, 1, 1, 1, 0]}, "7 weights, the least 0"),
         ([PULL], {"weights": [1, 1]}, "2 weights"),
+        ([PULL, CurveTarget(2.6, (0.1,))], {}, "changes of 1 and 2 coordinates"),
     ],
 )
 def test_what_cannot_be_done_is_refused(
@@ -139,6 +140,15 @@ def test_what_cannot_be_done_is_refused(
     """Each refusal is an error of the family and says what is wrong."""
     with pytest.raises(BadInputError, match=message):
         pull_curve(BASIS, targets, fixed=options.get("fixed", ()), weights=options.get("weights"))
+
+
+@pytest.mark.parametrize(
+    ("fixed", "message"), [((1, 8), "fixed is 8"), ((7, 0), "fixed is 7"), (3, r"give \(i, j\)")]
+)
+def test_a_fixed_point_off_the_net_is_refused(fixed: tuple[int, int], message: str) -> None:
+    """Also one whose number, row by row, would be that of another control point."""
+    with pytest.raises(BadInputError, match=message):
+        pull_surface(BASIS, BASIS, [SurfaceTarget(1.7, 1.0, (0.1,))], fixed=[fixed])
 
 
 @pytest.mark.parametrize(("knots", "degree"), [([0, 1], 3), ([0, 0, 1, 0.5], 1)])

@@ -2,11 +2,12 @@
 
 import itertools
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray
 from assoc_hull.geometry.evaluation import evaluate
@@ -199,3 +200,12 @@ def test_a_curve_with_nothing_free_is_refused(hull: Hull) -> None:
     curve = curve_of(hull, "ST 10")
     with pytest.raises(BadInputError, match="no point that may move"), hull.edit("none") as edit:
         pull_through(edit, curve, [[50.0, 3.0, 3.1]], fixed=curve.defining)
+
+
+def test_fixed_points_are_points(hull: Hull) -> None:
+    """A name does not do; the hull is as it was."""
+    before = hull.fingerprint
+    names: Any = ["ST 10"]
+    with pytest.raises(WrongTypeError, match="an item of fixed is 'ST 10'"), hull.edit("f") as edit:
+        pull_through(edit, curve_of(hull, "ST 10"), [[50.0, 3.0, 3.1]], fixed=names)
+    assert hull.fingerprint == before

@@ -92,9 +92,9 @@ def test_a_plan_that_moves_nothing() -> None:
     assert plan.places([3.0]).tobytes() == plan.xyz.tobytes()
 
 
-@pytest.mark.parametrize("given", [[1.0, 2.0], [1.0, 2.0, np.nan]])
+@pytest.mark.parametrize("given", [[1.0, 2.0], [1.0, 2.0, np.nan], ["one", 2.0, 3.0]])
 def test_amplitudes_are_checked(given: list[float]) -> None:
-    """Too few, and such as are not finite, are refused."""
+    """Too few, such as are not finite, and such as are no numbers, are refused."""
     plan = FieldPlan.of(UNITS, XYZ[:10])
     with pytest.raises(BadInputError):
         plan.places(given)
