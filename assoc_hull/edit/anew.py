@@ -28,7 +28,9 @@ __all__ = ["bring_back", "take_out"]
 def take_out(edit: Transaction, work: Carried) -> None:
     """Take lines that are cut anew out of the net, and note that they come back."""
     state, put = edit.state, edit.journal.put
-    for line in sorted(work.anew, key=lambda line: str(state.lines.key.data[line])):
+    keys = state.lines.key.data
+    # Those of lower rank come back first, as the others are cut from them too.
+    for line in sorted(work.anew, key=lambda each: (state.family(each).rank, str(keys[each]))):
         mine = np.array(state.lines.curves.data[line], np.int64)
         stays = work.stays[line]
         crossings, placed = (np.setdiff1d(rows, stays.rows()) for rows in rows_of(state, mine))
@@ -61,8 +63,11 @@ def bring_back(
     normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
     marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
     if touches:
+        every = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
         marks = with_touches(state, marks, line, touches)
         clear(edit.maker, [each for each in touches if _bounds(state, each)])
+        left = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
+        known = {mark: row for mark, row in known.items() if mark not in every - left}
     put(state.lines.alive, [line], True)
     put(state.curves.alive, state.lines.curves.data[line], True)
     cut_anew(edit, line, marks, _still_there(edit, line, known), stays)
