@@ -147,6 +147,18 @@ def test_refusal_says_where_and_between_what() -> None:
     assert caught.value.least == pytest.approx(-0.0378912685, abs=1e-9)
 
 
+@pytest.mark.parametrize("first", [0, 1])
+def test_the_field_that_shrinks_space_most_is_named(first: int) -> None:
+    """Of several that act at the witness, in whatever order they stand."""
+    shifts = [Piece.along(Chain.constant(1.0), 0.0, d) for d in (0.0, -0.5, 0.0)]
+    weak = Field("weak", "z", stack(["low", "middle", "high"], [0.0, 8.0, 16.0]), tuple(shifts))
+    strong = shaft(4.2, BLENDS["cubic"]).fields[0]
+    fields = (weak, strong) if first == 0 else (strong, weak)
+    found = certify(FieldLayer("local", fields), BOX)
+    assert not found.certified
+    assert found.field == "shaft_height"
+
+
 def test_identity_is_certified_with_minors_of_one() -> None:
     """Nothing that acts, nothing that folds."""
     found = certify(shaft(0.0, BLENDS["cubic"]), BOX)

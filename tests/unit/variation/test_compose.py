@@ -9,27 +9,7 @@ from assoc_hull.variation.catalogue import CATALOGUE, NAMES
 from assoc_hull.variation.compose import compose, conflicts
 from assoc_hull.variation.layout import Layout
 from assoc_hull.variation.parent import Parent
-
-
-def at(x: float, y: float, z: float) -> FloatArray:
-    """A place."""
-    return np.array([x, y, z], np.float64)
-
-
-@pytest.fixture
-def ship() -> Parent:
-    """A bulk carrier as a layout sees it."""
-    places = {
-        "boss": at(6, 0, 5), "boss top": at(6, 0, 5.725), "boss side": at(6, 0.725, 5),
-        "transom": at(-5, 0, 18.4), "transom side": at(-5, 20, 27), "bulb tip": at(306.4, 0, 7),
-        "bulb top": at(306.4, 0, 13), "bulb side": at(300, 6, 7), "bilge low": at(150, 22.6, 0),
-        "bilge high": at(150, 25, 2.4), "corner": at(150, 25, 0), "keel side": at(150, 0, 0),
-        "bottom": at(150, 11.3, 0), "bottom edge": at(150, 22.6, 0), "flat edge": at(150, 22.6, 0),
-        "body start": at(115, 0, 0), "body end": at(205.5, 0, 0), "stem": at(300, 0, 18),
-        "stem top": at(303, 0, 27), "deck": at(150, 25, 27), "deck fore": at(300, 10, 27),
-        "deck aft": at(0, 20, 27), "aft terminal": at(14, 0, 0), "fore terminal": at(289, 0, 0),
-    }  # fmt: skip
-    return Parent(300, 50, 27, 18, 27, places)
+from tests.unit.variation.conftest import at
 
 
 def rake_deg(foot: FloatArray, top: FloatArray) -> float:

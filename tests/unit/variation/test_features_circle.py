@@ -96,6 +96,15 @@ def test_asked_radius_and_centre_are_taken_as_they_are() -> None:
     assert (after.centre.tolist(), after.radius) == ([6.0, 0.0, 6.0], 0.75)
 
 
+def test_only_what_nothing_is_asked_of_is_idle() -> None:
+    """A map that leaves a circle alone leaves work all the same where a radius is asked for."""
+    still = affine(None, [0.0, 0.0, 0.0])
+    assert redraw("boss", BOSS, still, still.jacobian).idle
+    assert not redraw("boss", BOSS, still, still.jacobian, radius=0.75).idle
+    up = affine(None, [0.0, 0.0, 0.98])
+    assert not redraw("boss", BOSS, up, up.jacobian).idle
+
+
 def test_angles_are_kept() -> None:
     """Each place of the circle goes to C + r (cos, sin) of its old angle, axes to the bit."""
     up = affine(None, [0.0, 0.0, 1.0])

@@ -1,0 +1,75 @@
+"""A variation carried out: which lines drive, what is met by correction, what size the ship has."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.ask import Planes, Stations
+from assoc_hull.variation.drivers import keeps
+
+
+@pytest.fixture(scope="module")
+def wigley() -> ah.Hull:
+    """A parent that nothing changes."""
+    return ah.examples.wigley()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "stations", "planes", "families"),
+    [
+        ("breadth", 11.0, "number", "stay", {"ST", "WL"}),
+        ("draught", 7.0, "number", "follow", {"ST", "WL"}),
+        ("draught", 7.0, "number", "stay", {"ST"}),
+        ("length", 110.0, "x", "follow", {"WL"}),
+    ],
+)
+def test_lines_drive_whose_planes_stay_or_may_go(
+    wigley: ah.Hull, name: str, value: float, stations: Stations, planes: Planes, families: set[str]
+) -> None:
+    """Waterlines stay where they are under a breadth; all others are cut again."""
+    found = ah.vary(wigley, set={name: value}, stations=stations, planes=planes).report.drivers
+    assert {each.split()[0] for each in found if each.startswith(("ST", "WL"))} == families
+
+
+def test_a_line_that_is_bent_where_no_slope_tells_keeps_no_plane(wigley: ah.Hull) -> None:
+    """Its places count as well: a circle drawn anew moves its own points alone."""
+
+    def lifted(xyz: FloatArray) -> FloatArray:
+        return xyz + np.where(xyz[:, 2:] > 4.0, [[1e-3, 0.0, 0.0]], 0.0)
+
+    def slope(xyz: FloatArray) -> FloatArray:
+        return np.tile(np.eye(3), (len(xyz), 1, 1))
+
+    state = wigley.state
+    kept = keeps(state, SpaceMap(lifted, slope))
+    lines = {str(state.lines.name.data[line]): line for line in state.live("lines").tolist()}
+    section, low = lines["ST 10"], lines["WL 2.5"]
+    assert not kept.plane[section, 0]
+    assert not kept.place[section, 0]
+    assert kept.plane[low, 2]
+    assert kept.place[low, 2]
+
+
+@pytest.mark.parametrize(("value", "depth"), [({"draught": 7.0}, None), ({"depth": 10.0}, 10.0)])
+def test_the_stored_depth_is_that_of_the_deck(
+    wigley: ah.Hull, value: dict[str, float], depth: float | None
+) -> None:
+    """A deeper ship has a higher deck, and her particulars say so."""
+    variant = ah.vary(wigley, set=value).hull
+    measured = ah.measure(variant)["depth"]
+    assert variant.particulars.depth == pytest.approx(depth or measured, abs=1e-9)
+    assert measured > ah.measure(wigley)["depth"]
+
+
+def test_what_lofting_misses_is_corrected(series60_70: ah.Hull) -> None:
+    """The bilge of a broader ship is measured at a curve through new points: rounds, then 1e-6."""
+    asked = {"breadth": 17.25, "bilge_radius": 1.88}
+    variant = ah.vary(series60_70, set=asked)
+    assert variant.report.rounds > 1
+    measured = ah.measure(variant.hull, only=list(asked))
+    assert dict(measured) == pytest.approx(asked, abs=1e-6)
+    assert variant.hull.check() == ()
