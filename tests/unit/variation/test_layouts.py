@@ -10,6 +10,7 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.bounds import bounds
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.compose import compose, solve
@@ -129,6 +130,14 @@ def test_a_transom_is_widened_in_full_from_its_lowest_point_up(ship: Parent) -> 
     assert at_foot == [-5.0, 10.0, foot]
     half = moved(ship, {"transom_half_breadth": 22.0}, at(-5, 10, 0.5 * (foot + 18.4)))
     assert half == pytest.approx([-5.0, 10.5, 0.5 * (foot + 18.4)], abs=1e-12)
+
+
+@pytest.mark.parametrize(("now", "most"), [(20.0, 25.0), (24.99, math.inf)])
+def test_a_transom_stays_within_the_breadth_unless_it_makes_it(
+    ship: Parent, now: float, most: float
+) -> None:
+    """One as broad as the ship widens her."""
+    assert bounds("transom_half_breadth", ship, now, Layout()).high == most
 
 
 def test_a_rake_is_straight_above_the_middle_of_the_stem(ship: Parent) -> None:
