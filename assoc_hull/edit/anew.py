@@ -18,6 +18,7 @@ from assoc_hull.edit.shift import cut_anew, rows_of
 from assoc_hull.edit.stays import NO_STAYS, Stays, rest
 from assoc_hull.edit.touching import Touch, clear, with_touches
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import NoMeetingError
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.model.family import BoundaryKind, Role
 from assoc_hull.model.state import HullState
@@ -28,7 +29,9 @@ __all__ = ["bring_back", "take_out"]
 def take_out(edit: Transaction, work: Carried) -> None:
     """Take lines that are cut anew out of the net, and note that they come back."""
     state, put = edit.state, edit.journal.put
-    for line in sorted(work.anew, key=lambda line: str(state.lines.key.data[line])):
+    keys = state.lines.key.data
+    # Those of lower rank come back first, as the others are cut from them too.
+    for line in sorted(work.anew, key=lambda each: (state.family(each).rank, str(keys[each]))):
         mine = np.array(state.lines.curves.data[line], np.int64)
         stays = work.stays[line]
         crossings, placed = (np.setdiff1d(rows, stays.rows()) for rows in rows_of(state, mine))
@@ -59,13 +62,34 @@ def bring_back(
     state, put = edit.state, edit.journal.put
     edit.document.refresh()
     normal, offset = state.lines.normal.data[line].copy(), float(state.lines.offset.data[line])
-    marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+    try:
+        marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
+    except NoMeetingError as error:
+        _let_go(edit, line, error)
+        return
     if touches:
+        every = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
         marks = with_touches(state, marks, line, touches)
         clear(edit.maker, [each for each in touches if _bounds(state, each)])
+        left = set(zip(marks.curve.tolist(), marks.root.tolist(), strict=True))
+        known = {mark: row for mark, row in known.items() if mark not in every - left}
     put(state.lines.alive, [line], True)
     put(state.curves.alive, state.lines.curves.data[line], True)
     cut_anew(edit, line, marks, _still_there(edit, line, known), stays)
+
+
+def _let_go(edit: Transaction, line: int, error: NoMeetingError) -> None:
+    """Remove a line that was taken out for good, unless it holds what the designer placed."""
+    state = edit.state
+    mine = np.array(state.lines.curves.data[line], np.int64)
+    crossings, placed = rows_of(state, mine)
+    if len(placed):
+        raise error
+    on = state.rows.alive.data & np.isin(state.rows.curve.data, mine).any(axis=1)
+    edit.pending.gone += sorted(str(state.rows.key.data[row]) for row in crossings.tolist())
+    edit.maker.remove_rows(np.flatnonzero(on))
+    edit.pending.curves -= set(mine.tolist())
+    edit.pending.notes.append(f"{state.lines.name.data[line]} is gone: {error}")
 
 
 def _bounds(state: HullState, touch: Touch) -> bool:

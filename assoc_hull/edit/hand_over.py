@@ -12,7 +12,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.image import Roots
-from assoc_hull.edit.other_ends import pairs_of
+from assoc_hull.edit.other_ends import pairs_of, runs_along
 from assoc_hull.edit.touching import touch_rows
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import BoundaryKind
@@ -50,11 +50,14 @@ def hand_over(work: Carried, curves: IntArray, some: IntArray, line: int, roots:
             continue
         meets: Meets = work.state.curves.meets.data[curve]
         double = set(touch_rows(work.state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
-        if double or (curve, line) in work.touches:
+        if double or any(touched == curve for touched, _ in work.touches):
             return False
         old, new, pairs = pairs_of(work, curve, line, local, roots)
+        gained = np.delete(new, [other for _, other in pairs])
+        if runs_along(work, curve, line, roots.t[gained]).any():
+            return False
         lost += meets.row[np.delete(old, [one for one, _ in pairs])].tolist()
-        won += np.delete(new, [other for _, other in pairs]).tolist()
+        won += gained.tolist()
     lost = [row for row in lost if row >= 0]
     ends = [_end_of(work, line, row) for row in lost]
     if not lost or len(lost) != len(won) or len(lost) > _MOST or None in ends:

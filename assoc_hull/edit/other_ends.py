@@ -17,7 +17,7 @@ from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import Meets
 
-__all__ = ["ends_change", "pairs_of", "recognise"]
+__all__ = ["ends_change", "pairs_of", "recognise", "runs_along"]
 
 _ALONG = 0.02
 """A curve that rises through a plane by a smaller part of its length runs along it."""
@@ -53,10 +53,10 @@ def ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) 
     slip = [work.space.places(meets.xyz[old[[i]]])[0] - roots.xyz[new[j]] for i, j in pairs]
     far = [float((step * step).sum()) > ONE_PLACE * ONE_PLACE for step in slip]
     ends = new[[j for (_, j), away in zip(pairs, far, strict=True) if away]]
-    return bool(_runs_along(work, curve, line, roots.t[ends]).any())
+    return bool(runs_along(work, curve, line, roots.t[ends]).any())
 
 
-def _runs_along(work: Carried, curve: int, line: int, t: FloatArray) -> np.typing.NDArray[np.bool_]:
+def runs_along(work: Carried, curve: int, line: int, t: FloatArray) -> np.typing.NDArray[np.bool_]:
     """Tell where the image of a curve runs along the plane of a line, or nearly: it touches it.
 
     An end that has slid there stands anywhere along the touch, as rounding has it.

@@ -95,7 +95,7 @@ def cut_anew(
     every, placed = rows_of(state, mine)
     parts = pieces_of(edit, line, marks)
     left = stays.on(state, [spread(part) for part in parts])
-    give_up(edit.maker, stays, left)
+    edit.pending.curves |= give_up(edit.maker, stays, left)
     crossings, placed = (np.setdiff1d(rows, left.rows()) for rows in (every, placed))
     edit.maker.roles(crossings, np.full(len(crossings), int(Role.WATCHED)))
     _drop_adopted(edit, mine, left.rows())

@@ -152,17 +152,19 @@ def rest(maker: Maker, stays: Stays) -> None:
     maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
 
 
-def give_up(maker: Maker, stays: Stays, left: Stays) -> None:
-    """Take what does not stay after all out of the curves that it defines."""
+def give_up(maker: Maker, stays: Stays, left: Stays) -> set[int]:
+    """Take what does not stay after all out of the curves that it defines; tell which these are."""
     state = maker.state
     lost = np.setdiff1d(stays.rows(), left.rows())
     lost = lost[state.rows.sort.data[lost] == Sort.CROSSING]
     maker.roles(lost, np.full(len(lost), int(Role.WATCHED)))
-    curves = np.unique(state.rows.curve.data[lost])
+    curves, changed = np.unique(state.rows.curve.data[lost]), set[int]()
     for curve in curves[curves >= 0].tolist():
         rows: IntArray = state.curves.rows.data[curve]
         if np.isin(rows, lost).any():
             maker.define(curve, rows[~np.isin(rows, lost)])
+            changed.add(curve)
+    return changed
 
 
 def settle_runs(maker: Maker, stays: Stays, pieces: Sequence[tuple[int, Marks]]) -> None:

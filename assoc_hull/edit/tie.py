@@ -41,6 +41,9 @@ _ROUNDS = 12
 _DOUBTS = (1.0, 0.3, 0.0)
 """How much of the doubt about where own points slip to is minded, first to last."""
 
+_STEPS = 2.0
+"""An end that is handed over changes the course up to so many times the way between the two."""
+
 _NEAR = 0.15
 """An adopted point as near as this (m) to another point adds nothing."""
 
@@ -95,13 +98,21 @@ def slip_along(work: Carried, curve: int) -> None:
 def _at_new_ends(work: Carried, curve: int, mine: IntArray, knot: dict[int, float]) -> list[int]:
     """Give the own points beside ends that were handed over: they held another course."""
     rows: IntArray = work.state.curves.rows.data[curve]
-    inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
-    low, high = 0.0, float(work.state.spline(curve).knot[-1])
+    inner = [knot[row] for row in rows.tolist() if work.known[row] and row not in work.gone]
+    last = float(work.state.spline(curve).knot[-1])
+    low, high = 0.0, last
     if (curve, 0) in work.new_ends:
-        low = min((knot[row] for row in inner), default=high)
+        low = max(min(inner, default=last), _STEPS * _handed(work, curve, 0))
     if (curve, 1) in work.new_ends:
-        high = max((knot[row] for row in inner), default=low)
+        high = min(max(inner, default=0.0), last - _STEPS * _handed(work, curve, 1))
     return [row for row in mine.tolist() if not low <= knot[row] <= high]
+
+
+def _handed(work: Carried, curve: int, side: int) -> float:
+    """Give how far an end is from where it would be had it not been handed over, m."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    step = work.value[work.end(curve, side)] - work.image[int(rows[-side])]
+    return float(np.sqrt((step * step).sum()))
 
 
 def round_turns(work: Carried, curve: int, found: Through) -> None:

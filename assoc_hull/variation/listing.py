@@ -27,8 +27,8 @@ _DIGITS = 4
 _HEAD = ("parameter", "present", "", "from", "to", "what it is")
 _FOOT = """\
 x from AP forward, z from the base line up. Each interval is that of the parameter asked for alone:
-beyond it the map folds, or what comes out is no ship. Towards its ends a line of the net may still
-be refused, with its name and the place."""
+beyond it the map folds, a round end cannot be made anew, or what comes out is no ship. Towards its
+ends a line of the net may still be refused, with its name and the place."""
 
 
 @attrs.frozen

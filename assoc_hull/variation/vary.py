@@ -13,11 +13,13 @@ from typing import Any
 import attrs
 import numpy as np
 
+from assoc_hull.edit.carry_planes import PLANE
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.given import Given
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchors import measure_all
@@ -129,6 +131,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
             )
     was = present(before, ask.layout)
     found = _settle(document.state, parent, ask, was)
+    levels = document.state.lines.offset.data.copy()
     applied, report = _apply(document, found.map, parent, ask, was)
     reached = _measured(document.state, ask)
     targets = tuple(
@@ -138,7 +141,8 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     regions = (*found.map.regions(), *applied.regions)
     return found.map, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        _notes(found.map, document.state, ask), script_of(ask),
+        (*_notes(found.map, document.state, ask), *_renamed(levels, document.state)),
+        script_of(ask),
     )  # fmt: skip
 
 
@@ -212,6 +216,22 @@ def _notes(vmap: VMap, state: HullState, ask: Ask) -> tuple[str, ...]:
         return ()
     x, _, z = beyond.witness
     return (f"fold_outside_hull: the map folds at x={x:.3f} z={z:.3f}, where there is no hull",)
+
+
+def _renamed(before: FloatArray, state: HullState) -> tuple[str, ...]:
+    """Tell of waterlines and buttocks that went with the map: names may say where they were."""
+    lines = np.array([
+        line for line in state.live("lines").tolist()
+        if state.family(line).axis in (1, 2) and state.lines.boundary.data[line] < 0
+    ], np.int64)  # fmt: skip
+    moved = np.abs(state.lines.offset.data[lines] - before[lines])
+    gone = lines[moved > PLANE]
+    if not len(gone):
+        return ()
+    farthest = int(lines[np.nanargmax(moved)])
+    name, level = state.lines.name.data[farthest], float(state.lines.offset.data[farthest])
+    told = f"{len(gone)} waterlines and buttocks went along and kept their names"
+    return (f"{told}: {name} is at {level:.6g} m",)
 
 
 def _apply(

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.geometry.closest import closest
 from assoc_hull.variants import Variation
 from tests.independent import trouble
 
@@ -65,7 +64,8 @@ def test_the_buttock_that_missed_the_bossing_meets_it_in_a_knuckle(
     assert point.position.tolist() == [6.0, 1.0, 6.0]
     assert point.kind == "knuckle"
     (curve,) = story.hull.lines["BTK 1"].curves
-    assert closest(curve.spline, 0, point.position[None])[2][0] == 0.0
+    # A point that defines the curve, to the last bit: the curve passes it by construction.
+    assert [6.0, 1.0, 6.0] in curve.spline.xyz.tolist()
     knot = curve.spline.xyz.tolist().index([6.0, 1.0, 6.0])
     above, below = curve.spline.xyz[[knot - 1, knot + 1]]
     assert min(above[0], below[0]) > 7.5
@@ -104,6 +104,35 @@ def test_lines_forward_of_the_stern_keep_their_bits(
             continue
         for old, new in zip(line.curves, story.hull.lines[name].curves, strict=True):
             assert np.array_equal(old.spline.xyz, new.spline.xyz), name
+
+
+def test_lines_cut_anew_keep_their_points_forward_of_the_stern(
+    bulk_carrier: ah.Hull, story: Variation
+) -> None:
+    """They come to end elsewhere aft; forward of the regions each point keeps name and bits."""
+    fore = max(region.x[1] for region in story.report.regions)
+    for name in ("WL 5", "WL 6", "WL 7", "BTK 1"):
+        old, new = (
+            {
+                point.name: point.position.tolist()
+                for curve in hull.lines[name].curves
+                for point in curve.points
+                if point.x > fore and point.crossing_role == "shared"
+            }
+            for hull in (bulk_carrier, story.hull)
+        )
+        assert len(old) > 20
+        assert new == old, name
+
+
+def test_the_bossing_alone_becomes_as_wide(bulk_carrier: ah.Hull) -> None:
+    """Two waterlines and a buttock are tangent to it then; the hull is sound, all are met."""
+    alone = ah.vary(bulk_carrier, set={"bossing_radius": 1.0})
+    assert alone.report.targets[0].reached == pytest.approx(1.0, abs=1e-6)
+    assert (alone.hull.check(), alone.hull.verify()) == ((), ())
+    assert alone.hull.points["BTK 1 x bossing end"].position.tolist() == [6.0, 1.0, 5.0]
+    top = alone.hull.lines["WL 6"].curves[0].spline.xyz
+    assert top[:2].tolist() == [[6.0, 0.0, 6.0], [7.5, 0.0, 6.0]]
 
 
 def test_undo_gives_the_parent_back(bulk_carrier: ah.Hull, story: Variation) -> None:

@@ -37,6 +37,19 @@ def test_a_script_and_options_are_one_request(hull: Path, tmp_path: Path, facts:
     assert ah.open(tmp_path / "one.hull").history[-1].name == "broad"
 
 
+def test_an_option_goes_before_what_the_script_says(
+    hull: Path, tmp_path: Path, facts: Json
+) -> None:
+    """Of the same value; what only the script names is asked for as well."""
+    script = tmp_path / "broad.json"
+    script.write_text(json.dumps({"set": {"breadth": 10.5, "draught": 7}}))
+    found = facts(
+        "vary", hull, "--script", script, "--set", "breadth=11", "-o", tmp_path / "out.hull"
+    )
+    reached = {each["name"]: each["reached"] for each in found["targets"]}
+    assert reached == {"breadth": 11.0, "draught": 7.0}
+
+
 def test_the_list_has_a_line_per_parameter(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Twenty below the head, each with its value or the reason why there is none."""
     assert main(["vary", str(hull), "--list"]) == 0

@@ -500,3 +500,52 @@ def test_jacobian_by_differences_agrees_with_the_given_one() -> None:
     truth[:, 0, 2] = 0.1 / 9.0 * np.cos(xyz[:, 2] / 9.0)
     assert np.abs(found - truth).max() < 1e-9
     assert (SpaceMap(lambda p: p).jacobians(xyz) == np.eye(3)).all()
+
+
+def test_a_follower_that_the_hull_does_not_reach_any_more_goes_with_a_note() -> None:
+    """A lower deck: the waterlines above it go in the same step, and undo brings them back."""
+    hull = small()
+    names = list(hull.lines)
+    with hull.edit("lower") as edit:
+        edit.transform(lambda xyz: xyz * [1.0, 1.0, 0.6], MAIN)
+    gone = [name for name in names if name not in hull.lines]
+    assert gone
+    assert all(name.startswith("WL") for name in gone)
+    assert edit.report is not None
+    for name in gone:
+        assert any(note.startswith(f"{name} is gone") for note in edit.report.notes)
+    assert hull.verify() == ()
+    assert hull.check() == ()
+    hull.undo()
+    assert list(hull.lines) == names
+
+
+def test_a_follower_is_its_image_where_the_map_keeps_its_plane(series60_70: ah.Hull) -> None:
+    """Buttocks that bend at one end only: elsewhere they cross waterlines where their images do.
+
+    These follow too, and are made through the same crossings.
+    """
+    with taken_back(series60_70) as hull:
+        length = hull.particulars.length
+        names = [line.name for line in hull.groups["buttocks"].lines.values()]
+        before = {name: [c.spline for c in hull.lines[name].curves] for name in names}
+
+        def lift_and_squeeze(xyz: FloatArray) -> FloatArray:
+            """Lift all by 2 %, and draw the foremost part inward."""
+            part = np.clip((xyz[:, 0] - 0.75 * length) / (0.25 * length), 0.0, 1.0) ** 3
+            return np.column_stack([xyz[:, 0], xyz[:, 1] * (1.0 - 0.05 * part), 1.02 * xyz[:, 2]])
+
+        with hull.edit("lift") as edit:
+            edit.transform(lift_and_squeeze, MAIN)
+        away = list[float]()
+        for name in names:
+            kept = np.array([
+                point.position for point in hull.lines[name].points
+                if " x WL" in str(point) and point.crossing_role == "shared"
+                and point.position[0] < 0.7 * length
+            ])  # fmt: skip
+            if len(kept):
+                feet = [closest(each, 0, kept / [1.0, 1.0, 1.02])[2] for each in before[name]]
+                away += np.min(feet, axis=0).tolist()
+        assert len(away) > 10
+        assert max(away) < 1e-9

@@ -57,8 +57,25 @@ def test_a_shaft_is_raised_as_a_whole(ship: Parent) -> None:
     vmap = compose(ship, {"shaft_height": 6.0}, Layout())
     boss = ship.places["boss"][None]
     assert np.abs(vmap.jacobian(boss)[0] - np.eye(3)).max() < 1e-14
-    assert (vmap(boss - [0.0, 0.0, 5.0]) == boss - [0.0, 0.0, 5.0]).all()
+    assert (vmap(boss * [1.0, 1.0, 0.0]) == boss * [1.0, 1.0, 0.0]).all()
     assert vmap(boss)[0, 2] == 6.0
+
+
+def test_a_larger_bossing_stays_a_circle(ship: Parent) -> None:
+    """All round its end, to rounding; six radii ahead its height is the hull's, its breadth fades.
+
+    Twelve radii ahead nothing is left of it.
+    """
+    vmap = compose(ship, {"bossing_radius": 1.0}, Layout())
+    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 91)
+    end = np.column_stack([np.full(91, 6.0), 0.725 * np.cos(angle), 5 + 0.725 * np.sin(angle)])
+    _, y, z = vmap(end).T
+    assert np.abs(np.hypot(y, z - 5.0) - 1.0).max() < 1e-14
+    ahead = end + np.array([6 * 0.725, 0.0, 0.0])
+    assert (vmap(ahead)[:, 2] == ahead[:, 2]).all()
+    assert (vmap(ahead)[1:-1, 1] > ahead[1:-1, 1] * 1.1).all()
+    beyond = end + np.array([12 * 0.725 + 1e-9, 0.0, 0.0])
+    assert (vmap(beyond) == beyond).all()
 
 
 def test_a_rigid_shaft_moves_its_bossing_by_one_amount(ship: Parent) -> None:
