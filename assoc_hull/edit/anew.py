@@ -26,8 +26,11 @@ from assoc_hull.model.state import HullState
 __all__ = ["bring_back", "take_out"]
 
 
-def take_out(edit: Transaction, work: Carried) -> None:
-    """Take lines that are cut anew out of the net, and note that they come back."""
+def take_out(edit: Transaction, work: Carried, *, may_go: bool = False) -> None:
+    """Take lines that are cut anew out of the net, and note that they come back.
+
+    Those that the hull does not reach any more go for good where they may.
+    """
     state, put = edit.state, edit.journal.put
     keys = state.lines.key.data
     # Those of lower rank come back first, as the others are cut from them too.
@@ -42,7 +45,10 @@ def take_out(edit: Transaction, work: Carried) -> None:
         put(state.curves.alive, mine, False)
         put(state.lines.alive, [line], False)
         touches = work.touched(line)
-        edit.pending.after.append(partial(bring_back, edit, line, work.anew[line], touches, stays))
+        known = work.anew[line]
+        edit.pending.after.append(
+            partial(bring_back, edit, line, known, touches, stays, may_go=may_go)
+        )
 
 
 def bring_back(
@@ -51,13 +57,18 @@ def bring_back(
     known: dict[tuple[int, int], int],
     touches: Sequence[Touch] = (),
     stays: Stays = NO_STAYS,
+    *,
+    may_go: bool = False,
 ) -> None:
     """Cut a line that was taken out from the others as they are now; what stays joins the cut.
+
+    Where the hull does not reach its plane any more the line goes if it may, and the report says
+    so.
 
     Raises
     ------
     NoMeetingError
-        The hull does not reach the plane of the line any more.
+        So it is, and the line may not go, or the designer has placed points on it.
     """
     state, put = edit.state, edit.journal.put
     edit.document.refresh()
@@ -65,6 +76,8 @@ def bring_back(
     try:
         marks = find_marks(state, int(state.lines.group.data[line]), normal, offset)
     except NoMeetingError as error:
+        if not may_go:
+            raise
         _let_go(edit, line, error)
         return
     if touches:

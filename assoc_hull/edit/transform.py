@@ -55,6 +55,7 @@ def transform(
     anchors: Sequence[tuple[int, float]] = (),
     particulars: Particulars | None = None,
     keep_features: bool = False,
+    lines_may_go: bool = False,
 ) -> int:
     """Carry driving lines by a mapping and cut the others again.
 
@@ -83,6 +84,9 @@ def transform(
     keep_features : bool
         Whether features stay whose points the mapping bends off them: for who makes them anew
         right after.
+    lines_may_go : bool
+        Whether followers go, with a note, whose planes the hull does not reach any more; else
+        they refuse the edit.
 
     Returns
     -------
@@ -124,7 +128,7 @@ def transform(
     added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
     let_go(edit, work)
     _move_planes(edit, planes)  # first, so that lines that come back find their new ones
-    take_out(edit, work)
+    take_out(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
     return added

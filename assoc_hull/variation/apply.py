@@ -106,7 +106,7 @@ def apply(
     size = _resized(state.particulars, particulars) if particulars else None
     added = transform(
         edit, space, chosen, follow=follow, levels=levels, tolerance=tolerance,
-        reshape=_both(anew, reshape), anchors=anchors, particulars=size,
+        reshape=_both(anew, reshape), anchors=anchors, particulars=size, lines_may_go=True,
     )  # fmt: skip
     if edit.pending.features is not None:
         edit.pending.features = anew.features(edit.pending.features)

@@ -9,6 +9,8 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.edit.transform import transform
 from assoc_hull.errors import (
     AssocHullError,
     BadInputError,
@@ -506,8 +508,14 @@ def test_a_follower_that_the_hull_does_not_reach_any_more_goes_with_a_note() -> 
     """A lower deck: the waterlines above it go in the same step, and undo brings them back."""
     hull = small()
     names = list(hull.lines)
-    with hull.edit("lower") as edit:
-        edit.transform(lambda xyz: xyz * [1.0, 1.0, 0.6], MAIN)
+    state = hull.state
+    drivers = [
+        line for line in state.live("lines").tolist()
+        if state.lines.name.data[line].startswith(("ST", "profile"))
+    ]  # fmt: skip
+    with Transaction(hull.document, "lower") as edit:
+        lower = SpaceMap(lambda xyz: xyz * [1.0, 1.0, 0.6])
+        transform(edit, lower, drivers, lines_may_go=True)
     gone = [name for name in names if name not in hull.lines]
     assert gone
     assert all(name.startswith("WL") for name in gone)
