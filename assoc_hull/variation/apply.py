@@ -110,7 +110,7 @@ def apply(
     )  # fmt: skip
     if edit.pending.features is not None:
         edit.pending.features = anew.features(edit.pending.features)
-    return Applied(_names(state, chosen), kept, added, anew.map.regions())
+    return Applied(_names(state, chosen), kept, added, anew.regions())
 
 
 def _both(anew: Regenerated, reshape: Reshape | None) -> Reshape:
