@@ -135,7 +135,8 @@ def _filleted(found: _Between, vmap: VMap) -> Bilge | None:
     ends = np.array([found.inner, half, old.floor, old.side, found.upper])
     foot, middle, low, high, upper = vmap(found.at(ends))[:, 1:]
     chord = low - foot
-    bend = float(np.cross(chord, middle - foot)) / math.hypot(*chord.tolist())
+    half_way = middle - foot
+    bend = float(chord[0] * half_way[1] - chord[1] * half_way[0]) / math.hypot(*chord.tolist())
     if max(abs(bend), abs(float(upper[0] - high[0]))) > _ON:
         return None
     rise = math.degrees(math.atan2(float(chord[1]), float(chord[0])))
