@@ -34,9 +34,6 @@ _LEAST = 0.1
 _LEAST_FINE = 0.01
 """The same of a feature, of which it is known how it is to turn."""
 
-_SAME = 1e-3
-"""A point as near as this (m) to an anchor stands for it."""
-
 _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
 
