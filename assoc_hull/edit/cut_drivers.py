@@ -7,9 +7,6 @@ more than the tolerance, adopted points hold it.
 
 from __future__ import annotations
 
-from bisect import bisect
-from collections.abc import Sequence
-
 import numpy as np
 
 from assoc_hull.edit.carry import Carried, Through, through
@@ -28,7 +25,7 @@ from assoc_hull.model.index import Index
 from assoc_hull.model.make import CrossingSpec
 from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["cut_drivers", "hold_anchors", "hold_images"]
+__all__ = ["cut_drivers", "hold_images"]
 
 _ROUNDS = 8
 _LEAST = 0.1
@@ -36,9 +33,6 @@ _LEAST = 0.1
 
 _LEAST_FINE = 0.01
 """The same of a feature, of which it is known how it is to turn."""
-
-_SAME = 1e-3
-"""A point as near as this (m) to an anchor stands for it."""
 
 _NEAR = 0.15
 """An adopted point as near as this (m) to a crossing that slid adds nothing."""
@@ -270,40 +264,6 @@ def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
             if adopted and not state.rows.kind.data[one, 0] and work.slid[other]:
                 found.add(one)
     return found
-
-
-def hold_anchors(work: Carried, image: Image, anchors: Sequence[tuple[int, float]]) -> int:
-    """Give drivers adopted points where they are to be exact.
-
-    Parameters
-    ----------
-    work : Carried
-        The transformation.
-    image : Image
-        The images of the drivers.
-    anchors : sequence of (int, float)
-        Curves, and parameters on them (m) before the mapping; followers have none.
-
-    Returns
-    -------
-    int
-        How many points were added.
-    """
-    added = 0
-    for curve, t in anchors:
-        if not work.drives(curve):
-            continue
-        part = work.made[curve]
-        local = image.curves.index(curve)
-        place = image.at(np.array([local]), np.array([t]))[0]
-        before = bisect(part.at, t)
-        if min(abs(t - each) for each in part.at) <= _SAME or before in (0, len(part.at)):
-            continue
-        part.row.insert(before, -1)
-        part.place.insert(before, _in_plane(work, curve, place))
-        part.at.insert(before, t)
-        added += 1
-    return added
 
 
 def hold_images(work: Carried, image: Image, tolerance: float) -> int:

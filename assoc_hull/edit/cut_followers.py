@@ -91,7 +91,8 @@ def _check_cut(work: Carried, curve: int) -> None:
         name = state.lines.name.data[state.line_of(curve)]
         raise BadInputError(
             f"{name} follows, but no driver defines it", "in transform",
-            f"name {name} or its group as a driver too, or another group that crosses it",
+            f"name {name} or its group as a driver too, or another group that crosses it; or "
+            "change one end of the ship after the other",
         )  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from assoc_hull.edit.anew import take_out
 from assoc_hull.edit.carry import Carried, Through, carry_directions, carry_ends, carry_points
 from assoc_hull.edit.carry_features import carry_features
 from assoc_hull.edit.carry_planes import Planes, carry_planes
-from assoc_hull.edit.cut_drivers import cut_drivers, hold_anchors, hold_images
+from assoc_hull.edit.cut_drivers import cut_drivers, hold_images
 from assoc_hull.edit.cut_followers import cut_followers
 from assoc_hull.edit.cut_kept import cut_kept
 from assoc_hull.edit.mapping import SpaceMap
@@ -52,7 +52,6 @@ def transform(
     levels: Mapping[int, float] | None = None,
     tolerance: float = _TOLERANCE,
     reshape: Reshape | None = None,
-    anchors: Sequence[tuple[int, float]] = (),
     particulars: Particulars | None = None,
     keep_features: bool = False,
     lines_may_go: bool = False,
@@ -77,8 +76,6 @@ def transform(
     reshape : callable or None
         Is given the transformation when all points have been carried; what it settles there
         takes the place of their images.
-    anchors : sequence of (int, float)
-        Curves with parameters on them (m) before the mapping, where drivers are to be exact.
     particulars : Particulars or None
         Those of the hull afterwards; None leaves them.
     keep_features : bool
@@ -125,7 +122,7 @@ def transform(
     settle_stand_ins(work)
     cut_followers(work)
     _watch(edit, work)
-    added = hold_anchors(work, image, anchors) + hold_images(work, image, tolerance)
+    added = hold_images(work, image, tolerance)
     let_go(edit, work)
     _move_planes(edit, planes)  # first, so that lines that come back find their new ones
     take_out(edit, work, may_go=lines_may_go)

@@ -11,13 +11,12 @@ from typing import Literal
 
 import attrs
 
-from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.transform import Reshape, transform
+from assoc_hull.edit.transform import transform
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.variation.drivers import Keeps, default_drivers, keeps, planes_go
-from assoc_hull.variation.features_net import Regenerated, regenerated
+from assoc_hull.variation.features_net import regenerated
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.stations import section_planes
 from assoc_hull.variation.vmap import VMap
@@ -58,8 +57,6 @@ def apply(
     follow: bool = False,
     tolerance: float = 2e-3,
     particulars: Mapping[str, float] | None = None,
-    reshape: Reshape | None = None,
-    anchors: Sequence[tuple[int, float]] = (),
     radii: Mapping[str, float] | None = None,
 ) -> Applied:
     """Carry a net by a map, within an edit that holds nothing else.
@@ -83,10 +80,6 @@ def apply(
         How far a driver may leave its exact image.
     particulars : mapping of str to float or None
         Those of ``length``, ``breadth``, ``depth``, ``draught`` (m) that change.
-    reshape : callable or None
-        Gives points that features own their exact places, before the drivers are cut.
-    anchors : sequence of (int, float)
-        Curves, and parameters on them (m) before the map, where drivers are to be exact.
     radii : mapping of str to float or None
         Radii (m) that are asked for of circles, by the keys of features.
 
@@ -106,22 +99,11 @@ def apply(
     size = _resized(state.particulars, particulars) if particulars else None
     added = transform(
         edit, space, chosen, follow=follow, levels=levels, tolerance=tolerance,
-        reshape=_both(anew, reshape), anchors=anchors, particulars=size, lines_may_go=True,
+        reshape=anew.settle, particulars=size, lines_may_go=True,
     )  # fmt: skip
     if edit.pending.features is not None:
         edit.pending.features = anew.features(edit.pending.features)
     return Applied(_names(state, chosen), kept, added, anew.regions())
-
-
-def _both(anew: Regenerated, reshape: Reshape | None) -> Reshape:
-    """Let features settle first, then who asks to."""
-
-    def act(work: Carried) -> None:
-        anew.settle(work)
-        if reshape is not None:
-            reshape(work)
-
-    return act
 
 
 def _resized(size: Particulars, new: Mapping[str, float]) -> Particulars:

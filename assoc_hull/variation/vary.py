@@ -13,13 +13,11 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.edit.carry_planes import PLANE
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.given import Given
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchors import measure_all
@@ -28,8 +26,8 @@ from assoc_hull.variation.ask import Ask
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
-from assoc_hull.variation.fold_outside import fold_outside
 from assoc_hull.variation.limits import hull_box, present
+from assoc_hull.variation.notes import also_changed, folds_outside, went_along
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.room import SAME, Room, asked_radii
@@ -139,10 +137,14 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
         for name, value in ask.values.items()
     )
     regions = (*found.map.regions(), *applied.regions)
+    now = present(measure_all(document.state), ask.layout)
+    notes = (
+        *folds_outside(found.map, document.state, ask.tolerance),
+        *went_along(levels, document.state), *also_changed(was, now, ask.values),
+    )  # fmt: skip
     return found.map, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        (*_notes(found.map, document.state, ask), *_renamed(levels, document.state)),
-        script_of(ask),
+        notes, script_of(ask),
     )  # fmt: skip
 
 
@@ -207,31 +209,6 @@ def _missed(best: _Settled, ask: Ask) -> BadInputError:
         f"{name} reached {asked - miss:.9g} {unit}, asked {asked:.9g} {unit}, {abs(miss):.2g} off",
         "in vary", "ask for less, or give a finer tolerance",
     )  # fmt: skip
-
-
-def _notes(vmap: VMap, state: HullState, ask: Ask) -> tuple[str, ...]:
-    """Tell what a designer should know of a map that was carried out."""
-    beyond = fold_outside(vmap, hull_box(state, ask.tolerance))
-    if beyond is None:
-        return ()
-    x, _, z = beyond.witness
-    return (f"fold_outside_hull: the map folds at x={x:.3f} z={z:.3f}, where there is no hull",)
-
-
-def _renamed(before: FloatArray, state: HullState) -> tuple[str, ...]:
-    """Tell of waterlines and buttocks that went with the map: names may say where they were."""
-    lines = np.array([
-        line for line in state.live("lines").tolist()
-        if state.family(line).axis in (1, 2) and state.lines.boundary.data[line] < 0
-    ], np.int64)  # fmt: skip
-    moved = np.abs(state.lines.offset.data[lines] - before[lines])
-    gone = lines[moved > PLANE]
-    if not len(gone):
-        return ()
-    farthest = int(lines[np.nanargmax(moved)])
-    name, level = state.lines.name.data[farthest], float(state.lines.offset.data[farthest])
-    told = f"{len(gone)} waterlines and buttocks went along and kept their names"
-    return (f"{told}: {name} is at {level:.6g} m",)
 
 
 def _apply(

@@ -55,12 +55,3 @@ def test_every_plane_section_is_told_its_place() -> None:
     found = section_planes(state, ())
     assert len(found) == len(ah.examples.wigley().groups["sections"].lines)
     assert all(state.lines.offset.data[line] == x for line, x in found.items())
-
-
-def test_lines_that_went_along_under_their_names_are_told() -> None:
-    """A name may say where its line was; nothing is told where all stay."""
-    parent = ah.examples.wigley()
-    asked = {"draught": 7.0}
-    (note,) = ah.vary(parent, set=asked).report.notes
-    assert note == ("10 waterlines and buttocks went along and kept their names: WL 6.25 is at 7 m")
-    assert ah.vary(parent, set=asked, planes="stay").report.notes == ()

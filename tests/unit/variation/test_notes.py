@@ -1,0 +1,31 @@
+"""What a report tells beside what was asked for."""
+
+from __future__ import annotations
+
+import assoc_hull as ah
+from assoc_hull.variation.notes import also_changed
+
+
+def test_lines_that_went_along_under_their_names_are_told() -> None:
+    """A name may say where its line was; nothing is told where all stay."""
+    parent = ah.examples.wigley()
+    asked = {"draught": 7.0}
+    told = "10 waterlines and buttocks went along and kept their names: WL 6.25 is at 7 m"
+    assert told in ah.vary(parent, set=asked).report.notes
+    assert told not in ah.vary(parent, set=asked, planes="stay").report.notes
+
+
+def test_values_that_changed_unasked_are_told() -> None:
+    """On a hull whose depth goes with its draught; what was asked for is not told again."""
+    report = ah.vary(ah.examples.wigley(), set={"draught": 7.0}).report
+    told = [note for note in report.notes if note.startswith("also changed: ")]
+    assert len(told) == 1
+    assert "depth 9.375 -> 10.125 m" in told[0]
+    assert "draught" not in told[0]
+    assert told[0] in str(report)
+
+
+def test_changes_below_a_millimetre_are_not_told() -> None:
+    """They are what lofting leaves over; absent values are no changes."""
+    assert also_changed({"depth": 27.0, "breadth": 50.0}, {"depth": 27.0009}, {}) == ()
+    assert also_changed({"depth": 27.0}, {"depth": 26.9989}, {}) != ()
