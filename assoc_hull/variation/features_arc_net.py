@@ -106,7 +106,7 @@ def _between(state: HullState, feature: Feature) -> _Between | None:
         return None
     ahead = np.array([z - low[1], low[0] - y]) / r
     inner, upper = _run(xyz[first::-1, 1:], -ahead), _run(xyz[last:, 1:], np.array([0.0, 1.0]))
-    if inner is None or upper is None or ahead[0] <= 0.0 or ahead[1] < -_ON or inner[0] < 0.0:
+    if inner is None or upper is None or ahead[0] <= 0.0 or inner[0] < 0.0:
         return None
     return _Between(x, Bilge(y, z, r, low.copy(), high.copy()), inner, upper)
 

@@ -75,7 +75,7 @@ def bilge(
         y of the flat side.
     radius : float, m
     deadrise_deg : float
-        By how much the floor rises outward, degrees.
+        By how much the floor rises outward, degrees; negative if it falls.
     keel : float, m
         Half-width of the keel, from where the floor rises.
     base : float, m
@@ -97,10 +97,8 @@ def bilge(
     side, foot = positive(half_breadth, "half_breadth", where), number(keel, "keel", where)
     r, low = positive(radius, "radius", where), number(base, "base", where)
     beta = math.radians(number(deadrise_deg, "deadrise_deg", where))
-    if not 0.0 <= beta < math.pi / 2.0:
-        raise BadInputError(
-            f"deadrise_deg is {deadrise_deg:g}", where, "give an angle from 0 to below 90 degrees"
-        )
+    if not abs(beta) < math.pi / 2.0:
+        raise BadInputError(f"deadrise_deg is {deadrise_deg:g}", where, "give less than 90 degrees")
     y = side - r
     z = low + math.tan(beta) * (y - foot) + r / math.cos(beta)
     floor = np.array([y + r * math.sin(beta), z - r * math.cos(beta)])
