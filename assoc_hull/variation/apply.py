@@ -103,7 +103,7 @@ def apply(
     )  # fmt: skip
     if edit.pending.features is not None:
         edit.pending.features = anew.features(edit.pending.features)
-    return Applied(_names(state, chosen), kept, added, anew.map.regions())
+    return Applied(_names(state, chosen), kept, added, anew.regions())
 
 
 def _resized(size: Particulars, new: Mapping[str, float]) -> Particulars:

@@ -1,4 +1,4 @@
-"""Bilge arcs with rise of floor, flats and straight runs: drawn anew from what they are."""
+"""The bilge as it is drawn: an arc between a bottom, level or rising, and an upright side."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import number, place, places, positive
+from assoc_hull.arguments import number, positive
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["Bilge", "bilge", "on_chord", "onto_plane"]
+__all__ = ["Bilge", "bilge"]
 
 
 @attrs.frozen(eq=False)
@@ -39,18 +39,28 @@ class Bilge:
     def __attrs_post_init__(self) -> None:
         freeze(self.floor, self.side)
 
+    @property
+    def first(self) -> float:
+        """The angle (radians) at which it leaves the floor; it comes onto the side at 0."""
+        return math.atan2(float(self.floor[1]) - self.z, float(self.floor[0]) - self.y)
+
     def at(self, part: ArrayLike) -> FloatArray:
         """Give places y, z (n, 2), m, at parts of the arc, 0 on the floor and 1 on the side.
 
         The ends are exactly the tangent points.
         """
         t = np.asarray(part, np.float64)
-        first = math.atan2(float(self.floor[1]) - self.z, float(self.floor[0]) - self.y)
-        angle = first * (1.0 - t)
+        angle = self.first * (1.0 - t)
         inner = np.column_stack([np.cos(angle), np.sin(angle)]) * self.radius
         inner = inner + np.array([self.y, self.z])
         inner = np.where((t == 0.0)[:, None], self.floor, inner)
         return np.where((t == 1.0)[:, None], self.side, inner)
+
+    def ahead(self, part: ArrayLike) -> FloatArray:
+        """Give the derivatives of `at` by the part, (n, 2), m."""
+        angle = self.first * (1.0 - np.asarray(part, np.float64))
+        turn = np.column_stack([np.sin(angle), -np.cos(angle)])
+        return np.asarray(self.first * self.radius * turn)
 
 
 def bilge(
@@ -102,62 +112,3 @@ def bilge(
             "make the radius smaller",
         )  # fmt: skip
     return Bilge(y, z, r, floor, np.array([side, z]))
-
-
-def onto_plane(xyz: FloatArray, normal: ArrayLike, offset: float) -> FloatArray:
-    """Put points of a flat onto it: a coordinate is assigned, not computed.
-
-    Parameters
-    ----------
-    xyz : (n, 3), m
-    normal : (3,)
-        Unit normal of the flat.
-    offset : float, m
-        normal . place on the flat.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.variation.features_bilge import onto_plane
-    >>> onto_plane(np.array([[3.0, 24.9999999, 9.0]]), [0, 1, 0], 25.0).tolist()
-    [[3.0, 25.0, 9.0]]
-    """
-    across = place(normal, "normal", "in a flat")
-    level = number(offset, "offset", "in a flat")
-    exact = np.abs(across) == 1.0
-    if exact.any():
-        return np.where(exact, level * across, xyz)
-    off = (xyz * across).sum(axis=1) - level
-    return np.asarray(xyz - off[:, None] * across)
-
-
-def on_chord(before: ArrayLike, first: ArrayLike, last: ArrayLike) -> FloatArray:
-    """Lay the points of a straight run on the chord of its new ends.
-
-    Each stays at its part of the length; ends are the new ends to the last bit.
-
-    Parameters
-    ----------
-    before : (n, 3), m
-        The points before, in order, the ends first and last.
-    first, last : (3,), m
-        The new ends.
-
-    Examples
-    --------
-    >>> from assoc_hull.variation.features_bilge import on_chord
-    >>> on_chord([[0, 0, 0], [1, 0, 0], [4, 0, 0]], [0, 0, 1], [8, 0, 1]).tolist()
-    [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [8.0, 0.0, 1.0]]
-    """
-    old = places(before, "before", "in a straight run")
-    begin, end = (place(each, "an end", "in a straight run") for each in (first, last))
-    chord = old[-1] - old[0]
-    length = float((chord * chord).sum())
-    if length == 0.0:
-        raise BadInputError("its ends are one place", "in a straight run", "give two ends")
-    part = ((old - old[0]) * chord).sum(axis=1)[:, None] / length
-    found = begin + part * (end - begin)
-    # Along an axis that the run is level in, no arithmetic may move it.
-    found = np.where(begin == end, begin, found)
-    found[0], found[-1] = begin, end
-    return np.asarray(found)

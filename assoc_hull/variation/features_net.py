@@ -1,7 +1,8 @@
 """The features of a hull that a variation makes anew, and what touches them.
 
-Circles are drawn anew about where the map sends their centres. What the map does to flats,
-straight runs and knuckle lines their points tell: they stay features where it leaves them so.
+Circles are drawn anew about where the map sends their centres, bilge arcs between bottom and
+side. What the map does to flats, straight runs and knuckle lines their points tell: they stay
+features where it leaves them so.
 """
 
 from __future__ import annotations
@@ -18,8 +19,11 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.feature import Feature
 from assoc_hull.model.feature_shape import host_curve
 from assoc_hull.model.state import HullState
+from assoc_hull.variation.features_arc import BilgeMap
+from assoc_hull.variation.features_arc_net import bilge_map
 from assoc_hull.variation.features_circle import GAP, Circle, Redrawn, redraw, touch
 from assoc_hull.variation.features_map import JOIN, FeatureMap, acting
+from assoc_hull.variation.field import Region
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Regenerated", "regenerated"]
@@ -45,11 +49,18 @@ class Regenerated:
         The features that the circles are.
     hosts : tuple of int
         The curves that they are, one each.
+    bilges : BilgeMap
+        What `map` draws circles anew after.
     """
 
     map: FeatureMap
     keys: tuple[str, ...]
     hosts: tuple[int, ...]
+    bilges: BilgeMap
+
+    def regions(self) -> tuple[Region, ...]:
+        """Give the boxes of the profile plane in which features change the map."""
+        return self.map.regions() + self.bilges.regions()
 
     def settle(self, work: Carried) -> None:
         """Tell a transformation which curves are circles, and which planes touch them."""
@@ -59,10 +70,15 @@ class Regenerated:
                 work.touches[curve, found.line] = found
 
     def features(self, carried: CarriedFeatures) -> CarriedFeatures:
-        """Give carried features the centres and radii that the circles are drawn with."""
-        drawn = {key: circle.after for key, circle in zip(self.keys, self.map.circles, strict=True)}
+        """Give carried features the centres and radii that they are drawn with."""
+        drawn = {
+            key: (circle.after.centre.tolist(), circle.after.radius)
+            for key, circle in zip(self.keys, self.map.circles, strict=True)
+        }
+        for arc in self.bilges.arcs:
+            drawn[arc.key] = arc.centre.tolist(), arc.after.radius
         found = tuple(
-            _as_drawn(each, drawn[each.key]) if each.key in drawn else each
+            _as_drawn(each, *drawn[each.key]) if each.key in drawn else each
             for each in carried.features
         )
         return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
@@ -71,7 +87,7 @@ class Regenerated:
 def regenerated(
     state: HullState, vmap: VMap, radii: Mapping[str, float] | None = None
 ) -> Regenerated:
-    """Draw the circles of a hull anew for a map.
+    """Draw the circles and the bilge arcs of a hull anew for a map.
 
     Parameters
     ----------
@@ -96,10 +112,12 @@ def regenerated(
     }
     some = [each for each in acting(list(drawn.values())) if not _even(each, vmap)]
     chosen = [each for each in features if drawn.get(each.key) in some]
+    bilges = bilge_map(state, vmap)
     return Regenerated(
-        FeatureMap(vmap, vmap.jacobian, tuple(drawn[each.key] for each in chosen)),
+        FeatureMap(bilges, bilges.jacobian, tuple(drawn[each.key] for each in chosen)),
         tuple(each.key for each in chosen),
         tuple(host_curve(state, each) for each in chosen),
+        bilges,
     )
 
 
@@ -160,8 +178,8 @@ def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
     return redraw(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
 
 
-def _as_drawn(feature: Feature, circle: Circle) -> Feature:
-    return attrs.evolve(feature, centre=circle.centre.tolist(), radius=circle.radius)
+def _as_drawn(feature: Feature, centre: Sequence[float], radius: float) -> Feature:
+    return attrs.evolve(feature, centre=centre, radius=radius)
 
 
 def _touches(work: Carried, curve: int, circle: Circle) -> list[Touch]:

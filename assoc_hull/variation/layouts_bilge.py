@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.chain import Chain
 from assoc_hull.variation.corner import CornerLayer
 from assoc_hull.variation.layout import Layout
@@ -15,6 +16,9 @@ __all__ = ["bilge_radius", "deadrise_deg", "flat_of_bottom"]
 
 _INNER = 0.95
 """The centre plane stays: a corner fades out within this part of the half-breadth."""
+
+_ALIKE = 1e-6
+"""m: tangents that differ by less are those of a circle."""
 
 
 def _range(parent: Parent, layout: Layout, name: str) -> Chain:
@@ -58,7 +62,11 @@ def bilge_radius(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
 
 
 def flat_of_bottom(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
-    """Move the edge of the flat bottom in or out; heights stay."""
+    """Move the edge of the flat bottom in or out.
+
+    Heights stay, unless the bilge is as high as it is wide: then it is a fillet, and stays one, as
+    high as it comes to be wide.
+    """
     name = "flat_of_bottom"
     edge, corner = parent.at("flat edge", name), parent.at("corner", name)
     y, half = float(edge[1]), float(corner[1])
@@ -67,7 +75,16 @@ def flat_of_bottom(parent: Parent, asked: float, layout: Layout) -> CornerLayer:
             f"flat_of_bottom of {asked:.6g} m", "in vary",
             f"ask for a half-breadth between 0 and {half:.6g} m",
         )  # fmt: skip
-    return _corner(parent, layout, name, half - y, ((half - asked) / (half - y), 1.0))
+    wide, ratio = half - y, (half - asked) / (half - y)
+    low, high = parent.places.get("bilge low"), parent.places.get("bilge high")
+    round_ = low is not None and high is not None and _fillet(edge, corner, low, high)
+    return _corner(parent, layout, name, wide, (ratio, ratio if round_ else 1.0))
+
+
+def _fillet(edge: FloatArray, corner: FloatArray, low: FloatArray, high: FloatArray) -> bool:
+    """Tell whether a bilge begins at the edge of the flat, as far from the corner as it ends."""
+    away = math.dist(corner.tolist(), low.tolist()), math.dist(corner.tolist(), high.tolist())
+    return abs(float(edge[1] - low[1])) <= _ALIKE and abs(away[0] - away[1]) <= _ALIKE
 
 
 def deadrise_deg(parent: Parent, asked: float, layout: Layout) -> DeadriseLayer:
