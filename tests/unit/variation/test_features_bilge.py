@@ -167,8 +167,8 @@ def test_a_ratio_of_the_whole_hull_keeps_the_exact_image(bulk_carrier: Hull) -> 
     """An oval is no arc, and the feature goes: the block coefficient counts for more."""
     varied = ah.vary(bulk_carrier, set={"breadth": 51.0}).hull
     assert "ST 10 arc" not in varied.features
-    oval = varied.find("ST 10").curves[0]
+    oval = varied.lines["ST 10"].curves[0]
     image = [
-        [150.0, 1.02 * point.y, point.z] for point in bulk_carrier.find("ST 10").curves[0].defining
+        [150.0, 1.02 * point.y, point.z] for point in bulk_carrier.lines["ST 10"].curves[0].defining
     ]
     assert np.abs([point.position for point in oval.defining] - np.array(image)).max() < 1e-12
