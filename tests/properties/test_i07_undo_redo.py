@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
@@ -72,6 +72,7 @@ def test_undone_saved_and_made_again_elsewhere(
     assert elsewhere(path, 8, "undo") == prints[::-1]
 
 
+@settings(max_examples=30)
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5), st.randoms())
 def test_any_way_through_the_history_gives_the_states_back(
     which: int, todo: list[Task], rng: random.Random

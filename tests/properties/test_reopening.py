@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import attrs
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
@@ -115,6 +115,7 @@ def go_on(hull: ah.Hull, session: list[Turn]) -> None:
         hull.close()
 
 
+@settings(max_examples=30)
 @given(st.integers(0, POOL - 1), turns())
 def test_a_session_goes_on_after_reopening_as_if_it_had_stayed_open(
     which: int, session: list[Turn]

@@ -9,7 +9,9 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
 from assoc_hull.variation.chain import Chain
+from assoc_hull.variation.compose import compose
 from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.ratios import ratios
 
 ONE = Chain.constant(1.0)
@@ -43,11 +45,24 @@ def test_an_anchor_at_the_base_has_no_ratio() -> None:
 
 def test_the_form_is_chosen_by_the_layout(bulk_carrier: ah.Hull) -> None:
     """Same anchor, same change; between anchors the ratio's field differs from the hat's."""
-    asked = {"bulb_height": 7.4}
+    parent = parent_of(bulk_carrier.state)
     hat, paper = (
-        ah.vary(bulk_carrier, set=asked, layout={"blend": blend}) for blend in ("cubic", "paper")
+        compose(parent, {"bulb_height": 7.4}, Layout.of({"blend": blend}))
+        for blend in ("cubic", "paper")
     )
-    assert paper.report.targets[0].reached == pytest.approx(7.4, abs=1e-6)
+    tip = parent.places["bulb tip"][None, :]
+    assert [float(each(tip)[0, 2]) for each in (hat, paper)] == pytest.approx([7.4] * 2, abs=1e-12)
     place = np.array([[302.0, 1.0, 10.0]])
-    assert abs(float((hat.map(place) - paper.map(place))[0, 2])) > 0.01
+    assert abs(float((hat(place) - paper(place))[0, 2])) > 0.01
     assert Layout.of({"blend": "paper"}).curve is CUBIC
+
+
+@pytest.mark.parametrize(
+    ("name", "place"), [("shaft_height", "boss"), ("bossing_radius", "boss top")]
+)
+def test_the_stern_has_the_stack_of_the_paper(bulk_carrier: ah.Hull, name: str, place: str) -> None:
+    """A shaft is met at its centre, a radius at the top of the circle."""
+    parent = parent_of(bulk_carrier.state)
+    asked, height = {"shaft_height": (5.5, 5.5), "bossing_radius": (0.8, 5.8)}[name]
+    vmap = compose(parent, {name: asked}, Layout.of({"blend": "paper"}))
+    assert float(vmap(parent.places[place][None, :])[0, 2]) == pytest.approx(height, abs=1e-6)
