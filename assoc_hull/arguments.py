@@ -35,6 +35,7 @@ __all__ = [
     "not_negative",
     "number",
     "numbers",
+    "once",
     "pair",
     "place",
     "places",
@@ -365,3 +366,26 @@ def plain(value: float) -> float:
         return value if np.ndim(value) else float(value)
     except _FAILS:
         return value
+
+
+def once(pairs: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+    """Take the entries of a JSON object; given to its reader, none of them comes twice.
+
+    Raises
+    ------
+    ValueError
+        A key that is there twice: for who reads the file to say in which.
+
+    Examples
+    --------
+    >>> import json
+    >>> from assoc_hull.arguments import once
+    >>> json.loads('{"T": 7.0}', object_pairs_hook=once)
+    {'T': 7.0}
+    """
+    found = dict[str, Any]()
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"{key!r} is given twice")
+        found[key] = value
+    return found

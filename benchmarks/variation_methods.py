@@ -17,7 +17,7 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.comb_integrals import comb_integrals, curvature_sign_changes
+from assoc_hull.geometry.comb_integrals import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, PointKind
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.geometry.spline import loft
@@ -25,7 +25,6 @@ from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.apply import apply
 from assoc_hull.variation.certify import certify
-from assoc_hull.variation.fairness_of import DEAD_BAND
 from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.vmap import VMap
 from assoc_hull.variation.weights import FieldPlan

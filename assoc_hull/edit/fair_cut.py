@@ -15,15 +15,12 @@ import numpy as np
 from assoc_hull.edit.carry import Carried, Through, through
 from assoc_hull.edit.thread import interval_of
 from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.comb_integrals import comb_integrals, curvature_sign_changes
+from assoc_hull.geometry.comb_integrals import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import loft
 
 __all__ = ["Option", "choose_fair", "too_near"]
-
-_BAND = 2e-3
-"""Curvature (1/m) up to this, of either sign, has none."""
 
 _COMB = 1.5
 """A comb integral may grow to so many times what it was."""
@@ -161,7 +158,7 @@ def _without(points: Through, option: Option) -> Through:
 def _unfair(spline: SplineBatch, normal: FloatArray) -> tuple[IntArray, FloatArray]:
     """Give changes of sign of the curvature, and comb integrals, curve by curve."""
     normals = np.broadcast_to(normal, (spline.count, 3))
-    return curvature_sign_changes(spline, normals, _BAND), comb_integrals(spline, normals)
+    return curvature_sign_changes(spline, normals, DEAD_BAND), comb_integrals(spline, normals)
 
 
 def _costs(

@@ -30,7 +30,10 @@ from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.geometry.segments import power, segment_curve, sum_per_curve
 from assoc_hull.geometry.vectors import check_normals, dot
 
-__all__ = ["comb_integrals", "curvature_sign_changes", "greatest_curvatures"]
+__all__ = ["DEAD_BAND", "comb_integrals", "curvature_sign_changes", "greatest_curvatures"]
+
+DEAD_BAND = 2e-3
+"""Curvature, 1/m, that nobody sees: a radius of 500 m."""
 
 _SAMPLES = 17
 """Places on each segment, both ends among them, where the sign is looked at."""

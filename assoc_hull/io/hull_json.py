@@ -31,7 +31,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import once, shown
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.io.whole_file import write_whole
 from assoc_hull.model.definition import definition, fingerprint, published
@@ -211,7 +211,7 @@ def _read(text: str, name: str) -> HullState:
 
 def _parse(text: str, name: str) -> dict[str, Any]:
     try:
-        found = json.loads(text, object_pairs_hook=_unique, parse_constant=_not_finite)
+        found = json.loads(text, object_pairs_hook=once, parse_constant=_not_finite)
     except json.JSONDecodeError as error:
         where = f"in {name}, line {error.lineno}, column {error.colno}"
         raise BadInputError(f"this is no JSON ({error.msg})", where, _AGAIN) from error
@@ -219,15 +219,6 @@ def _parse(text: str, name: str) -> dict[str, Any]:
         raise BadInputError(f"this is no hull ({error})", f"in {name}", _AGAIN) from error
     if not isinstance(found, dict):
         raise BadInputError("this is no JSON object", f"in {name}", "give a .hull.json file")
-    return found
-
-
-def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"the key {twice!r} stands there twice")
     return found
 
 

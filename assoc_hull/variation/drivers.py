@@ -21,8 +21,6 @@ __all__ = ["Keeps", "default_drivers", "keeps", "planes_go"]
 _SAMPLES = 4
 """Places a segment at which a map is asked."""
 
-_AXES = {"sections": 0, "frames": 0, "buttocks": 1, "waterlines": 2}
-
 
 @attrs.frozen(eq=False)
 class Keeps:
@@ -87,8 +85,8 @@ def planes_go(state: HullState, space: SpaceMap) -> bool:
     If some went and others stayed, lines of one sort could pass each other.
     """
     for line in state.live("lines").tolist():
-        axis = _AXES.get(state.family(line).name, 0)
-        if axis == 0 or state.lines.boundary.data[line] >= 0:
+        axis = state.family(line).axis
+        if axis is None or axis == 0 or state.lines.boundary.data[line] >= 0:
             continue
         splines = [state.spline(curve) for curve in state.lines.curves.data[line]]
         xyz = space.places(sample(SplineBatch.join(splines), _SAMPLES)[1])
@@ -120,7 +118,7 @@ def default_drivers(
     """
     chosen = list[int]()
     for line in state.live("lines").tolist():
-        axis = _AXES.get(state.family(line).name)
+        axis = state.family(line).axis
         if axis is None or state.lines.boundary.data[line] >= 0:
             continue
         may = stations == "number" if axis == 0 else follow

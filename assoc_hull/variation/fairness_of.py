@@ -26,6 +26,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.comb_integrals import (
+    DEAD_BAND,
     comb_integrals,
     curvature_sign_changes,
     greatest_curvatures,
@@ -34,16 +35,12 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "DEAD_BAND",
     "FairnessChange",
     "FairnessTable",
     "LineFairness",
     "compare_fairness",
     "measure_fairness",
 ]
-
-DEAD_BAND = 2e-3
-"""Curvature, 1/m, that nobody sees: a radius of 500 m."""
 
 _VIEWS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 """A curve in space is seen from the side and from above; what both show is added."""

@@ -15,7 +15,7 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.arguments import file_path
+from assoc_hull.arguments import file_path, once
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.handles import Group, Line
 from assoc_hull.variation.ask import VERSION, Ask
@@ -39,7 +39,7 @@ def read_script(path: str | PathLike[str]) -> dict[str, Any]:
     """
     file = Path(file_path(path, "in vary"))
     try:
-        found = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=_once)
+        found = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=once)
     except OSError as error:
         raise BadInputError(
             f"script {file}: {error.strerror or error}", "in vary", "check name and place"
@@ -51,16 +51,6 @@ def read_script(path: str | PathLike[str]) -> dict[str, Any]:
             f"script {file} holds a {type(found).__name__}", "in vary", "give an object"
         )
     return {"name": file.stem, **found}
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Take the entries of an object, none of them twice."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"{twice!r} is given twice")
-    return found
 
 
 def script_of(ask: Ask) -> Mapping[str, Any] | None:
