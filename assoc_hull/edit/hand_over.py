@@ -12,8 +12,7 @@ import numpy as np
 
 from assoc_hull.edit.carry import Carried
 from assoc_hull.edit.image import Roots
-from assoc_hull.edit.other_ends import pairs_of, runs_along
-from assoc_hull.edit.touching import touch_rows
+from assoc_hull.edit.other_ends import doubles, pairs_of, runs_along
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import Meets
@@ -49,8 +48,7 @@ def hand_over(work: Carried, curves: IntArray, some: IntArray, line: int, roots:
         if work.state.lines.boundary.data[work.state.line_of(curve)] != BoundaryKind.END:
             continue
         meets: Meets = work.state.curves.meets.data[curve]
-        double = set(touch_rows(work.state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
-        if double or any(touched == curve for touched, _ in work.touches):
+        if doubles(work.state, curve, line) or any(touched == curve for touched, _ in work.touches):
             return False
         old, new, pairs = pairs_of(work, curve, line, local, roots)
         gained = np.delete(new, [other for _, other in pairs])

@@ -15,9 +15,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.spline import derivative, evaluate
 from assoc_hull.model.align import align_roots
 from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.state import Meets
+from assoc_hull.model.state import HullState, Meets
 
-__all__ = ["ends_change", "pairs_of", "recognise", "runs_along"]
+__all__ = ["doubles", "ends_change", "pairs_of", "recognise", "runs_along"]
 
 _ALONG = 0.02
 """A curve that rises through a plane by a smaller part of its length runs along it."""
@@ -36,15 +36,22 @@ def pairs_of(
     return old, new, align_roots(meets.sign[old], carried, roots.sign[new], roots.xyz[new])
 
 
+def doubles(state: HullState, curve: int, line: int) -> set[int]:
+    """Give the crossings at double roots: they have no meeting.
+
+    A line may end squarely on a meeting of sign 0 as well.
+    """
+    meets: Meets = state.curves.meets.data[curve]
+    return set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
+
+
 def ends_change(work: Carried, curve: int, line: int, local: int, roots: Roots) -> bool:
     """Tell whether a follower would end on a boundary curve more or fewer times, or far off."""
     state = work.state
     if state.lines.boundary.data[state.line_of(curve)] != BoundaryKind.END:
         return False
     meets: Meets = state.curves.meets.data[curve]
-    # A crossing at a double root has no meeting; a line may end squarely on sign 0 as well.
-    double = set(touch_rows(state, curve, line)) - set(meets.row[meets.sign != 0].tolist())
-    if bool(double) != ((curve, line) in work.touches):
+    if bool(doubles(state, curve, line)) != ((curve, line) in work.touches):
         return True
     old, new, pairs = pairs_of(work, curve, line, local, roots)
     lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
