@@ -109,8 +109,9 @@ def varied_by(base: Flotation, shapes: Sequence[Shape]) -> Varied:
     if len(follows):
         driven = Driven.of(base.state, base.net)
         here = np.ix_(follows, driven.row)
+        rates = driven.rates(moving.points)
         for _ in range(base.net.batch.count):
-            found = driven.moves(batch)[follows]
+            found = driven.moves(batch, rates)[follows]
             if np.array_equal(moving.points[here], found):
                 break
             moving.points[here] = found
