@@ -235,6 +235,7 @@ def _run_nudge(work: Work) -> None:
     adopted = state.live("rows")
     pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
     pending.relink |= set(curves.tolist())
+    work.renew()
     work.go(rows, curves)
     _settle(work)
     _relink(work)
