@@ -9,12 +9,12 @@ and the hull is as smooth a function of these as its sums are of its points.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Protocol
 
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.parameters import Shape
+from assoc_hull.analysis.moves import Moves
+from assoc_hull.analysis.parameters import Rates
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.nudge import Nudge, nudge
 from assoc_hull.edit.transaction import Transaction
@@ -24,6 +24,7 @@ from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.carry_out import carry_out
 from assoc_hull.variation.hull_maps import HullMaps
+from assoc_hull.variation.outputs import Outputs
 from assoc_hull.variation.velocities import Velocities, velocities
 
 __all__ = ["HullProblem", "Reached"]
@@ -36,38 +37,6 @@ _SLID = 0.02
 
 _HAIR = 1e-3
 """Usual changes by which it is found which lines of a parent will drive."""
-
-
-class _Outputs(Protocol):
-    names: tuple[str, ...]
-
-    def values(self, state: HullState) -> FloatArray: ...
-
-    def derivatives(self, state: HullState, shapes: object) -> tuple[FloatArray, FloatArray]: ...
-
-
-@attrs.frozen(eq=False)
-class Moving(Shape):
-    """Points of a hull move with one amplitude, and the planes of their lines."""
-
-    name: str
-    displacement: FloatArray
-    gradient: FloatArray | None
-    rates: FloatArray
-
-    @property
-    def title(self) -> str:
-        """The name."""
-        return self.name
-
-    @property
-    def follows(self) -> bool:
-        """Computed points follow."""
-        return True
-
-    def moves(self, state: HullState) -> tuple[FloatArray, FloatArray | None]:
-        """Give displacement and gradient."""
-        return self.displacement, self.gradient
 
 
 @attrs.frozen(eq=False)
@@ -130,16 +99,16 @@ class Reached:
     state: HullState
     amplitudes: FloatArray
     base: Base
-    outputs: _Outputs
+    outputs: Outputs
     _values: FloatArray | None = None
     _jacobian: FloatArray | None = None
 
-    def shapes(self) -> list[Moving]:
+    def moves(self) -> list[Moves]:
         """Give how it moves with each amplitude."""
         rates = self.base.rates
         turn = rates.turning(self.amplitudes - self.base.amplitudes)
         return [
-            Moving(each.name, rates.move[j], turn[j], rates.sizes[j])
+            Moves(each.name, rates.move[j], turn[j], Rates(*rates.sizes[j].tolist()), each.unit)
             for j, each in enumerate(self.base.maps.free)
         ]
 
@@ -154,7 +123,7 @@ class Reached:
     def jacobian(self) -> FloatArray:
         """Derivatives of outputs by amplitudes, (m, k)."""
         if self._jacobian is None:
-            self._values, self._jacobian = self.outputs.derivatives(self.state, self.shapes())
+            self._values, self._jacobian = self.outputs.derivatives(self.state, self.moves())
         return self._jacobian
 
 
@@ -175,7 +144,7 @@ class HullProblem:
     """
 
     maps: HullMaps
-    measured: _Outputs
+    measured: Outputs
     base: Base | None = None
     carries: int = 0
     nudges: int = 0
