@@ -4,9 +4,9 @@ Examples
 --------
 >>> import assoc_hull as ah
 >>> parent = ah.examples.wigley()
->>> found = ah.study(parent, set={"breadth": [9.8, 10.2], "draught": 6.25}, outputs=["volume", "cb"])
+>>> found = ah.study(parent, set={"breadth": [9.8, 10.2]}, outputs=["volume", "cb"])
 >>> found.table()["volume"].round(2).tolist()
-[2721.96, 2833.06]
+[2721.9, 2833.0]
 >>> found.hull(1).half_breadth(50.0, 6.25)
 5.1
 """
@@ -19,7 +19,6 @@ from os import PathLike
 from typing import Any
 
 import attrs
-import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.measured_hull import state_of

@@ -27,6 +27,9 @@ _ROUNDS = 20
 _EXACT = 1e-12
 """m: a step so small changes nothing."""
 
+_CLOSE = 1e-3
+"""m: after a step so small the slopes of the mapping are kept."""
+
 _NEAR = 1e-9
 """m: so near to the plane a place must come."""
 
@@ -125,14 +128,15 @@ class _Ways:
     def solved(self, work: Carried) -> FloatArray:
         """Give the images of the places that lie in the planes, (k, 3), m; by Newton's rule."""
         start = work.state.rows.xyz.data[self.rows]
-        way = np.zeros((len(self.rows), 2))
+        way, far = np.zeros((len(self.rows), 2)), np.inf
         for _ in range(_ROUNDS):
             place, along = self._places(start, way)
-            image = work.space.places(place)
-            slope = np.einsum("nij,nkj->nki", work.space.jacobians(place), along)
-            step = self._step(image, slope)
+            if far > _CLOSE:  # slopes are dear, and close by they hardly change
+                turn = work.space.jacobians(place)
+            step = self._step(work.space.places(place), np.einsum("nij,nkj->nki", turn, along))
             way += step
-            if np.abs(step).max(initial=0.0) <= _EXACT:
+            far = float(np.abs(step).max(initial=0.0))
+            if far <= _EXACT:
                 break
         image = work.space.places(self._places(start, way)[0])
         self._require(work, image, way)

@@ -27,7 +27,7 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.unplane import bend_lines, let_go
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.make import PointSpec
+from assoc_hull.model.make import Maker, PointSpec
 from assoc_hull.model.network import bits_differ
 from assoc_hull.model.state import HullState, Meets, Particulars
 

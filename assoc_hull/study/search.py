@@ -74,35 +74,36 @@ class _Search:
     mu: FloatArray
     slope: FloatArray
     trials: int = 0
-    residual: float = np.inf
 
     def run(self) -> Found:
         """Go on until the targets are met, first by the parent's layout, then in full."""
+        variant = self._made()
         for measure, most in ((self.ground.measured, _TRIALS), (self.ground.fully, _LAST)):
-            found = self._settled(measure, most)
+            found = self._settled(variant, measure, most)
+            variant = found.variant
         return found
 
-    def _settled(self, measure: Callable[[Variant], Record], most: int) -> Found:
+    def _settled(self, variant: Variant, measure: Callable[[Variant], Record], most: int) -> Found:
         """Step until what is measured is what is asked."""
         before: tuple[FloatArray, FloatArray] | None = None
         for _ in range(most):
-            variant, record, values = self._tried(measure)
+            record = measure(variant)
+            values = np.array([record[name] for name in self.design.aims])
             lacking = self.target - values
-            self.residual = float((np.abs(lacking) / self.model.size).max(initial=0.0))
-            if self.residual <= EXACT:
-                return Found(self._parameters(), variant, record, self.residual, self.trials)
+            residual = float((np.abs(lacking) / self.model.size).max(initial=0.0))
+            if residual <= EXACT:
+                return Found(self._parameters(), variant, record, residual, self.trials)
             if before is not None:
                 self._learn(self.mu - before[0], values - before[1])
             before = self.mu.copy(), values
             self.mu[self._free] += _least(self.slope[:, self._free], lacking, self.model.size)
             self._require_bounds()
+            variant = self._made()
         raise NotReachedError(self.design.aims, self.target, values, self.trials)
 
-    def _tried(self, measure: Callable[[Variant], Record]) -> tuple[Variant, Record, FloatArray]:
-        variant = self.ground.variant(self._parameters())
+    def _made(self) -> Variant:
         self.trials += 1
-        record = measure(variant)
-        return variant, record, np.array([record[name] for name in self.design.aims])
+        return self.ground.variant(self._parameters())
 
     def _learn(self, step: FloatArray, change: FloatArray) -> None:
         """Correct the slopes by what a step has changed."""
@@ -165,9 +166,7 @@ def _on_model(
     A parameter that would leave its bounds is held there, and the others are sought again.
     """
     given, usual = len(design.given), ground.usual
-    low, high = (
-        (design.bounds[:, i] - ground.present[given:]) / usual[given:] for i in (0, 1)
-    )  # fmt: skip
+    low, high = (design.bounds.T - ground.present[given:]) / usual[given:]
     held = np.zeros(len(mu), bool)
     held[:given] = True
     while True:
@@ -200,8 +199,8 @@ def _settle_model(
 
 def _least(slope: FloatArray, lacking: FloatArray, size: FloatArray) -> FloatArray:
     """Give the least change that makes up for what is lacking."""
-    found: FloatArray = np.linalg.lstsq(slope / size[:, None], lacking / size, rcond=_SINGULAR)[0]
-    return found
+    least = np.linalg.lstsq(slope / size[:, None], lacking / size, rcond=_SINGULAR)[0]
+    return np.asarray(least, np.float64)
 
 
 def _require_within(design: Design, values: FloatArray, slack: FloatArray) -> None:
