@@ -17,8 +17,8 @@ from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.evaluate import evaluate
 from assoc_hull.analysis.form.rates import form_rates
 from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.form.slices import slices
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.section_areas import section_areas
 from assoc_hull.analysis.tangents import Tangents, dots
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray
@@ -111,11 +111,10 @@ class _Places:
         return "m2"
 
     def values(self, keys: Sequence[str], shape: Shape) -> FloatArray:
-        x = np.array([float(key) for key in keys])
-        found: FloatArray = section_areas(shape.body, x, shape.planes)[0]
+        found = np.array([shape.take(slices).area(float(key)) for key in keys])
         for key, area in zip(keys, found.tolist(), strict=True):
             if not area > 0.0:
-                raise _lacks(f"A x={key}", "no section can be told there")
+                raise _lacks(f"A x={key}", "nothing is immersed there")
         return found
 
     def rates(self, keys: Sequence[str], shape: Shape, some: Tangents) -> Rates:
