@@ -93,9 +93,9 @@ def moving(base: Flotation, shapes: Sequence[Shape]) -> tuple[Moving, SplineBatc
     follows = np.flatnonzero([each.follows for each in shapes])
     if len(follows):
         driven = Driven.of(base.state, base.net)
-        here = np.ix_(follows, driven.row)
+        here, rates = np.ix_(follows, driven.row), driven.rates(found.points)
         for _ in range(base.net.batch.count):
-            gone = driven.moves(batch)[follows]
+            gone = driven.moves(batch, rates)[follows]
             if np.array_equal(found.points[here], gone):
                 break
             found.points[here] = gone
