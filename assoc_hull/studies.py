@@ -22,8 +22,8 @@ import attrs
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.measured_hull import state_of
-from assoc_hull.arguments import integer
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import integer, shown
+from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.hull import Hull
 from assoc_hull.io.study_table import study_csv, study_json
 from assoc_hull.io.whole_file import write_whole
@@ -127,7 +127,7 @@ def study(
     *,
     set: Mapping[str, object] | None = None,
     reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
-    free: Sequence[object] = (),
+    free: object = (),
     bounds: Mapping[str, object] | None = None,
     layers: Sequence[object] = (),
     outputs: Sequence[str] = OUTPUTS,
@@ -151,8 +151,8 @@ def study(
         Targets by the names of hydrostatics fields, at the design draught: one, or one per
         variant; or a mapping per variant.
     free : sequence of str or layer
-        Parameters whose values are sought; as many as there are targets, or more: then the
-        variant is the one with the least change.
+        Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
+        then the variant is one of nearly the least change.
     bounds : mapping of str to (float, float)
         Least and greatest values of free parameters.
     layers : sequence
@@ -198,6 +198,8 @@ def study(
     state_of(hull, _WHERE)
     hull.document.require_ended("study")
     count = integer(workers, "workers", _WHERE, least=1, most=_WORKERS)
+    if progress is not None and not callable(progress):
+        raise WrongTypeError(f"progress is {shown(progress)}", _WHERE, "give a function")
     design = Design.of(
         set=set, reach=reach, free=free, bounds=bounds, layers=layers, outputs=outputs,
         layout=layout,

@@ -9,10 +9,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.arguments import numbers, pair, shown, shown_name
+from assoc_hull.arguments import numbers, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.ask_reach import AskReach
 from assoc_hull.variation.catalogue import NAMES
 from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
@@ -85,7 +86,7 @@ class Design:
         *,
         set: Mapping[str, object] | None = None,
         reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
-        free: Sequence[object] = (),
+        free: object = (),
         bounds: Mapping[str, object] | None = None,
         layers: Sequence[object] = (),
         outputs: Sequence[str] = OUTPUTS,
@@ -101,34 +102,34 @@ class Design:
             Columns of different lengths, numbers that are none, or fewer free parameters than
             there are targets.
         """
-        sought, more = _free(free)
-        ask = _ask([*layers, *more], layout)
+        ask = _ask(layers, layout)
         raw = {each.name: each for each in ask.layers}
-        given, values = _columns(set, "set", (*NAMES, *raw))
-        unused = [name for name in raw if name not in given and name not in sought]
-        given, values = (*given, *unused), [*values, *(np.ones(1) for _ in unused)]
         aims, targets = _columns(_by_name(reach), "reach", tuple(FIELDS), "output")
-        _check(given, sought, aims, (*NAMES, *raw))
+        sought = _sought(free, bounds, aims, raw)
+        raw |= {each.name: each for each in sought.free if not isinstance(each, str)}
+        given, values = _columns(set, "set", (*NAMES, *raw))
+        unused = [name for name in raw if name not in given and name not in sought.names]
+        given, values = (*given, *unused), [*values, *(np.ones(1) for _ in unused)]
+        _check(given, sought.names, aims)
         count = _count([*zip(given, values, strict=True), *zip(aims, targets, strict=True)])
         return cls(
-            given, sought, ask.layers, _table(values, count), aims, _table(targets, count),
-            _bounds(bounds, sought), _outputs(outputs, aims), ask.layout,
+            given, sought.names, tuple(raw.values()), _table(values, count), aims,
+            _table(targets, count), sought.limits(np.zeros(len(sought.names))),
+            _outputs(outputs, aims), ask.layout,
         )  # fmt: skip
 
 
-def _free(given: Sequence[object]) -> tuple[tuple[str, ...], list[object]]:
-    """Take names of free parameters; layers among them are taken by their own."""
-    if isinstance(given, str) or not isinstance(given, Sequence):
-        raise WrongTypeError(f"free is {shown(given)}", _WHERE, "give a list of parameters")
-    names, layers = list[str](), list[object]()
-    for each in given:
-        name = each if isinstance(each, str) else getattr(each, "name", None)
-        if not isinstance(name, str):
-            raise WrongTypeError(f"free holds {shown(each)}", _WHERE, "give names, or layers")
-        names.append(name)
-        if not isinstance(each, str):
-            layers.append(each)
-    return tuple(names), layers
+_NOTHING = AskReach({}, (), {})
+"""Nothing is free."""
+
+
+def _sought(
+    free: object, bounds: object, aims: tuple[str, ...], raw: Mapping[str, Layer]
+) -> AskReach:
+    """Take what is free, and between which values, as `vary` does; layers also by their names."""
+    if isinstance(free, Sequence) and not isinstance(free, str):
+        free = [raw.get(each, each) if isinstance(each, str) else each for each in free]
+    return AskReach.of(dict.fromkeys(aims, 0.0), free, bounds, True) or _NOTHING
 
 
 def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) -> Ask:
@@ -181,25 +182,15 @@ def _columns(
     return tuple(map(str, given)), columns
 
 
-def _check(
-    given: tuple[str, ...], free: tuple[str, ...], aims: tuple[str, ...], known: tuple[str, ...]
-) -> None:
+def _check(given: tuple[str, ...], free: tuple[str, ...], aims: tuple[str, ...]) -> None:
     """See that given and free parameters and targets fit together."""
     for name in free:
-        if name not in known:
-            raise UnknownNameError("parameter", name, known)
-        if name in given or free.count(name) > 1:
-            other = "set as well" if name in given else "named twice"
-            raise BadInputError(f"free parameter '{name}' is {other}", _WHERE, "name it once")
+        if name in given:
+            raise BadInputError(f"free parameter '{name}' is set as well", _WHERE, "name it once")
     if not given and not aims:
         raise BadInputError(
             "nothing is asked for", _WHERE, "give values with set, or targets with reach"
         )
-    if free and not aims:
-        raise BadInputError(
-            f"'{free[0]}' is free, and nothing is aimed at", _WHERE,
-            "give targets with reach, or its values with set",
-        )  # fmt: skip
     if len(free) < len(aims):
         raise BadInputError(
             f"{len(aims)} targets need at least {len(aims)} free parameters ({len(free)} given)",
@@ -224,19 +215,6 @@ def _table(columns: Sequence[FloatArray], count: int) -> FloatArray:
     found = np.empty((count, len(columns)))
     for i, column in enumerate(columns):
         found[:, i] = column
-    return found
-
-
-def _bounds(given: object, free: tuple[str, ...]) -> FloatArray:
-    found = np.tile([-np.inf, np.inf], (len(free), 1))
-    if given is None:
-        return found
-    if not isinstance(given, Mapping):
-        raise WrongTypeError(f"bounds is {shown(given)}", _WHERE, "give (low, high) by name")
-    for name, ends in given.items():
-        if name not in free:
-            raise UnknownNameError("free parameter", shown_name(name), free)
-        found[free.index(name)] = pair(ends, f"the bound of {name}", _WHERE, positive=False)
     return found
 
 

@@ -213,6 +213,10 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "study": {
+        "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
+        "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
+    },
     "vary": {
         "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
         "stations": "number", "planes": "follow", "tolerance": 2e-3, "name": None,
