@@ -198,7 +198,7 @@ def study(
     state_of(hull, _WHERE)
     hull.document.require_ended("study")
     count = integer(workers, "workers", _WHERE, least=1, most=_WORKERS)
-    if progress is not None and not callable(progress):
+    if progress is not None and (isinstance(progress, type) or not callable(progress)):
         raise WrongTypeError(f"progress is {shown(progress)}", _WHERE, "give a function")
     design = Design.of(
         set=set, reach=reach, free=free, bounds=bounds, layers=layers, outputs=outputs,

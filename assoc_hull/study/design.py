@@ -127,6 +127,8 @@ def _sought(
     free: object, bounds: object, aims: tuple[str, ...], raw: Mapping[str, Layer]
 ) -> AskReach:
     """Take what is free, and between which values, as `vary` does; layers also by their names."""
+    if bounds is not None and not isinstance(bounds, Mapping):
+        raise WrongTypeError(f"bounds is {shown(bounds)}", _WHERE, "give (low, high) by name")
     if isinstance(free, Sequence) and not isinstance(free, str):
         free = [raw.get(each, each) if isinstance(each, str) else each for each in free]
     return AskReach.of(dict.fromkeys(aims, 0.0), free, bounds, True) or _NOTHING
@@ -134,6 +136,8 @@ def _sought(
 
 def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) -> Ask:
     """Take layers and layout as `vary` does."""
+    if isinstance(layers, str) or not isinstance(layers, Sequence):
+        raise WrongTypeError(f"layers is {shown(layers)}", _WHERE, "give a list of layers")
     if not layers:
         whole = attrs.asdict(layout) if isinstance(layout, Layout) else layout
         return Ask({}, layout=Layout.of(whole))

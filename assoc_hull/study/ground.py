@@ -140,9 +140,9 @@ class Ground:
         amplitudes = values - self.present
         maps, state = self.maps, self.maps.state
         maps.room.check(maps.values(amplitudes))
-        laid = maps.laid(amplitudes, self.lines, follow=self.follow)
-        certificate = certify(laid.vmap, maps.room.box)
+        certificate = certify(maps.map(amplitudes), maps.room.box)
         certificate.check()
+        laid = maps.laid(amplitudes, self.lines, follow=self.follow)
         space = SpaceMap(laid.map, laid.map.jacobian)
         document = Document(copy_of(state))
         with Transaction(document, name) as edit:

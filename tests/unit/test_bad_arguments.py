@@ -112,6 +112,9 @@ CURVES: dict[str, Given] = {
 LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
 MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "open": (ah.open, {"path": "a"}),
+    "sample": (
+        ah.sample, {"ranges": {"breadth": (9.0, 11.0)}, "count": 2, "seed": 0, "method": "latin"}
+    ),
     "read": (
         ah.read,
         {
