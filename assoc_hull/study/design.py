@@ -114,7 +114,7 @@ class Design:
         count = _count([*zip(given, values, strict=True), *zip(aims, targets, strict=True)])
         return cls(
             given, sought.names, tuple(raw.values()), _table(values, count), aims,
-            _table(targets, count), sought.limits(np.zeros(len(sought.names))),
+            _table(targets, count), sought.limits([0.0] * len(sought.names)),
             _outputs(outputs, aims), ask.layout,
         )  # fmt: skip
 
