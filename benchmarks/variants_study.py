@@ -1,10 +1,10 @@
 """A thousand variants of the bulk carrier, beside a loop of single calls.
 
 ``python -m benchmarks.variants_study [--count 1000] [--workers 2] [--beside 24] [--single 6]``
-aims at volume, LCB and KM_T drawn at random, with breadth and the shifts of both bodies free. First some
-variants are made by a study in this process and some by calls of ``vary``, in turns, and their times
-of the processor are compared. Then all are made, and counted: how many have a hull, what the others
-lack, and how well targets are met by hulls that are made once more.
+aims at volume, LCB and KM_T drawn at random, with breadth and the shifts of both bodies free. First
+some variants are made by a study in this process and some by calls of ``vary``, in turns, and their
+times of the processor are compared. Then all are made, and counted: how many have a hull, what the
+others lack, and how well targets are met by hulls that are made once more.
 """
 
 from __future__ import annotations
