@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
     "Appendage",
@@ -96,6 +97,7 @@ __all__ = [
     "open",
     "panels",
     "read",
+    "sensitivities",
     "stability",
     "vary",
     "vary_by",
@@ -141,6 +143,7 @@ _HOMES = {
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
 
