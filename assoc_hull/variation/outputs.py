@@ -124,11 +124,6 @@ class Outputs:
         """The unit of each output; a dash where there is none."""
         return tuple(KINDS[kind].unit(key) for kind, key in self.keys)
 
-    @property
-    def units(self) -> tuple[str, ...]:
-        """Their units."""
-        return tuple(FIELDS[name].unit for name in self.names)
-
     def values(self, state: HullState) -> FloatArray:
         """Give the outputs of a hull, (m,), in their units.
 
