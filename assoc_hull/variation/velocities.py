@@ -1,7 +1,7 @@
 """How fast everything of a varied hull moves with each free parameter.
 
-A hull Q was carried from its parent P by the map M at some amplitudes. By amplitude j its places move
-as the map does at what they come from,
+A hull Q was carried from its parent P by the map M at some amplitudes. By amplitude j its places
+move as the map does at what they come from,
 
     v_j(Q) = d M(P) / d lambda_j        P = M^-1(Q)
 
@@ -16,13 +16,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carry_planes import flat_borders
-from assoc_hull.edit.nudge import Nudge
+from assoc_hull.edit.nudge import Nudge, nudged
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.model.state import Ends, HullState, Particulars
-from assoc_hull.variation.features_map import FeatureMap
 from assoc_hull.variation.hull_maps import HullMaps, Laid
-from assoc_hull.variation.slide import Ground
+from assoc_hull.variation.slide import Ground, bending
 
 __all__ = ["SIZES", "Velocities", "velocities"]
 
@@ -37,7 +36,7 @@ _SAME = 1e-9
 
 _ROUNDS = 8
 _NEAR = 1e-4
-"""m: where a map draws circles anew it lays all that is near one onto it, which cannot be undone."""
+"""m: a map that draws circles anew lays all that is near one onto it, which cannot be undone."""
 
 _NUMBERS = ("centre", "radius", "offset")
 
@@ -60,6 +59,10 @@ class Velocities:
         Of length, breadth, depth and draught.
     features : tuple of k mappings of str to mapping of str to float or (3,)
         Of centres, radii and offsets, by key.
+    rows : (n,) int
+        The points that move by themselves; the others are computed.
+    bend : (n,), 1/m
+        How much the curves through these bend.
     """
 
     move: FloatArray
@@ -68,9 +71,11 @@ class Velocities:
     level: FloatArray
     sizes: FloatArray
     features: tuple[Mapping[str, Mapping[str, FloatArray]], ...]
+    rows: IntArray
+    bend: FloatArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.move, self.carried, self.turn, self.level, self.sizes)
+        freeze(self.move, self.carried, self.turn, self.level, self.sizes, self.rows, self.bend)
 
     def nudge(self, by: FloatArray, size: Particulars, within: float) -> Nudge:
         """Give the nudge that changes of the amplitudes make.
@@ -98,9 +103,15 @@ class Velocities:
         )  # fmt: skip
 
     def reach(self, by: FloatArray) -> tuple[float, float]:
-        """Give how far points move at most, and how far they slide at most, m."""
-        move, slid = _sum(by, self.move), _sum(by, self.move - self.carried)
-        return tuple(float(np.sqrt((each * each).sum(axis=1).max())) for each in (move, slid))  # type: ignore[return-value]
+        """Give how far the map moves points, and how far sliding ones leave the hull, m.
+
+        A point that slides by s along a curve of curvature k leaves it by k s^2 / 2.
+        """
+        carried = _sum(by, self.carried[:, self.rows])
+        slid = _sum(by, self.move[:, self.rows]) - carried
+        off = 0.5 * self.bend * (slid * slid).sum(axis=1)
+        far = np.sqrt((carried * carried).sum(axis=1))
+        return float(far.max(initial=0.0)), float(off.max(initial=0.0))
 
     def turning(self, by: FloatArray) -> FloatArray:
         """Give how directions turn that were turned already by a nudge, (k, rows, 3, 3)."""
@@ -143,7 +154,7 @@ def velocities(
         The map cannot be undone at a point; parameters have no neighbouring values.
     """
     here = maps.laid(amplitudes, lines, follow=follow)
-    source = _sources(state, maps.state, here.map)
+    source = _sources(state, maps.state, here)
     ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
@@ -152,8 +163,11 @@ def velocities(
         pair = [maps.laid(amplitudes + by, lines, follow=follow) for by in (step, -step)]
         found.append(_rates(state, ground, here, pair, source, 2.0 * float(step[j])))
         features.append(_feature_rates(pair, 2.0 * float(step[j])))
-    parts = [np.stack(part) for part in zip(*found, strict=True)]
-    return Velocities(*parts, tuple(features))
+    move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
+    rows = nudged(state)
+    return Velocities(
+        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows]
+    )
 
 
 def _rates(
@@ -163,8 +177,7 @@ def _rates(
     """Give displacements, those of the map, turns, levels and sizes by one amplitude."""
     live = state.live("rows")
     carried = np.zeros((state.rows.count, 3))
-    ends = [each.map(source[live]) for each in pair]
-    carried[live] = (ends[0] - ends[1]) / span
+    carried[live] = (pair[0].map(source[live]) - pair[1].map(source[live])) / span
     level = _levels(state, pair, carried, ground, span)
     move = ground.kept(carried, level)
     move[~state.rows.alive.data] = 0.0
@@ -173,26 +186,27 @@ def _rates(
     return move, carried, turn, level, (size[0] - size[1]) / span
 
 
-def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatArray:
+def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
     """Give where the points of a carried hull come from, (rows, 3), m.
 
     Points of the parent that went where the map sends them come from where they were, to the bit.
     """
     live = state.live("rows")
     old = live[live < parent.rows.count]
-    found, places = state.rows.xyz.data.copy(), state.rows.xyz.data
+    places: FloatArray = state.rows.xyz.data
+    found = places.copy()
     source = parent.rows.xyz.data[old]
-    went = np.abs(mapped(source) - places[old]).max(axis=1) <= _SAME
+    went = np.abs(here.map(source) - places[old]).max(axis=1) <= _SAME
     found[old[went]] = source[went]
     rest = np.setdiff1d(live, old[went])
-    found[rest] = _undone(mapped, places[rest])
+    found[rest] = _undone(here, places[rest])
     return found
 
 
-def _undone(mapped: FeatureMap, places: FloatArray) -> FloatArray:
+def _undone(here: Laid, places: FloatArray) -> FloatArray:
     """Undo a map at places, by Newton's rule: to rounding, but beside circles drawn anew."""
-    found, best = places.copy(), np.full(len(places), np.inf)
-    guess, left = places.copy(), np.arange(len(places))
+    guess, mapped = np.array(here.vmap.inverse(places)), here.map
+    found, best, left = guess.copy(), np.full(len(places), np.inf), np.arange(len(places))
     for _ in range(_ROUNDS):
         off = mapped(guess[left]) - places[left]
         away = np.abs(off).max(axis=1, initial=0.0)
@@ -262,7 +276,7 @@ def _turned(
     ground: Ground, flats: IntArray, row: int, side: int, vector: FloatArray, rate: FloatArray
 ) -> FloatArray:
     """Give how one direction changes: across itself, in its plane and in the flat it borders."""
-    new = rate @ vector
+    new: FloatArray = rate @ vector
     new = new - vector * ((vector * new).sum() / (vector * vector).sum())
     own, other = ground.plane[row, side], ground.plane[row, 1 - side]
     new = new - own * (own * new).sum()
