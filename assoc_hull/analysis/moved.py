@@ -164,10 +164,14 @@ def _frames(frames: tuple[Frame, ...], was: SplineBatch, now: SplineBatch) -> tu
     found = []
     for each in frames:
         aft, fore, keel, deck = (
-            tuple((part[0], *next(ends)) for part in side) for side in _sides(each)
+            tuple(_between(part[0], *next(ends)) for part in side) for side in _sides(each)
         )
         found.append(Frame(aft, fore, keel, deck, each.slab, each.plane))
     return tuple(found)
+
+
+def _between(curve: int, low: float, high: float) -> Part:
+    return curve, low, high
 
 
 def _sides(frame: Frame) -> tuple[tuple[Part, ...], ...]:
