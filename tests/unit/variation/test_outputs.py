@@ -141,6 +141,22 @@ def test_fields_are_those_of_hydrostatics(hulls: dict[str, Hull]) -> None:
     assert np.array_equal(found.jacobian, wanted.matrix(outputs.names))
 
 
+def test_a_hull_of_other_places_is_measured_by_the_layout_of_the_old_one(
+    hulls: dict[str, Hull], shipped: Callable[[str], Hull]
+) -> None:
+    """Values and derivatives are those of a full layout, to rounding."""
+    hull, other = hulls["wigley"], shipped("wigley")
+    with other.edit("fuller") as edit:
+        edit.move("WL 2.5 x ST 7", y=other.points["WL 2.5 x ST 7"].y + 0.02)
+    outputs = Outputs.of(hull.state, ["volume", "Cpa", "A ST 7"])
+    wrt = smooth_moves(other)
+    found = outputs.derivatives(other.state, wrt, like=hull.state)
+    wanted = outputs.derivatives(other.state, wrt)
+    assert_allclose(found[0], wanted[0], rtol=1e-13)
+    assert_allclose(found[1], wanted[1], rtol=1e-9, atol=1e-12)
+    assert np.array_equal(outputs.values(other.state, like=hull.state), found[0])
+
+
 def test_sections_are_those_of_the_hull(hulls: dict[str, Hull]) -> None:
     """A section by its name, and the surface at its place; in the middle 2/3 B T."""
     hull = hulls["wigley"]
