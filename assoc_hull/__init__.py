@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
     "Appendage",
@@ -101,6 +102,7 @@ __all__ = [
     "panels",
     "read",
     "sample",
+    "sensitivities",
     "stability",
     "study",
     "vary",
@@ -149,6 +151,7 @@ _HOMES = {
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
 

@@ -78,8 +78,8 @@ def test_the_change_is_nearly_the_least(
     reach = {name: column[0] for name, column in asked.items()}
     alone = ah.vary(parent, reach=reach, free=FREE, bounds=BOUNDS).report.aim
     assert alone is not None
-    scale = np.array([each.usual for each in found._run.ground.maps.free])
-    change = (found.rows[0].values - found._run.ground.present) / scale
+    scale = np.array([each.usual for each in found.run.ground.maps.free])
+    change = (found.rows[0].values - found.run.ground.present) / scale
     assert np.sqrt((change**2).sum()) == pytest.approx(alone.change, rel=2e-3)
 
 
