@@ -11,18 +11,15 @@ from collections.abc import Mapping
 from typing import Any
 
 import attrs
-import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.given import Given
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchors import measure_all
-from assoc_hull.variation.apply import Applied, apply
 from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.carry_out import carry_out
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
@@ -30,7 +27,7 @@ from assoc_hull.variation.limits import hull_box, present
 from assoc_hull.variation.notes import also_changed, folds_outside, went_along
 from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.room import SAME, Room, asked_radii
+from assoc_hull.variation.room import SAME, Room
 from assoc_hull.variation.script import script_of
 from assoc_hull.variation.vmap import VMap
 
@@ -130,7 +127,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     was = present(before, ask.layout)
     found = _settle(document.state, parent, ask, was)
     levels = document.state.lines.offset.data.copy()
-    applied, report = _apply(document, found.map, parent, ask, was)
+    applied, report = carry_out(document, found.map, parent, ask, was)
     reached = _measured(document.state, ask)
     targets = tuple(
         Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
@@ -195,7 +192,7 @@ def _tried(
     vmap = VMap((*room.map(aim).layers, *ask.layers))
     certificate = room.certified(vmap, aim)
     trial = Document(copy_of(state))
-    _apply(trial, vmap, room.parent, ask, room.present)
+    carry_out(trial, vmap, room.parent, ask, room.present)
     reached = _measured(trial.state, ask)
     miss = {name: value - reached[name] for name, value in ask.values.items()}
     return _Settled(vmap, rounds, certificate, miss)
@@ -209,44 +206,6 @@ def _missed(best: _Settled, ask: Ask) -> BadInputError:
         f"{name} reached {asked - miss:.9g} {unit}, asked {asked:.9g} {unit}, {abs(miss):.2g} off",
         "in vary", "ask for less, or give a finer tolerance",
     )  # fmt: skip
-
-
-def _apply(
-    document: Document, vmap: VMap, parent: Parent, ask: Ask, was: Mapping[str, float]
-) -> tuple[Applied, EditReport]:
-    """Apply a map as one step."""
-    drivers = None if ask.drivers is None else Given(document.state).driving(ask.drivers)
-    with Transaction(document, ask.name) as edit:
-        applied = apply(
-            edit, vmap, drivers=drivers, stations=ask.stations,
-            follow=ask.planes == "follow", tolerance=ask.tolerance,
-            particulars=_particulars(document.state, vmap, parent, ask),
-            radii=asked_radii(document.state, parent, ask.values, was),
-        )  # fmt: skip
-    report = edit.report
-    if report is None:
-        raise BadInputError("an edit is open", "in vary", "finish it before")
-    return applied, report
-
-
-def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:
-    """Give the principal dimensions that change with the map."""
-    ship, aim = state.particulars, ask.values
-    found = {name: aim[name] for name in ("length", "draught") if name in aim}
-    deck = parent.places.get("deck", np.array([0.5 * ship.length, 0.0, ship.depth]))
-    rise = float(vmap(deck[None, :])[0, 2] - deck[2])
-    if rise != 0.0:
-        found["depth"] = ship.depth + rise
-    sizes = ("breadth", ship.breadth, parent.breadth), ("depth", ship.depth, parent.depth)
-    for name, stored, measured in sizes:
-        if name in aim:
-            found[name] = _in_proportion(stored, measured, aim[name])
-    return found
-
-
-def _in_proportion(stored: float, measured: float, asked: float) -> float:
-    """Give what becomes of a stored dimension whose measured value differs a little."""
-    return asked if stored == measured else stored * (asked / measured)
 
 
 def _measured(state: HullState, ask: Ask) -> dict[str, float]:
