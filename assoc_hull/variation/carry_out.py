@@ -100,7 +100,10 @@ def resized(
     for name, stored, measured in sizes:
         if name in asked:
             found[name] = _in_proportion(stored, measured, asked[name])
-    return attrs.evolve(ship, **found)
+    return attrs.evolve(
+        ship, length=found.get("length", ship.length), breadth=found.get("breadth", ship.breadth),
+        depth=found.get("depth", ship.depth), draught=found.get("draught", ship.draught),
+    )  # fmt: skip
 
 
 def _in_proportion(stored: float, measured: float, asked: float) -> float:

@@ -91,14 +91,17 @@ class HullMaps:
         amplitudes : (k,)
             Of the free parameters.
         """
-        return dict(self.ask.values) | self._freed(amplitudes)
+        named = self._named(amplitudes)
+        return dict(self.ask.values) | {each.name: each.present + by for each, by in named}
 
-    def _freed(self, amplitudes: FloatArray) -> dict[str, float]:
-        return {
-            each.name: each.value(amplitude)
-            for each, amplitude in zip(self.free, amplitudes.tolist(), strict=True)
-            if each.layer is None
-        }
+    def _named(self, amplitudes: FloatArray) -> list[tuple[Freedom, float]]:
+        pairs = zip(self.free, amplitudes.tolist(), strict=True)
+        return [(each, by) for each, by in pairs if each.layer is None]
+
+    def _asked(self, amplitudes: FloatArray) -> dict[str, float]:
+        """Give what is asked of the map."""
+        named = self._named(amplitudes)
+        return dict(self.aim) | {each.name: each.value(by) for each, by in named}
 
     def map(self, amplitudes: FloatArray) -> VMap:
         """Lay out the map, uncertified.
@@ -110,7 +113,7 @@ class HullMaps:
         """
         if self.still(amplitudes):
             return VMap(())
-        named = self.room.map(dict(self.aim) | self._freed(amplitudes)).layers
+        named = self.room.map(self._asked(amplitudes)).layers
         return VMap((*named, *self.ask.layers, *self._raw(amplitudes)))
 
     def _raw(self, amplitudes: FloatArray) -> list[Layer]:
@@ -126,7 +129,7 @@ class HullMaps:
         FoldError, OutOfRangeError, BadInputError
             There is no such map; why.
         """
-        asked = dict(self.aim) | self._freed(amplitudes)
+        asked = self._asked(amplitudes)
         self.room.check(asked)
         vmap = self.map(amplitudes)
         return vmap, self.room.certified(vmap, asked)

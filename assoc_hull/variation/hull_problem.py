@@ -2,8 +2,8 @@
 
 A hull that is carried in full has the lines that its map wants; which points these are made through
 is decided anew each time, within the tolerance of the drivers. So a full carry is no smooth
-function of its amplitudes. Near one, all points move in proportion to the changes of the amplitudes,
-and the hull is as smooth a function of these as its sums are of its points.
+function of its amplitudes. Near one, all points move in proportion to the changes of the
+amplitudes, and the hull is as smooth a function of these as its sums are of its points.
 """
 
 from __future__ import annotations

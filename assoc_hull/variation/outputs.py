@@ -38,6 +38,11 @@ class Outputs:
                 raise UnknownNameError("output", name, tuple(FIELDS))
         return cls(tuple(names))
 
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Their units."""
+        return tuple(FIELDS[name].unit for name in self.names)
+
     def values(self, state: HullState) -> FloatArray:
         """Give values, (m,)."""
         found = hydrostatics(_Held(state), draught=state.particulars.draught)

@@ -98,13 +98,13 @@ class Ground:
         steep = (along * self.plane[:, other]).sum(axis=1)
         slides = self.drives[:, side] & ~left[:, side] & left[:, other] & (np.abs(steep) > _STEEP)
         found[slides] += along[slides] * (off[slides, other] / steep[slides])[:, None]
-        return slides
+        return np.asarray(slides)
 
     def _shortest(self, rows: IntArray, off: FloatArray) -> FloatArray:
         """Give the shortest ways within tangent planes into the planes of the lines, (n, 3)."""
         demands = np.concatenate([self.normal[rows, None], self.plane[rows]], axis=1)
         amount = np.concatenate([np.zeros((len(rows), 1)), off], axis=1)
-        return np.einsum("nij,nj->ni", np.linalg.pinv(demands, rcond=_FLAT), amount)
+        return np.asarray(np.einsum("nij,nj->ni", np.linalg.pinv(demands, rcond=_FLAT), amount))
 
     def _exactly(self, found: FloatArray, rate: FloatArray) -> FloatArray:
         """Let points go with planes across an axis to the bit."""

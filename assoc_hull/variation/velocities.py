@@ -1,7 +1,7 @@
 """How fast everything of a varied hull moves with each free parameter.
 
-A hull Q was carried from its parent P by the map M at some amplitudes. By amplitude j its places move
-as the map does at what they come from,
+A hull Q was carried from its parent P by the map M at some amplitudes. By amplitude j its places
+move as the map does at what they come from,
 
     v_j(Q) = d M(P) / d lambda_j        P = M^-1(Q)
 
@@ -37,7 +37,7 @@ _SAME = 1e-9
 
 _ROUNDS = 8
 _NEAR = 1e-4
-"""m: where a map draws circles anew it lays all that is near one onto it, which cannot be undone."""
+"""m: a map that draws circles anew lays all that is near one onto it, which cannot be undone."""
 
 _NUMBERS = ("centre", "radius", "offset")
 
@@ -152,8 +152,8 @@ def velocities(
         pair = [maps.laid(amplitudes + by, lines, follow=follow) for by in (step, -step)]
         found.append(_rates(state, ground, here, pair, source, 2.0 * float(step[j])))
         features.append(_feature_rates(pair, 2.0 * float(step[j])))
-    parts = [np.stack(part) for part in zip(*found, strict=True)]
-    return Velocities(*parts, tuple(features))
+    move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
+    return Velocities(move, carried, turn, level, sizes, tuple(features))
 
 
 def _rates(
@@ -163,8 +163,7 @@ def _rates(
     """Give displacements, those of the map, turns, levels and sizes by one amplitude."""
     live = state.live("rows")
     carried = np.zeros((state.rows.count, 3))
-    ends = [each.map(source[live]) for each in pair]
-    carried[live] = (ends[0] - ends[1]) / span
+    carried[live] = (pair[0].map(source[live]) - pair[1].map(source[live])) / span
     level = _levels(state, pair, carried, ground, span)
     move = ground.kept(carried, level)
     move[~state.rows.alive.data] = 0.0
@@ -180,7 +179,8 @@ def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatAr
     """
     live = state.live("rows")
     old = live[live < parent.rows.count]
-    found, places = state.rows.xyz.data.copy(), state.rows.xyz.data
+    places: FloatArray = state.rows.xyz.data
+    found = places.copy()
     source = parent.rows.xyz.data[old]
     went = np.abs(mapped(source) - places[old]).max(axis=1) <= _SAME
     found[old[went]] = source[went]
@@ -262,7 +262,7 @@ def _turned(
     ground: Ground, flats: IntArray, row: int, side: int, vector: FloatArray, rate: FloatArray
 ) -> FloatArray:
     """Give how one direction changes: across itself, in its plane and in the flat it borders."""
-    new = rate @ vector
+    new: FloatArray = rate @ vector
     new = new - vector * ((vector * new).sum() / (vector * vector).sum())
     own, other = ground.plane[row, side], ground.plane[row, 1 - side]
     new = new - own * (own * new).sum()
