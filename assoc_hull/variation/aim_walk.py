@@ -29,7 +29,7 @@ __all__ = ["AimStep", "End", "Rule", "Walk", "steep", "unbalanced", "walk"]
 Way = Literal["start", "exact", "nearest"]
 End = Literal["met", "nearest", "blocked", "spent"]
 
-_HALVINGS = 10
+_HALVINGS = 8
 _SPARE = 0.1
 """Rules are kept with this part of what they allow, unless rounding is in the way."""
 
@@ -39,8 +39,8 @@ _LESS = 1e-4
 _PENALTY = 1.5
 """How much a miss weighs against a change, in multipliers."""
 
-_LITTLE = 0.02
-"""Where refusals leave so little of a step, there is no certified hull that is much nearer."""
+_CUTS = 3
+"""Where refusals have cut so many steps in a row, no certified hull is much nearer."""
 
 _FLAT = 1e-12
 """Where a step promises less than this part of the squared misses, there is no better place."""
@@ -136,7 +136,7 @@ class Walk:
 def walk(place: Place, rule: Rule) -> Walk:
     """Go from a place until a rule says that it is enough, or nothing is nearer."""
     curvature = no_curvature(*place.jacobian.shape)
-    steps = [_step("start", place, 0.0)]
+    steps, cuts = [_step("start", place, 0.0)], 0
     while any(rule.left(place)):
         if rule.met(place) and _stands(steps, *rule.left(place)):
             break  # rounding is all that is left
@@ -152,7 +152,8 @@ def walk(place: Place, rule: Rule) -> Walk:
         curvature = learnt(curvature, moved, taken.place.jacobian - place.jacobian)
         place = taken.place
         steps.append(_step(wish.way, place, taken.part))
-        if taken.why:
+        cuts = cuts + 1 if taken.why else 0
+        if cuts == _CUTS:
             return _ended(steps, place, rule, "blocked", taken.why)
     return Walk(tuple(steps), place, "met")
 
@@ -217,7 +218,7 @@ class _Wish:
 
 @attrs.frozen(eq=False)
 class _Taken:
-    """A step that was taken: where it led, how much of it, what kept it so very short."""
+    """A step that was taken: where it led, how much of it, what cut it short."""
 
     place: Place
     part: float
@@ -276,7 +277,7 @@ def _taken(place: Place, wish: _Wish, rule: Rule) -> _Taken | str:
         try:
             after = place.scaled.at(place.changes + part * wish.step)
             if _serves(place, after, wish, part, rule):
-                return _Taken(after, part, why if part < _LITTLE else "")
+                return _Taken(after, part, why)
         except AssocHullError as error:
             why = str(error)
         part *= 0.5
