@@ -11,14 +11,11 @@ of how far they pass, which is less than rounding for moves of a trial.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.analysis.moving import defining_rows
-from assoc_hull.analysis.net.cells import Layout
 from assoc_hull.analysis.net.followed import followed
 from assoc_hull.analysis.net.gather import Net, Part, gather
 from assoc_hull.analysis.net.loops import Frame
@@ -139,17 +136,16 @@ def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray)
 
 
 def _frame(frame: Frame, was: SplineBatch, now: SplineBatch) -> Frame:
-    sides = {
-        name: _parts(getattr(frame, name), was, now) for name in ("aft", "fore", "keel", "deck")
-    }
-    return attrs.evolve(frame, **sides)
+    aft, fore, keel, deck = (
+        _parts(each, was, now) for each in (frame.aft, frame.fore, frame.keel, frame.deck)
+    )
+    return attrs.evolve(frame, aft=aft, fore=fore, keel=keel, deck=deck)
 
 
-def _parts(parts: Iterable[Part], was: SplineBatch, now: SplineBatch) -> tuple[Part, ...]:
-    given = tuple(parts)
-    if not given:
-        return given
-    curve = np.array([each[0] for each in given]).repeat(2)
-    t = np.array([each[1:] for each in given]).ravel()
+def _parts(parts: tuple[Part, ...], was: SplineBatch, now: SplineBatch) -> tuple[Part, ...]:
+    if not parts:
+        return parts
+    curve = np.array([each[0] for each in parts]).repeat(2)
+    t = np.array([each[1:] for each in parts]).ravel()
     ends = _carried(was, now, curve, t).reshape(-1, 2).tolist()
-    return tuple((each[0], low, high) for each, (low, high) in zip(given, ends, strict=True))
+    return tuple((each[0], low, high) for each, (low, high) in zip(parts, ends, strict=True))
