@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         RingError,
         StaleHullError,
         UnknownNameError,
+        UnreachableError,
     )
     from assoc_hull.geometry.curves import PointKind
     from assoc_hull.geometry.plane import Plane
@@ -82,6 +83,7 @@ __all__ = [
     "StaleHullError",
     "Tolerances",
     "UnknownNameError",
+    "UnreachableError",
     "__version__",
     "cross_curves",
     "curve_transform",
@@ -129,6 +131,7 @@ _HOMES = {
         "RingError",
         "StaleHullError",
         "UnknownNameError",
+        "UnreachableError",
     ),
     "geometry.curves": ("PointKind",),
     "geometry.plane": ("Plane",),
