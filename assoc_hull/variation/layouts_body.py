@@ -75,12 +75,12 @@ def parallel_body_end(parent: Parent, asked: float, layout: Layout) -> Share:
 
 def fore_shift(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between the parallel body and where the profile rises, forward."""
-    return _bump(parent, "fore_shift", ("body end", "fore terminal"), asked, layout)
+    return _bump(parent, "fore_shift", ("shift end", "fore terminal"), asked, layout)
 
 
 def aft_shift(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between where the profile rises and the parallel body, aft."""
-    return _bump(parent, "aft_shift", ("body start", "aft terminal"), asked, layout)
+    return _bump(parent, "aft_shift", ("shift start", "aft terminal"), asked, layout)
 
 
 def _bump(parent: Parent, name: str, ends: tuple[str, str], asked: float, layout: Layout) -> Share:

@@ -6,17 +6,26 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from assoc_hull.analysis.flotation import flotation
+from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersed import Planes
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchor import Anchor, Measures
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.parent import Parent
 
-__all__ = ["parent_of"]
+__all__ = ["TERMINALS", "parent_of"]
+
+TERMINALS = ("aft terminal", "shift start", "shift end", "fore terminal")
+"""Between which places sections shift: the names of these, from aft."""
 
 _LEVEL = 1e-6
 """So near to the lowest place (m) the keel is level."""
+
+_ALIKE = 1e-6
+"""Areas of two stations differ by less, in parts of the largest."""
 
 
 def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
@@ -44,6 +53,7 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         if anchor.value is not None:
             places.update(_PLACES.get(anchor.name, _nothing)(anchor))
     places.update(_terminals(state))
+    places.update(_shifted_from(state, places))
     places.update(_cylinder(state, places.get("boss side")))
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
@@ -147,3 +157,27 @@ def _terminals(state: HullState) -> dict[str, FloatArray]:
         if level.max() - level.min() > 0.1 * length:
             aft, fore = max(0.0, float(level.min())), min(length, float(level.max()))
     return {"aft terminal": _place(aft, 0.0, 0.0), "fore terminal": _place(fore, 0.0, 0.0)}
+
+
+def _shifted_from(state: HullState, places: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Give from where sections shift forward and aft: the ends of the parallel body.
+
+    Where there is none, the two stations with the largest areas stand for them; if two are
+    second alike, the largest alone.
+    """
+    if "body start" in places and "body end" in places:
+        return {"shift start": places["body start"], "shift end": places["body end"]}
+    try:
+        planes = Planes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
+        found = flotation(state).stations(planes)
+    except AssocHullError:
+        return {}  # what has no areas cannot be shifted by them
+    area = found.area[0]
+    order = np.argsort(-area, kind="stable")
+    if len(order) < 3:
+        return {}
+    first, second, third = order[:3].tolist()
+    if area[second] - area[third] <= _ALIKE * area[first] < area[first] - area[second]:
+        second = first
+    x = np.sort(found.x[[first, second]])
+    return {"shift start": _place(x[0], 0.0, 0.0), "shift end": _place(x[1], 0.0, 0.0)}

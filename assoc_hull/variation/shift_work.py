@@ -1,0 +1,133 @@
+"""A shift of a hull in the making: its present values, its closed form, its trials."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.copy import copy_of
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.apply import apply
+from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.shift_ask import BODIES, CENTRES, SIZES, ShiftAsk
+from assoc_hull.variation.shift_elements import Elements
+from assoc_hull.variation.shift_newton import Aim
+from assoc_hull.variation.shift_parent import elements_of, terminals_of, values_of
+from assoc_hull.variation.shift_sums import Sums
+from assoc_hull.variation.shift_tasks import Bodies, Task, Whole
+from assoc_hull.variation.shift_terms import ShiftTerms
+from assoc_hull.variation.vmap import VMap
+
+__all__ = ["ShiftWork"]
+
+
+@attrs.frozen(eq=False)
+class ShiftWork:
+    """A shift in the making.
+
+    Attributes
+    ----------
+    state : HullState
+        Tables of the parent; nothing is written to them.
+    ask : ShiftAsk
+        What is asked for.
+    terms : ShiftTerms
+        What sections move by.
+    names : (str, str)
+        The two values that sizes are sought for, asked for or held.
+    now : (2,)
+        What they are on the parent.
+    elements, sums
+        Of its curve of areas.
+    """
+
+    state: HullState
+    ask: ShiftAsk
+    terms: ShiftTerms
+    names: tuple[str, str]
+    now: FloatArray
+    elements: Elements
+    sums: Sums
+
+    @classmethod
+    def of(cls, state: HullState, ask: ShiftAsk) -> ShiftWork:
+        """Measure the parent.
+
+        Raises
+        ------
+        BadInputError
+            It has not what is asked for.
+        """
+        at = terminals_of(state, ask.terminals)
+        start = ask.asked("parallel_body_start", at.start) - at.start
+        end = ask.asked("parallel_body_end", at.end) - at.end
+        terms = ShiftTerms(at, ask.shape, start, end, ask.fade)
+        names = BODIES if ask.by_body else (_of(ask, SIZES), _of(ask, CENTRES))
+        elements = elements_of(state, terms)
+        now = values_of(state, names)
+        return cls(state, ask, terms, names, now, elements, Sums.of(elements, terms))
+
+    @property
+    def asked(self) -> FloatArray:
+        """What the two values are to be, (2,)."""
+        pairs = zip(self.names, self.now.tolist(), strict=True)
+        return np.array([self.ask.asked(name, now) for name, now in pairs])
+
+    @property
+    def scale(self) -> FloatArray:
+        """What misses are told in parts of, (2,): a volume itself, Lpp for a centre."""
+        whole = {"lcb": self.state.particulars.length, "lcb_percent": 100.0}
+        pairs = zip(self.names, self.now.tolist(), strict=True)
+        return np.array([whole.get(name, now) for name, now in pairs])
+
+    @property
+    def task(self) -> Task:
+        """What the closed form is asked for."""
+        first, second = ((self.asked - self.now) / self.scale).tolist()
+        if self.ask.by_body:
+            prism = self.elements.total / float(self.now.sum())
+            fore, aft = (self.asked - self.now).tolist()
+            return Bodies(self.elements, self.sums, prism, fore, aft)
+        ship = self.state.particulars
+        block = ship.length * ship.breadth * ship.draught
+        added = first * self.elements.total / block
+        return Whole(self.elements, self.sums, block, ship.length, added, 100.0 * second)
+
+    @property
+    def aim(self) -> Aim:
+        """What Newton's rule is to reach."""
+        return Aim(self.names, self.asked, self.scale, self._slopes)
+
+    def _slopes(self, sizes: FloatArray) -> FloatArray:
+        """Give the derivatives of the two values by the sizes there, by the closed form."""
+        if self.ask.by_body:
+            return np.asarray((self.now / self.elements.bodies)[:, None] * self.sums.by_body)
+        volume, moment = self.sums.volume_at(sizes), self.sums.moment_at(sizes)
+        by_volume, by_moment = self.sums.jacobian(sizes)
+        by_centre = (by_moment - moment / volume * by_volume) / volume
+        length = self.state.particulars.length
+        return np.array([
+            self.now[0] / self.elements.total * by_volume, by_centre * self.scale[1] / length
+        ])  # fmt: skip
+
+    def variation(self, sizes: FloatArray) -> Ask:
+        """Give the shift of sizes (2,), m, as a variation by raw layers."""
+        return Ask.of(
+            layers=[self.terms.data(*sizes.tolist())], tolerance=self.ask.tolerance,
+            name=self.ask.name,
+        )  # fmt: skip
+
+    def values(self, sizes: FloatArray) -> FloatArray:
+        """Give the two values, (2,), of the hull that is shifted by sizes (2,), m."""
+        ask, trial = self.variation(sizes), Document(copy_of(self.state))
+        with Transaction(trial, ask.name) as edit:
+            apply(edit, VMap(ask.layers), follow=True, tolerance=ask.tolerance)
+        return values_of(trial.state, self.names)
+
+
+def _of(ask: ShiftAsk, alike: tuple[str, ...]) -> str:
+    """Give the one of some names that is asked for; the first, which is held, if none is."""
+    return next((name for name in ask.names if name in alike), alike[0])
