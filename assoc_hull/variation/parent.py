@@ -14,7 +14,6 @@ __all__ = ["Parent"]
 
 _MEASURED_AS = {
     "body start": "parallel_body_start", "body end": "parallel_body_end",
-    "shift start": "parallel_body_start", "shift end": "parallel_body_end",
     "corner": "bilge_radius", "bilge low": "bilge_radius", "bilge high": "bilge_radius",
     "deck": "depth", "bulb tip": "bulb_height", "bulb top": "bulb_height",
     "boss": "shaft_height", "boss top": "bossing_radius", "transom": "transom_height",

@@ -16,16 +16,16 @@ from assoc_hull.variation.anchor import Anchor, Measures
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.parent import Parent
 
-__all__ = ["TERMINALS", "parent_of"]
-
-TERMINALS = ("aft terminal", "shift start", "shift end", "fore terminal")
-"""Between which places sections shift: the names of these, from aft."""
+__all__ = ["parent_of"]
 
 _LEVEL = 1e-6
 """So near to the lowest place (m) the keel is level."""
 
 _ALIKE = 1e-6
 """Areas of two stations differ by less, in parts of the largest."""
+
+_FEWEST = 3
+"""Stations that a hull must have for its areas to tell anything."""
 
 
 def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
@@ -53,7 +53,8 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         if anchor.value is not None:
             places.update(_PLACES.get(anchor.name, _nothing)(anchor))
     places.update(_terminals(state))
-    places.update(_shifted_from(state, places))
+    if "body start" not in places:
+        places.update(_largest_stations(state))
     places.update(_cylinder(state, places.get("boss side")))
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
@@ -159,25 +160,22 @@ def _terminals(state: HullState) -> dict[str, FloatArray]:
     return {"aft terminal": _place(aft, 0.0, 0.0), "fore terminal": _place(fore, 0.0, 0.0)}
 
 
-def _shifted_from(state: HullState, places: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Give from where sections shift forward and aft: the ends of the parallel body.
+def _largest_stations(state: HullState) -> dict[str, FloatArray]:
+    """Give the two stations with the largest areas, which stand for the ends of a parallel body.
 
-    Where there is none, the two stations with the largest areas stand for them; if two are
-    second alike, the largest alone.
+    If two are second alike, the largest alone stands for both.
     """
-    if "body start" in places and "body end" in places:
-        return {"shift start": places["body start"], "shift end": places["body end"]}
+    level = Planes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
     try:
-        planes = Planes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
-        found = flotation(state).stations(planes)
+        found = flotation(state).stations(level)
     except AssocHullError:
         return {}  # what has no areas cannot be shifted by them
     area = found.area[0]
     order = np.argsort(-area, kind="stable")
-    if len(order) < 3:
+    if len(order) < _FEWEST:
         return {}
     first, second, third = order[:3].tolist()
     if area[second] - area[third] <= _ALIKE * area[first] < area[first] - area[second]:
         second = first
-    x = np.sort(found.x[[first, second]])
-    return {"shift start": _place(x[0], 0.0, 0.0), "shift end": _place(x[1], 0.0, 0.0)}
+    aft, fore = np.sort(found.x[[first, second]]).tolist()
+    return {"largest aft": _place(aft, 0.0, 0.0), "largest fore": _place(fore, 0.0, 0.0)}

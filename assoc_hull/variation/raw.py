@@ -6,8 +6,9 @@
            "pieces": [{"a": {"x": [270, 300], "v": [0, 0.05]}}, {}]}}
 {"rake": {"name": "stem", "along": {"x": [270, 300], "v": [0, 1]}, "q": 0.1, "z0": 18, "w": 4}}
 
-A function of x is a number, a chain as above, a spline (``"smooth": true`` beside x and v), straight
-lines (``"straight": true``) or a bump, {"begin": 200, "end": 300, "size": 1.5, "shape": "c2"}.
+A function of x is a number, a chain as above, a spline (``"smooth": true`` beside x and v),
+straight lines (``"straight": true``), or a bump:
+{"begin": 200, "end": 300, "size": 1.5, "shape": "c2"}.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ import attrs
 from assoc_hull.arguments import choice, flag, number, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import BLENDS, Blend
-from assoc_hull.variation.bump import SHAPES, Bump, Shape
+from assoc_hull.variation.bump import Bump
+from assoc_hull.variation.bump import Shape as BumpShape
 from assoc_hull.variation.chain import Chain, Contour, Course
 from assoc_hull.variation.field import Axis, Boundary, Field, Piece, Tube
 from assoc_hull.variation.fields_layer import FieldLayer, Rake
@@ -30,6 +32,8 @@ from assoc_hull.variation.polyline import Polyline
 __all__ = ["course_data", "fields_from", "layers_from"]
 
 _WHERE = "in a field of vary"
+
+_SHAPES: tuple[BumpShape, ...] = get_args(BumpShape)
 
 
 def layers_from(given: object) -> tuple[FieldLayer, ...]:
@@ -156,10 +160,10 @@ def _course(given: object, blend: Blend, name: str) -> Course:
 
 def _bump(given: Mapping[str, Any], name: str) -> Bump:
     data = _table(given, name, ("begin", "end", "shape"), ("size",))
-    shape = choice(data["shape"], "shape", tuple(SHAPES), _WHERE)
+    shape = choice(data["shape"], "shape", _SHAPES, _WHERE)
     return Bump(
         _number(data["begin"]), _number(data["end"]), _number(data.get("size", 1.0)),
-        next(each for each in get_args(Shape) if each == shape),
+        next(each for each in _SHAPES if each == shape),
     )  # fmt: skip
 
 
@@ -180,8 +184,9 @@ def course_data(course: Course) -> dict[str, Any]:
             f"a {type(course).__name__} has no form as data", _WHERE, "give it as a layer"
         )
     nodes: dict[str, Any] = {"x": course.x.tolist(), "v": course.v.tolist()}
-    words = {Contour: "smooth", Polyline: "straight"}
-    return nodes | {word: True for kind, word in words.items() if isinstance(course, kind)}
+    if isinstance(course, Chain):
+        return nodes
+    return {**nodes, "smooth" if isinstance(course, Contour) else "straight": True}
 
 
 def _axis(name: str) -> Axis:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 import numpy as np
 
@@ -36,12 +38,15 @@ class ShiftReport:
         Of Newton's rule on the hydrostatics of the varied hull; the first is the closed form.
     variation : VariationReport
         What changed on the hull, as of any variation.
+    notes : tuple of str
+        What else there is to know.
     """
 
     targets: tuple[Target, ...]
     shift: Shift
     steps: tuple[Step, ...]
     variation: VariationReport
+    notes: tuple[str, ...] = ()
 
     @property
     def fore(self) -> float:
@@ -68,10 +73,12 @@ class ShiftReport:
             f"closed form {self.steps[0].residual:.1e} off, after {len(self.steps) - 1} steps "
             f"{self.residual:.1e}",
         ]  # fmt: skip
-        return "\n".join([*told, *self.variation.notes, str(self.variation.edit)])
+        return "\n".join([*told, *self.notes, *self.variation.notes, str(self.variation.edit)])
 
 
-def shift_document(document: Document, ask: ShiftAsk) -> tuple[VMap, ShiftReport]:
+def shift_document(
+    document: Document, ask: ShiftAsk, dimensions: Mapping[str, float] | None = None
+) -> tuple[VMap, ShiftReport]:
     """Shift the sections of a hull in place, as one step that can be undone.
 
     Parameters
@@ -80,27 +87,32 @@ def shift_document(document: Document, ask: ShiftAsk) -> tuple[VMap, ShiftReport
         The hull.
     ask : ShiftAsk
         What is asked for.
+    dimensions : mapping of str to float or None
+        Named parameters, m, that the hull is given before.
 
     Raises
     ------
     BadInputError, OutOfRangeError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    work = ShiftWork.of(document.state, ask)
+    work = ShiftWork.of(document.state, ask, dimensions)
     start = closed_form(work.task, work.terms, MARGIN)
     sizes, steps = settle(work.aim, work.values, start.sizes)
+    before = values_of(document.state, work.names)
     vmap, report = vary_document(document, work.variation(sizes))
     shift = Shift(work.terms, sizes, certified(work.terms, sizes, MARGIN))
-    reached = values_of(document.state, work.names)
-    return vmap, ShiftReport(_targets(work, reached, shift), shift, steps, report)
+    found = before, values_of(document.state, work.names)
+    return vmap, ShiftReport(_targets(work, *found, shift), shift, steps, report, work.notes)
 
 
-def _targets(work: ShiftWork, reached: FloatArray, shift: Shift) -> tuple[Target, ...]:
+def _targets(
+    work: ShiftWork, before: FloatArray, reached: FloatArray, shift: Shift
+) -> tuple[Target, ...]:
     """Tell of the two values that were sought, and of ends of the parallel body that moved."""
     found = [
         Target(name, _UNITS.get(name, "-"), *numbers)
         for name, *numbers in zip(
-            work.names, work.now.tolist(), work.asked.tolist(), reached.tolist(), strict=True
+            work.names, before.tolist(), work.asked.tolist(), reached.tolist(), strict=True
         )
     ]  # fmt: skip
     at = work.terms.terminals

@@ -21,7 +21,7 @@ __all__ = ["MET", "Aim", "Step", "settle"]
 MET = 1e-10
 """Relative miss of a volume, miss of a centre in parts of Lpp: what is promised."""
 
-_ENOUGH = 1e-13
+_ENOUGH = 1e-12
 """Nearer than rounding lets one come."""
 
 _MOST = 10

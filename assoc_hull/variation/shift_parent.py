@@ -15,7 +15,8 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.parent_of import TERMINALS, parent_of
+from assoc_hull.variation.layouts_body import shift_terminals
+from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.shift_ask import BODIES
 from assoc_hull.variation.shift_elements import Elements
 from assoc_hull.variation.shift_terms import ShiftTerms, Terminals
@@ -77,7 +78,7 @@ def elements_of(state: HullState, terms: ShiftTerms) -> Elements:
     )  # fmt: skip
 
 
-def terminals_of(state: HullState, asked: Terminals | None) -> Terminals:
+def terminals_of(parent: Parent, asked: Terminals | None) -> Terminals:
     """Give the terminals that are asked for, or those measured on a hull.
 
     Raises
@@ -87,5 +88,4 @@ def terminals_of(state: HullState, asked: Terminals | None) -> Terminals:
     """
     if asked is not None:
         return asked
-    parent = parent_of(state)
-    return Terminals.of([float(parent.at(name, "section shifts")[0]) for name in TERMINALS])
+    return Terminals.of(shift_terminals(parent, "section shifts"))

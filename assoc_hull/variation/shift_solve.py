@@ -127,7 +127,9 @@ def closed_form(task: Task, terms: ShiftTerms, margin: float = 0.0) -> Shift:
     raise _refusal(task, terms, margin, found)
 
 
-def _tried(sizes: FloatArray | None, terms: ShiftTerms, margin: float) -> Shift | Certificate | None:
+def _tried(
+    sizes: FloatArray | None, terms: ShiftTerms, margin: float
+) -> Shift | Certificate | None:
     """Give the shift of sizes; the certificate that it lacks; None if there are no sizes."""
     if sizes is None or not np.isfinite(sizes).all():
         return None
@@ -144,29 +146,47 @@ def _refusal(
         return isinstance(_tried(task.sizes(changes), terms, margin), Shift)
 
     first, second = task.changes
-    beside = {0: lambda t: (t, second), 1: lambda t: (first, t)}
-    blamed = next((i for i, family in beside.items() if works(family(0.0))), None)
-    if blamed is None:
-        beside = {1: lambda t: (0.0, t)}
-        blamed = 1 if works((0.0, 0.0)) else None
-    if blamed is None:
+    ways = _Way(0, (0.0, second)), _Way(1, (first, 0.0)), _Way(1, (0.0, 0.0))
+    way = next((each for each in ways if works(each.foot)), None)
+    if way is None:
         return _given_folds(terms, margin)
-    least, most = _reach(works, beside[blamed], abs(task.changes[blamed]))
-    return OutOfRangeError(
-        "a change", task.changes[blamed], _WHERE, _why(task, blamed, found, margin), least, most,
-        task.words[blamed],
-    )  # fmt: skip
+    asked = task.changes[way.blamed]
+    least, most = (_end(lambda t: works(way.at(t)), sign * abs(asked)) for sign in (-1.0, 1.0))
+    why = _why(task, way, found, margin)
+    return OutOfRangeError("a change", asked, _WHERE, why, least, most, task.words[way.blamed])
 
 
-def _why(task: Task, blamed: int, found: Certificate | None, margin: float) -> str:
-    other = task.changes[1 - blamed]
-    beside = f"beside {other:+.6g} {task.words[1 - blamed]}" if other else "alone"
+@attrs.frozen
+class _Way:
+    """Changes of which one varies from nil.
+
+    Attributes
+    ----------
+    blamed : {0, 1}
+        Which varies.
+    foot : (float, float)
+        Both, where that is nil.
+    """
+
+    blamed: int
+    foot: tuple[float, float]
+
+    def at(self, t: float) -> tuple[float, float]:
+        """Give both changes where the one is t."""
+        return (t, self.foot[1]) if self.blamed == 0 else (self.foot[0], t)
+
+
+def _why(task: Task, way: _Way, found: Certificate | None, margin: float) -> str:
+    other = 1 - way.blamed
+    asked = task.changes[other]
+    beside = f" beside {asked:+.6g} {task.words[other]}" if asked else ""
+    alone = f", even without {beside.removeprefix(' beside ')}" if asked != way.foot[other] else ""
     if found is None:
-        return f"is out of reach {beside}: no shift gives both"
+        return f"is out of reach{alone or beside}: no shift gives it"
     at = f"at x={found.witness[0]:.2f} m (1+delta'={found.least:.3f})"
     if found.least <= 0.0:
-        return f"makes sections cross {at} {beside}"
-    return f"leaves less than {margin:g} of the distance of sections {at} {beside}"
+        return f"makes sections cross {at}{alone or beside}"
+    return f"leaves less than {margin:g} of the distance of sections {at}{alone or beside}"
 
 
 def _given_folds(terms: ShiftTerms, margin: float) -> BadInputError:
@@ -180,17 +200,6 @@ def _given_folds(terms: ShiftTerms, margin: float) -> BadInputError:
         "no shift holds volume and its centre while the ends of the parallel body move", _WHERE,
         "move them less, or set the terminals wider",
     )  # fmt: skip
-
-
-def _reach(
-    works: Callable[[tuple[float, float]], bool],
-    family: Callable[[float], tuple[float, float]],
-    asked: float,
-) -> tuple[float, float]:
-    """Give the least and the largest change that works, from nil, which does."""
-    return tuple(  # type: ignore[return-value]
-        _end(lambda t: works(family(t)), sign * asked) for sign in (-1.0, 1.0)
-    )
 
 
 def _end(works: Callable[[float], bool], far: float) -> float:

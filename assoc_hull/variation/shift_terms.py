@@ -191,8 +191,7 @@ class ShiftTerms:
         return FieldLayer(
             name,
             tuple(
-                Field(name, "x", base, (Piece(none, 0.0, part),))
-                for part in self.sized(fore, aft)
+                Field(name, "x", base, (Piece(none, 0.0, part),)) for part in self.sized(fore, aft)
             ),
         )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import attrs
 import numpy as np
 
@@ -12,13 +14,16 @@ from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.apply import apply
 from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.notes import shifted_without_body
+from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.shift_ask import BODIES, CENTRES, SIZES, ShiftAsk
 from assoc_hull.variation.shift_elements import Elements
 from assoc_hull.variation.shift_newton import Aim
 from assoc_hull.variation.shift_parent import elements_of, terminals_of, values_of
 from assoc_hull.variation.shift_sums import Sums
 from assoc_hull.variation.shift_tasks import Bodies, Task, Whole
-from assoc_hull.variation.shift_terms import ShiftTerms
+from assoc_hull.variation.shift_terms import ShiftTerms, Terminals
+from assoc_hull.variation.vary import vary_document
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["ShiftWork"]
@@ -32,6 +37,10 @@ class ShiftWork:
     ----------
     state : HullState
         Tables of the parent; nothing is written to them.
+    measured : HullState
+        Those of the hull whose sections shift: the parent, or that with other dimensions.
+    dimensions : mapping of str to float
+        Named parameters, m, that the parent is given before.
     ask : ShiftAsk
         What is asked for.
     terms : ShiftTerms
@@ -39,21 +48,28 @@ class ShiftWork:
     names : (str, str)
         The two values that sizes are sought for, asked for or held.
     now : (2,)
-        What they are on the parent.
+        What they are on the measured hull.
     elements, sums
         Of its curve of areas.
+    notes : tuple of str
+        What stands for the parallel body where there is none.
     """
 
     state: HullState
+    measured: HullState
+    dimensions: Mapping[str, float]
     ask: ShiftAsk
     terms: ShiftTerms
     names: tuple[str, str]
     now: FloatArray
     elements: Elements
     sums: Sums
+    notes: tuple[str, ...]
 
     @classmethod
-    def of(cls, state: HullState, ask: ShiftAsk) -> ShiftWork:
+    def of(
+        cls, state: HullState, ask: ShiftAsk, dimensions: Mapping[str, float] | None = None
+    ) -> ShiftWork:
         """Measure the parent.
 
         Raises
@@ -61,14 +77,16 @@ class ShiftWork:
         BadInputError
             It has not what is asked for.
         """
-        at = terminals_of(state, ask.terminals)
-        start = ask.asked("parallel_body_start", at.start) - at.start
-        end = ask.asked("parallel_body_end", at.end) - at.end
-        terms = ShiftTerms(at, ask.shape, start, end, ask.fade)
+        measured = _scaled(state, dimensions) if dimensions else state
+        parent = parent_of(measured)
+        terms = _terms(terminals_of(parent, ask.terminals), ask)
         names = BODIES if ask.by_body else (_of(ask, SIZES), _of(ask, CENTRES))
-        elements = elements_of(state, terms)
-        now = values_of(state, names)
-        return cls(state, ask, terms, names, now, elements, Sums.of(elements, terms))
+        elements = elements_of(measured, terms)
+        return cls(
+            state, measured, dimensions or {}, ask, terms, names, values_of(measured, names),
+            elements, Sums.of(elements, terms),
+            () if ask.terminals else shifted_without_body(parent),
+        )  # fmt: skip
 
     @property
     def asked(self) -> FloatArray:
@@ -79,7 +97,7 @@ class ShiftWork:
     @property
     def scale(self) -> FloatArray:
         """What misses are told in parts of, (2,): a volume itself, Lpp for a centre."""
-        whole = {"lcb": self.state.particulars.length, "lcb_percent": 100.0}
+        whole = {"lcb": self.measured.particulars.length, "lcb_percent": 100.0}
         pairs = zip(self.names, self.now.tolist(), strict=True)
         return np.array([whole.get(name, now) for name, now in pairs])
 
@@ -91,10 +109,9 @@ class ShiftWork:
             prism = self.elements.total / float(self.now.sum())
             fore, aft = (self.asked - self.now).tolist()
             return Bodies(self.elements, self.sums, prism, fore, aft)
-        ship = self.state.particulars
-        block = ship.length * ship.breadth * ship.draught
-        added = first * self.elements.total / block
-        return Whole(self.elements, self.sums, block, ship.length, added, 100.0 * second)
+        cb = values_of(self.measured, ["cb"])[0] if self.names[0] != "cb" else self.now[0]
+        block, length = self.elements.total / float(cb), self.measured.particulars.length
+        return Whole(self.elements, self.sums, block, length, first * float(cb), 100.0 * second)
 
     @property
     def aim(self) -> Aim:
@@ -108,7 +125,7 @@ class ShiftWork:
         volume, moment = self.sums.volume_at(sizes), self.sums.moment_at(sizes)
         by_volume, by_moment = self.sums.jacobian(sizes)
         by_centre = (by_moment - moment / volume * by_volume) / volume
-        length = self.state.particulars.length
+        length = self.measured.particulars.length
         return np.array([
             self.now[0] / self.elements.total * by_volume, by_centre * self.scale[1] / length
         ])  # fmt: skip
@@ -116,16 +133,33 @@ class ShiftWork:
     def variation(self, sizes: FloatArray) -> Ask:
         """Give the shift of sizes (2,), m, as a variation by raw layers."""
         return Ask.of(
-            layers=[self.terms.data(*sizes.tolist())], tolerance=self.ask.tolerance,
-            name=self.ask.name,
+            self.dimensions, layers=[self.terms.data(*sizes.tolist())],
+            tolerance=self.ask.tolerance, name=self.ask.name,
         )  # fmt: skip
 
     def values(self, sizes: FloatArray) -> FloatArray:
         """Give the two values, (2,), of the hull that is shifted by sizes (2,), m."""
         ask, trial = self.variation(sizes), Document(copy_of(self.state))
-        with Transaction(trial, ask.name) as edit:
-            apply(edit, VMap(ask.layers), follow=True, tolerance=ask.tolerance)
+        if self.dimensions:
+            vary_document(trial, ask)
+        else:
+            with Transaction(trial, ask.name) as edit:
+                apply(edit, VMap(ask.layers), follow=True, tolerance=ask.tolerance)
         return values_of(trial.state, self.names)
+
+
+def _scaled(state: HullState, dimensions: Mapping[str, float]) -> HullState:
+    """Give the tables of a hull with other dimensions."""
+    trial = Document(copy_of(state))
+    vary_document(trial, Ask.of(dimensions))
+    return trial.state
+
+
+def _terms(at: Terminals, ask: ShiftAsk) -> ShiftTerms:
+    """Give what sections move by, with the ends of the parallel body where they are to be."""
+    start = ask.asked("parallel_body_start", at.start) - at.start
+    end = ask.asked("parallel_body_end", at.end) - at.end
+    return ShiftTerms(at, ask.shape, start, end, ask.fade)
 
 
 def _of(ask: ShiftAsk, alike: tuple[str, ...]) -> str:
