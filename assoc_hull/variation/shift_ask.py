@@ -133,7 +133,10 @@ def _refuse_twice(to: Mapping[str, float], by: Mapping[str, float]) -> None:
         found = [name for name in every if name in alike]
         if len(found) > 1:
             both = " and ".join(f"'{name}'" for name in found)
-            raise BadInputError(f"{both} ask for one thing twice", _WHERE, "give one of them")
+            what = f"'{found[0]}' is in to and in by" if found[0] == found[1] else (
+                f"{both} ask for one thing twice"
+            )  # fmt: skip
+            raise BadInputError(what, _WHERE, "give one of them")
     bodies = [name for name in every if name in BODIES]
     whole = [name for name in every if name in (*SIZES, *CENTRES)]
     if bodies and whole:

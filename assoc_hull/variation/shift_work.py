@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
@@ -27,6 +28,9 @@ from assoc_hull.variation.vary import vary_document
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["ShiftWork"]
+
+_LEVEL = 1e-9
+"""Of the mean section: areas that differ by less are alike."""
 
 
 @attrs.frozen(eq=False)
@@ -82,9 +86,11 @@ class ShiftWork:
         terms = _terms(terminals_of(parent, ask.terminals), ask)
         names = BODIES if ask.by_body else (_of(ask, SIZES), _of(ask, CENTRES))
         elements = elements_of(measured, terms)
+        sums = Sums.of(elements, terms)
+        _refuse_level(terms, elements, sums)
         return cls(
             state, measured, dimensions or {}, ask, terms, names, values_of(measured, names),
-            elements, Sums.of(elements, terms),
+            elements, sums,
             () if ask.terminals else shifted_without_body(parent),
         )  # fmt: skip
 
@@ -160,6 +166,19 @@ def _terms(at: Terminals, ask: ShiftAsk) -> ShiftTerms:
     start = ask.asked("parallel_body_start", at.start) - at.start
     end = ask.asked("parallel_body_end", at.end) - at.end
     return ShiftTerms(at, ask.shape, start, end, ask.fade)
+
+
+def _refuse_level(terms: ShiftTerms, elements: Elements, sums: Sums) -> None:
+    """Refuse terminals between which areas are alike: no shift changes anything there."""
+    at = terms.terminals
+    for gain, low, high in zip(
+        sums.alpha.tolist(), (at.end, at.aft), (at.fore, at.start), strict=True
+    ):
+        if abs(gain) <= _LEVEL * elements.total / (at.fore - at.aft):
+            raise BadInputError(
+                f"the sections from {low:g} to {high:g} m are all alike, or there are none",
+                "in shift_sections", "set the terminals elsewhere",
+            )  # fmt: skip
 
 
 def _of(ask: ShiftAsk, alike: tuple[str, ...]) -> str:

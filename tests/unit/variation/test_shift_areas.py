@@ -19,9 +19,10 @@ from assoc_hull.variation.shift_tasks import Bodies, Whole
 from assoc_hull.variation.shift_terms import SHIFT_SHAPES, ShiftShape, ShiftTerms, Terminals
 
 TABLE = todd_table(0.70)[0]
-L, BLOCK = TABLE.length, TABLE.length * TABLE.breadth * TABLE.draught
+L, T = TABLE.length, TABLE.draught or 0.0
+BLOCK = L * TABLE.breadth * T
 AREAS = np.array([
-    2.0 * float(PchipInterpolator(TABLE.z, row).integrate(0.0, TABLE.draught))
+    2.0 * float(PchipInterpolator(TABLE.z, row).integrate(0.0, T))
     for row in TABLE.half_breadth
 ])  # fmt: skip
 CURVE = PchipInterpolator(TABLE.x, AREAS)
