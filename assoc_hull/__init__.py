@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         RingError,
         StaleHullError,
         UnknownNameError,
+        UnreachableError,
     )
     from assoc_hull.geometry.curves import PointKind
     from assoc_hull.geometry.plane import Plane
@@ -83,6 +84,7 @@ __all__ = [
     "StaleHullError",
     "Tolerances",
     "UnknownNameError",
+    "UnreachableError",
     "__version__",
     "cross_curves",
     "curve_transform",
@@ -132,6 +134,7 @@ _HOMES = {
         "RingError",
         "StaleHullError",
         "UnknownNameError",
+        "UnreachableError",
     ),
     "geometry.curves": ("PointKind",),
     "geometry.plane": ("Plane",),

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
 
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.algebra import Values
 from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.analysis.compute import values_at
 from assoc_hull.analysis.floating import planes_of
@@ -27,17 +27,15 @@ from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
 from assoc_hull.analysis.parameters import Parameter, Position, Shape
 from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.varied import varied_by
+from assoc_hull.analysis.tangents import AT_ONCE, dots, tangents_by
 from assoc_hull.arguments import all_of, choice
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.dual import Dual, as_array, real
+from assoc_hull.geometry.dual import Dual, as_array
 from assoc_hull.geometry.immersed import Planes
 
 __all__ = ["Derivatives", "hydrostatic_derivatives"]
 
 _WHERE = "in hydrostatic_derivatives"
-_AT_ONCE = 8
-"""Tangents that are carried along together, which bounds the memory."""
 
 
 @attrs.frozen(eq=False)
@@ -102,7 +100,7 @@ def hydrostatic_derivatives(
         The hull.
     wrt : iterable of k parameters
         By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
-        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.parameters`.
+        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.parameters`; or `Moves`.
     draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
         As for `hydrostatics`.
     keel_thickness, draught_to
@@ -120,7 +118,8 @@ def hydrostatic_derivatives(
 
     Notes
     -----
-    Particulars (Lpp, B), water, KG and appendages stay as they are. The layout of the surface
+    Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a parameter
+    has rates for them (`assoc_hull.analysis.moves.Moves`). The layout of the surface
     is that of the hull as it stands; where a value has a kink (the largest station changes,
     a section begins to be wet) the derivative is that to one side.
 
@@ -159,22 +158,19 @@ def _differentiated(
     found = {name: np.zeros(len(wrt)) for name in FIELDS}
     positions = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Position)]
     shapes = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Shape)]
-    for i in range(0, len(positions), _AT_ONCE):
-        some = positions[i : i + _AT_ONCE]
+    for i in range(0, len(positions), AT_ONCE):
+        some = positions[i : i + AT_ONCE]
         tilted = _planes(plane, header.length, [each for _, each in some])
         _put(found, [k for k, _ in some], values_at(body, tilted, header))
-    for i in range(0, len(shapes), _AT_ONCE):
-        few = shapes[i : i + _AT_ONCE]
-        varied = varied_by(body, [each for _, each in few])
-        _put(found, [k for k, _ in few], values_at(varied, plane, header))
+    for few in tangents_by(body, plane, header, [each for _, each in shapes]):
+        _put(found, [k for k, _ in shapes[few.where]], few.values)
     return found
 
 
-def _put(found: dict[str, FloatArray], where: list[int], values: Mapping[str, Any]) -> None:
+def _put(found: dict[str, FloatArray], where: list[int], values: Values) -> None:
     """Put the tangents of values at one position in their places; nan where there is no value."""
     for name, value in values.items():
-        dot = value.dot[:, 0] if isinstance(value, Dual) else 0.0
-        found[name][where] = np.where(np.isnan(real(value)[0]), np.nan, dot)
+        found[name][where] = dots(value, len(where))
 
 
 def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
