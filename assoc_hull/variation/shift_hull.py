@@ -63,17 +63,22 @@ class ShiftReport:
         """The largest miss: of volumes relative, of centres in parts of Lpp."""
         return min(each.residual for each in self.steps)
 
-    def __str__(self) -> str:
+    @property
+    def told(self) -> tuple[str, ...]:
+        """What was reached, by which movement, and how, in lines."""
         at = self.shift.terms.terminals
-        told = [
+        return (
             *(str(each) for each in self.targets),
             f"shape {self.shift.terms.shape}, terminals {at.aft:.6g}, {at.start:.6g}, "
             f"{at.end:.6g}, {at.fore:.6g} m; c_f {self.fore:+.6g} m, c_a {self.aft:+.6g} m",
             f"largest movement {self.shift.largest:.4g} m, least 1+delta' {self.shift.least:.4f}",
             f"closed form {self.steps[0].residual:.1e} off, after {len(self.steps) - 1} steps "
             f"{self.residual:.1e}",
-        ]  # fmt: skip
-        return "\n".join([*told, *self.notes, *self.variation.notes, str(self.variation.edit)])
+            *self.notes,
+        )  # fmt: skip
+
+    def __str__(self) -> str:
+        return "\n".join([*self.told, *self.variation.notes, str(self.variation.edit)])
 
 
 def shift_document(
