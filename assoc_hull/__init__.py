@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import examples, open, read
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
@@ -100,7 +101,9 @@ __all__ = [
     "panels",
     "read",
     "sensitivities",
+    "shift_sections",
     "stability",
+    "swing",
     "vary",
     "vary_by",
 ]
@@ -142,6 +145,7 @@ _HOMES = {
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "shifts": ("shift_sections", "swing"),
     "sources": ("examples", "open", "read"),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),

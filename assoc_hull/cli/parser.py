@@ -21,6 +21,7 @@ from assoc_hull.cli import (
     replay,
     sensitivities,
     shell,
+    shift,
     stability,
     transform,
     vary,
@@ -70,7 +71,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, vary, sensitivities, plot, export, shell,
+        stability, transform, panels, vary, shift, sensitivities, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)
