@@ -23,6 +23,7 @@ from assoc_hull.cli import (
     shell,
     shift,
     stability,
+    study,
     transform,
     vary,
     why,
@@ -71,7 +72,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, vary, shift, sensitivities, plot, export, shell,
+        stability, transform, panels, vary, shift, study, sensitivities, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)
