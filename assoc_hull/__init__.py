@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.comparison import compare
 
 __all__ = [
     "Appendage",
@@ -83,6 +84,7 @@ __all__ = [
     "Tolerances",
     "UnknownNameError",
     "__version__",
+    "compare",
     "cross_curves",
     "curve_transform",
     "equilibrium",
@@ -141,6 +143,7 @@ _HOMES = {
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.comparison": ("compare",),
 }
 """Modules and what is public of them."""
 

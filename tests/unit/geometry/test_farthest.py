@@ -19,7 +19,7 @@ LEVEL = through((0, 0), (10, 0))
 
 def test_a_summit_between_knots_is_found() -> None:
     """The top of a parabola over a straight line, which lies at no knot and no even step."""
-    # The cubic between two given slopes is the parabola y = x (10 - x) / 10 moved by its knots.
+    # Two segments of y = x (10 - x) / 10 itself, over x.
     hump = SplineBatch(
         np.array([0, 3]), np.array([0.0, 3.7, 10.0]),
         np.array([[0.0, 0, 0], [3.7, 3.7 * 6.3 / 10, 0], [10, 0, 0]]),
