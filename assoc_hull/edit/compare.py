@@ -17,7 +17,7 @@ import attrs
 from assoc_hull.analysis.volume import displaced
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.farthest import Owned, farthest
+from assoc_hull.geometry.farthest import Owned, farthest, same_bits
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import HullState
@@ -137,7 +137,7 @@ def _lines(state: HullState) -> dict[str, Pieces]:
 
 def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDifference]:
     """Say how lines of both differ, those that do."""
-    moved = [pair for pair in pairs if not _same(pair[0][1], pair[1][1])]
+    moved = [pair for pair in pairs if not same_bits(pair[0][1], pair[1][1])]
     far = farthest(*(Owned.of([pair[k][1] for pair in moved]) for k in (0, 1)))
     for (_, new), place, distance in zip(moved, far.other.tolist(), far.distance, strict=True):
         x, y, z = place
@@ -145,16 +145,6 @@ def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDiffere
     for old, new in pairs:
         if old[0] != new[0]:
             yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
-
-
-def _same(old: Sequence[SplineBatch], new: Sequence[SplineBatch]) -> bool:
-    """Tell whether two lines have the same bits."""
-    names = ("knot", "xyz", "leave", "arrive")
-    return len(old) == len(new) and all(
-        getattr(a, name).tobytes() == getattr(b, name).tobytes()
-        for a, b in zip(old, new, strict=True)
-        for name in names
-    )
 
 
 def _numbers(state: HullState) -> dict[str, float | None]:

@@ -17,7 +17,7 @@ from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.evaluation import positions
 
-__all__ = ["Farthest", "Owned", "farthest"]
+__all__ = ["Farthest", "Owned", "farthest", "same_bits"]
 
 _PARTS = 4
 """Places on each segment at which distances are first taken."""
@@ -128,6 +128,26 @@ def farthest(one: Owned, other: Owned) -> Farthest:
         np.where(outward, there.one, back.other),
         np.where(outward, there.other, back.one),
         np.maximum(there.distance, back.distance),
+    )
+
+
+def same_bits(one: Sequence[SplineBatch], other: Sequence[SplineBatch]) -> bool:
+    """Tell whether two things are of the same curves, to the last bit.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.curves import CurveData
+    >>> from assoc_hull.geometry.farthest import same_bits
+    >>> from assoc_hull.geometry.spline import loft
+    >>> line = loft(CurveData.single(np.array([[0.0, 0, 0], [4, 0, 0]])))
+    >>> same_bits([line], [line]), same_bits([line], [line, line])
+    (True, False)
+    """
+    names = ("knot", "xyz", "leave", "arrive")
+    return len(one) == len(other) and all(
+        getattr(a, name).tobytes() == getattr(b, name).tobytes()
+        for a, b in zip(one, other, strict=True)
+        for name in names
     )
 
 

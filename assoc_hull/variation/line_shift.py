@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.farthest import Owned, farthest
+from assoc_hull.geometry.farthest import Owned, farthest, same_bits
 from assoc_hull.model.state import HullState
 
 __all__ = ["LEAST", "LineShift", "line_shifts"]
@@ -113,22 +113,52 @@ def line_shifts(
     >>> shift.direction, [round(part, 9) for part in shift.vector]
     ('out', [0.0, 0.5, 0.0])
     """
-    planes = [_plane(parent, old, variant, new) for old, new in pairs]
-    moves = [np.zeros(3) if by is None else by * variant.lines.normal.data[new]
-             for by, (_, new) in zip(planes, pairs, strict=True)]  # fmt: skip
-    before = Owned.of([_splines(parent, old) for old, _ in pairs])
-    after = Owned.of(
-        [
-            [_laid(spline, move) for spline in _splines(variant, new)]
-            for move, (_, new) in zip(moves, pairs, strict=True)
-        ]
+    laid = [_Laid.of(parent, old, variant, new) for old, new in pairs]
+    shifts = [each.unmoved for each in laid]
+    apart = [i for i, each in enumerate(laid) if not same_bits(each.before, each.after)]
+    found = farthest(
+        Owned.of([laid[i].before for i in apart]), Owned.of([laid[i].after for i in apart])
     )
-    found = farthest(before, after)
-    back = found.other + np.reshape(moves, (-1, 3))
-    return [
-        LineShift(_place(old), _place(new), by, float(course))
-        for old, new, by, course in zip(found.one, back, planes, found.distance, strict=True)
-    ]
+    for i, *places in zip(apart, found.one, found.other, found.distance.tolist(), strict=True):
+        shifts[i] = laid[i].shift(*places)
+    return shifts
+
+
+@attrs.frozen(eq=False)
+class _Laid:
+    """A line of the parent and of the variant, both in the parent's plane.
+
+    Attributes
+    ----------
+    before, after : list of SplineBatch
+        Their curves.
+    plane : float or None, m
+        How far the plane went along its normal.
+    back : (3,), m
+        From the parent's plane to the variant's.
+    """
+
+    before: list[SplineBatch]
+    after: list[SplineBatch]
+    plane: float | None
+    back: FloatArray
+
+    @classmethod
+    def of(cls, parent: HullState, old: int, variant: HullState, new: int) -> _Laid:
+        plane = _plane(parent, old, variant, new)
+        back = np.zeros(3) if plane is None else plane * variant.lines.normal.data[new]
+        after = [_moved(spline, -back) for spline in _splines(variant, new)]
+        return cls(_splines(parent, old), after, plane, back)
+
+    def shift(self, before: FloatArray, after: FloatArray, course: float) -> LineShift:
+        """Tell the shift between two places in the parent's plane."""
+        return LineShift(_place(before), _place(after + self.back), self.plane, course)
+
+    @property
+    def unmoved(self) -> LineShift:
+        """The shift of a line that has the same bits in the parent's plane."""
+        start = self.before[0].xyz[0]
+        return self.shift(start, start, 0.0)
 
 
 def _splines(state: HullState, line: int) -> list[SplineBatch]:
@@ -145,9 +175,8 @@ def _plane(parent: HullState, old: int, variant: HullState, new: int) -> float |
     return float(now.offset.data[new] - was.offset.data[old])
 
 
-def _laid(spline: SplineBatch, move: FloatArray) -> SplineBatch:
-    """Take a curve back by a move."""
-    return attrs.evolve(spline, xyz=spline.xyz - move, home=None) if move.any() else spline
+def _moved(spline: SplineBatch, by: FloatArray) -> SplineBatch:
+    return attrs.evolve(spline, xyz=spline.xyz + by, home=None) if by.any() else spline
 
 
 def _place(point: FloatArray) -> Place:

@@ -20,11 +20,10 @@ LEVEL = through((0, 0), (10, 0))
 def test_a_summit_between_knots_is_found() -> None:
     """The top of a parabola over a straight line, which lies at no knot and no even step."""
     # Two segments of y = x (10 - x) / 10 itself, over x.
-    hump = SplineBatch(
-        np.array([0, 3]), np.array([0.0, 3.7, 10.0]),
-        np.array([[0.0, 0, 0], [3.7, 3.7 * 6.3 / 10, 0], [10, 0, 0]]),
-        *(np.array([[1.0, 1, 0], [1, 0.26, 0], [1, -1, 0]]) for _ in range(2)),
-    )  # fmt: skip
+    x = np.array([0.0, 3.7, 10.0])
+    slope = np.stack([np.ones(3), 1.0 - 0.2 * x, np.zeros(3)], axis=1)
+    places = np.stack([x, 0.1 * x * (10.0 - x), np.zeros(3)], axis=1)
+    hump = SplineBatch(np.array([0, 3]), x, places, slope, slope.copy())
     found = farthest(Owned.of([[LEVEL]]), Owned.of([[hump]]))
     assert found.distance[0] == pytest.approx(2.5, abs=1e-6)
     assert found.other[0] == pytest.approx([5.0, 2.5, 0.0], abs=2e-3)
