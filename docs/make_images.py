@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from drawings.common import ship
+from drawings.comparison import comparison
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
@@ -108,13 +109,14 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "carrier_combs": carrier_combs,
     "variation_fields": variation_fields,
     "rounded_hat": rounded_hat,
+    "comparison": comparison,
     "bossing_profile": bossing_profile,
     "bossing_lines": bossing_lines,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
-       "form_sheet": 100, "panels": 105}  # fmt: skip
+       "comparison": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
 
 

@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.plot.block import frame, title_block
+from assoc_hull.plot.block import ROW, block_height, frame, title_block
 from assoc_hull.plot.compare import overlay, pairs_of
 from assoc_hull.plot.drawing import Drawing, Sketchable, drawing
 from assoc_hull.plot.layout import BLOCK, Layout, lay_out
@@ -30,6 +30,7 @@ __all__ = ["comparison_plan", "comparison_plan_sheet"]
 _PARENT = Pen(0.16, "0.45", over=1.8)
 _NUMBERS = ("volume", "lcb", "kmt", "wetted_surface", "cb", "cp", "cw")
 _WORST = 8
+_ABOVE = 12.0  # of the profile, for the names of its buttocks, mm at A3
 
 
 def comparison_plan(
@@ -138,11 +139,19 @@ def _block(
         "Moulded lines, m; x forward from AP, z upward from the base line.",
     ]
     if found is not None:
+        notes.append(f"Lines: {counts(found)}.")
         rows += [_number(found.hydrostatic(name)) for name in _NUMBERS]
         rows += [_line(line) for line in found.worst(_WORST)]
-        notes.append(f"Lines: {counts(found)}.")
     width = BLOCK * sheet.paper.factor
-    title_block(sheet, layout.corner, width, title, rows, notes)
+    title_block(sheet, layout.corner, width, title, rows[: _room(layout, sheet, len(notes))], notes)
+
+
+def _room(layout: Layout, sheet: Sheet, notes: int) -> int:
+    """Give how many rows the block may have above the profile and the names over it."""
+    factor = sheet.paper.factor
+    top = layout.profile.up(float(layout.high[2])) + _ABOVE * factor
+    free = (layout.corner[1] - top) / factor - block_height(0, notes)
+    return max(int(free / ROW), 0)
 
 
 def _dimensions(old: Drawing, new: Drawing) -> Rows:
