@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.comparison import compare
     from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
@@ -91,6 +92,7 @@ __all__ = [
     "UnknownNameError",
     "UnreachableError",
     "__version__",
+    "compare",
     "cross_curves",
     "curve_transform",
     "equilibrium",
@@ -158,6 +160,7 @@ _HOMES = {
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.comparison": ("compare",),
     "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
