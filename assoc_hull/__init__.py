@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         RingError,
         StaleHullError,
         UnknownNameError,
+        UnreachableError,
     )
     from assoc_hull.geometry.curves import PointKind
     from assoc_hull.geometry.plane import Plane
@@ -48,12 +49,14 @@ if TYPE_CHECKING:
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import examples, open, read
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.comparison import compare
     from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
@@ -87,7 +90,9 @@ __all__ = [
     "Study",
     "Tolerances",
     "UnknownNameError",
+    "UnreachableError",
     "__version__",
+    "compare",
     "cross_curves",
     "curve_transform",
     "equilibrium",
@@ -103,8 +108,10 @@ __all__ = [
     "read",
     "sample",
     "sensitivities",
+    "shift_sections",
     "stability",
     "study",
+    "swing",
     "vary",
     "vary_by",
 ]
@@ -137,6 +144,7 @@ _HOMES = {
         "RingError",
         "StaleHullError",
         "UnknownNameError",
+        "UnreachableError",
     ),
     "geometry.curves": ("PointKind",),
     "geometry.plane": ("Plane",),
@@ -145,12 +153,14 @@ _HOMES = {
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "shifts": ("shift_sections", "swing"),
     "sources": ("examples", "open", "read"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.comparison": ("compare",),
     "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
