@@ -119,3 +119,5 @@ def test_a_pdf_has_the_pages_and_the_same_bytes_each_time(
     assert f"/Count {len(sheets)} ".encode() in data
     with pytest.raises(BadInputError, match="HullComparison"):
         comparison_pdf(wigley, wigley, "a")  # type: ignore[arg-type]
+    with pytest.raises(BadInputError, match="variant"):
+        comparison_pdf(wigley, "a")  # type: ignore[arg-type]
