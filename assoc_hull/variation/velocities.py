@@ -20,7 +20,6 @@ from assoc_hull.edit.nudge import Nudge, nudged
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.model.state import Ends, HullState, Particulars
-from assoc_hull.variation.features_map import FeatureMap
 from assoc_hull.variation.hull_maps import HullMaps, Laid
 from assoc_hull.variation.slide import Ground, bending
 
@@ -155,7 +154,7 @@ def velocities(
         The map cannot be undone at a point; parameters have no neighbouring values.
     """
     here = maps.laid(amplitudes, lines, follow=follow)
-    source = _sources(state, maps.state, here.map)
+    source = _sources(state, maps.state, here)
     ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
@@ -187,7 +186,7 @@ def _rates(
     return move, carried, turn, level, (size[0] - size[1]) / span
 
 
-def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatArray:
+def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
     """Give where the points of a carried hull come from, (rows, 3), m.
 
     Points of the parent that went where the map sends them come from where they were, to the bit.
@@ -197,17 +196,17 @@ def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatAr
     places: FloatArray = state.rows.xyz.data
     found = places.copy()
     source = parent.rows.xyz.data[old]
-    went = np.abs(mapped(source) - places[old]).max(axis=1) <= _SAME
+    went = np.abs(here.map(source) - places[old]).max(axis=1) <= _SAME
     found[old[went]] = source[went]
     rest = np.setdiff1d(live, old[went])
-    found[rest] = _undone(mapped, places[rest])
+    found[rest] = _undone(here, places[rest])
     return found
 
 
-def _undone(mapped: FeatureMap, places: FloatArray) -> FloatArray:
+def _undone(here: Laid, places: FloatArray) -> FloatArray:
     """Undo a map at places, by Newton's rule: to rounding, but beside circles drawn anew."""
-    found, best = places.copy(), np.full(len(places), np.inf)
-    guess, left = places.copy(), np.arange(len(places))
+    guess, mapped = np.array(here.vmap.inverse(places)), here.map
+    found, best, left = guess.copy(), np.full(len(places), np.inf), np.arange(len(places))
     for _ in range(_ROUNDS):
         off = mapped(guess[left]) - places[left]
         away = np.abs(off).max(axis=1, initial=0.0)
