@@ -53,8 +53,8 @@ def test_nothing_to_move_is_no_step() -> None:
     """A nudge by nothing changes no bit."""
     hull = small()
     before, by = hull.fingerprint, by_field(hull)
-    nothing = (np.zeros_like(each) for each in (by.move, by.turn, by.level))
-    make(hull, Nudge(*nothing, {}, hull.particulars, 1e-3))
+    move, turn, level = (np.zeros_like(each) for each in (by.move, by.turn, by.level))
+    make(hull, Nudge(move, turn, level, {}, hull.particulars, 1e-3))
     assert hull.fingerprint == before
 
 
@@ -62,10 +62,12 @@ def test_a_nudge_beside_other_modifications_is_refused() -> None:
     """It says where all points go: nothing else may move them in the same edit."""
     hull = small()
     before = hull.fingerprint
-    with pytest.raises(BadInputError, match="another modification in one edit"):
-        with hull.edit("both") as edit:
-            edit.move("WL 2.5 x ST 5", y=3.0)
-            nudge(hull.document.writer, by_field(hull))  # type: ignore[arg-type]
+    rows = np.array([nudged(hull.state)[0]])
+    edit = Transaction(hull.document, "both")
+    with edit:
+        edit.write(rows, hull.state.rows.xyz.data[rows], "a test")
+        with pytest.raises(BadInputError, match="another modification in one edit"):
+            nudge(edit, by_field(hull))
     assert hull.fingerprint == before
 
 
@@ -95,9 +97,7 @@ def test_a_carry_with_a_nudge_is_both_after_one_another_to_the_bit(carried: Hull
     assert found is not None
     maps, room = carried.maps, carried.maps.room
     once = ah.Hull(copy_of(maps.state))
-    carry_out(
-        once.document, maps.map(AT), room.parent, maps.ask, room.present, maps.values(AT), by
-    )
+    carry_out(once.document, maps.map(AT), room.parent, maps.ask, room.present, maps.values(AT), by)
     assert once.fingerprint == ah.Hull(found.state).fingerprint
     once.undo()
     assert once.fingerprint == ah.Hull(maps.state).fingerprint

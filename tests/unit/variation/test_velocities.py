@@ -10,7 +10,7 @@ from assoc_hull.edit.normals import hull_normals
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.hull_problem import HullProblem, Reached
-from tests.aims import FULLER, SHIFTED, problem, small
+from tests.aims import SHIFTED, problem, small
 
 STEP = 1e-3
 """Half the span of differences of hulls, in usual changes."""
