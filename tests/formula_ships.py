@@ -107,4 +107,3 @@ class FormulaShip:
         full = dict(zip(OUTPUTS, ship(np.array(list(PARENT.values()))), strict=True))
         full["lcb"] = PARENT["length"]
         return np.array([full[name] for name in self.outputs])
-

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["RANK", "Quadratic", "split"]
+__all__ = ["RANK", "Quadratic", "least_squares_step", "split"]
 
 RANK = 1e-10
 """Singular values below this part of the largest are nil."""
@@ -27,8 +27,13 @@ _OUT = 1e-12
 _OFF = 1e-9
 """and equations so much off (times their right sides) to be met: Newton's next step mends it."""
 
+_ROUNDING = 1e-14
+
 _NEAR = 1e-6
 """The step solved once more lies so near to the first one (times 1 + its size), or is not used."""
+
+_FLAT = 1e-7
+"""The cost of a step of 1 that misses nothing, beside the largest effect that it can have."""
 
 _Bools = NDArray[np.bool_]
 
@@ -100,13 +105,21 @@ class Quadratic:
             if held is None:
                 return None
             step = self._polished(*held)
-        return np.clip(step, self.low, self.high)
+        inside: FloatArray = np.clip(step, self.low, self.high)
+        return inside if self._solved(inside) else None
+
+    def _solved(self, step: FloatArray) -> bool:
+        """Tell whether a step meets the equations."""
+        off = np.abs(self.A @ step - self.b).max(initial=0.0)
+        sums = np.abs(self.A) @ np.abs(step)
+        size = _OFF * np.abs(self.b).max(initial=0.0) + _ROUNDING * sums.max(initial=0.0)
+        return bool(off <= size)
 
     def _unbounded(self) -> tuple[FloatArray, FloatArray] | None:
         """Give the step without bounds, and ways to leave it, (k, n), that cost alike."""
         inverse, null = split(self.A) if len(self.A) else (self.A.T, np.eye(len(self.g)))
         step = inverse @ self.b
-        if len(self.b) and np.abs(self.A @ step - self.b).max() > _OFF * np.abs(self.b).max():
+        if not self._solved(step):
             return None
         ways: FloatArray = null @ np.linalg.inv(np.linalg.cholesky(null.T @ self.H @ null)).T
         return step - ways @ (ways.T @ (self.g + self.H @ step)), ways
@@ -130,7 +143,7 @@ class Quadratic:
         except RuntimeError:  # it went round in a circle: the bounds leave next to nothing
             return None
         rest = unit - matrix @ forces
-        if np.linalg.norm(rest) < _OFF:
+        if rest[-1] < _OFF**2:
             return None
         at_low, at_high = np.zeros_like(low), np.zeros_like(high)
         at_low[low], at_high[high] = np.split(forces > 0.0, [low.sum()])
@@ -150,3 +163,32 @@ class Quadratic:
             step[free] = rest[0]
         off = np.abs(step - near).max()
         return step if off <= _NEAR * (1.0 + np.abs(near).max()) else near
+
+
+def least_squares_step(
+    A: FloatArray, b: FloatArray, low: FloatArray, high: FloatArray
+) -> FloatArray:
+    """Give the step, (k,), within bounds that comes nearest to A p = b.
+
+    Of steps that come alike near it is a short one: directions that change next to nothing are
+    not used.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.aim_quadratic import least_squares_step
+    >>> high = np.array([0.5, 1.0])
+    >>> least_squares_step(np.ones((1, 2)), np.array([2.0]), -high, high).round(9).tolist()
+    [0.5, 1.0]
+    """
+    from scipy.optimize import lsq_linear
+
+    weight = _FLAT * (float(np.linalg.norm(A, 2)) or 1.0)
+    matrix = np.vstack([A, weight * np.eye(A.shape[1])])
+    right = np.append(b, np.zeros(A.shape[1]))
+    wide = low < high  # the rule wants some room between bounds
+    step = np.zeros(len(low))
+    if wide.any():
+        limits = low[wide], high[wide]
+        step[wide] = lsq_linear(matrix[:, wide], right, limits, method="bvls", tol=1e-15).x
+    return np.clip(step, low, high)

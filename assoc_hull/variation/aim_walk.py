@@ -21,7 +21,7 @@ import numpy as np
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aim_curvature import learnt, no_curvature
-from assoc_hull.variation.aim_quadratic import Quadratic, split
+from assoc_hull.variation.aim_quadratic import Quadratic, least_squares_step, split
 from assoc_hull.variation.aim_scaled import Place
 
 __all__ = ["AimStep", "End", "Rule", "Walk", "steep", "unbalanced", "walk"]
@@ -29,24 +29,27 @@ __all__ = ["AimStep", "End", "Rule", "Walk", "steep", "unbalanced", "walk"]
 Way = Literal["start", "exact", "nearest"]
 End = Literal["met", "nearest", "blocked", "spent"]
 
-_HALVINGS = 14
+_HALVINGS = 8
+_SPARE = 0.1
+"""Rules are kept with this part of what they allow, unless rounding is in the way."""
+
 _LESS = 1e-4
 """A step must bring this part of what it promises."""
 
 _PENALTY = 1.5
 """How much a miss weighs against a change, in multipliers."""
 
-_LITTLE = 0.02
-"""Where refusals leave so little of a step, there is no certified hull that is much nearer."""
+_CUTS = 3
+"""Where refusals have cut so many steps in a row, no certified hull is much nearer."""
 
 _FLAT = 1e-12
 """Where a step promises less than this part of the squared misses, there is no better place."""
 
-_FIRM = 1e-8
-"""The least curvature of a quadratic problem, as a part of its largest."""
+_FIRM = 1e-6
+"""The least curvature of misses that is trusted, as a part of the largest,"""
 
 _STAYS = 0.1
-"""The same where curvature is that of the change itself, which is 1."""
+"""and that of the change itself, which is 1 without targets."""
 
 
 @attrs.frozen
@@ -75,12 +78,11 @@ class Rule:
         """Tell whether targets are met."""
         return place.worst <= self.residual
 
-    def done(self, place: Place) -> bool:
-        """Tell whether targets are met, and by the least change if it is to be that."""
-        if not self.met(place):
-            return False
-        limit = max(self.kkt * min(1.0, place.change), 1e-3 * self.kkt)
-        return not self.least or unbalanced(place) <= limit
+    def left(self, place: Place) -> tuple[bool, bool]:
+        """Tell what is left to do: targets, which are met with something to spare; the change."""
+        limit = max(self.kkt * min(1.0, place.change), _SPARE * self.kkt)
+        far = place.worst > _SPARE * self.residual
+        return far, self.least and (far or unbalanced(place) > limit)
 
 
 @attrs.frozen
@@ -134,8 +136,10 @@ class Walk:
 def walk(place: Place, rule: Rule) -> Walk:
     """Go from a place until a rule says that it is enough, or nothing is nearer."""
     curvature = no_curvature(*place.jacobian.shape)
-    steps = [_step("start", place, 0.0)]
-    while not rule.done(place):
+    steps, cuts = [_step("start", place, 0.0)], 0
+    while any(rule.left(place)):
+        if rule.met(place) and _stands(steps, *rule.left(place)):
+            break  # rounding is all that is left
         if len(steps) > rule.steps:
             return _ended(steps, place, rule, "spent")
         wish = _wished(place, curvature, rule)
@@ -148,9 +152,19 @@ def walk(place: Place, rule: Rule) -> Walk:
         curvature = learnt(curvature, moved, taken.place.jacobian - place.jacobian)
         place = taken.place
         steps.append(_step(wish.way, place, taken.part))
-        if taken.why:
+        cuts = cuts + 1 if taken.why else 0
+        if cuts == _CUTS:
             return _ended(steps, place, rule, "blocked", taken.why)
     return Walk(tuple(steps), place, "met")
+
+
+def _stands(steps: list[AimStep], far: bool, uneven: bool) -> bool:
+    """Tell whether the last step has brought nothing of what is left to do."""
+    if len(steps) < 2:
+        return False
+    before, now = steps[-2:]
+    closer = far and now.residual < 0.5 * before.residual
+    return not closer and not (uneven and now.kkt < 0.5 * before.kkt)
 
 
 def _step(way: Way, place: Place, part: float) -> AimStep:
@@ -204,7 +218,7 @@ class _Wish:
 
 @attrs.frozen(eq=False)
 class _Taken:
-    """A step that was taken: where it led, how much of it, what kept it so very short."""
+    """A step that was taken: where it led, how much of it, what cut it short."""
 
     place: Place
     part: float
@@ -214,7 +228,10 @@ class _Taken:
 def _wished(place: Place, curvature: FloatArray, rule: Rule) -> _Wish | None:
     """Give the whole step from a place; None where no step brings targets nearer."""
     weights = _multipliers(place) if rule.least else np.zeros_like(place.misses)
-    H = _firm(np.eye(len(place.changes)), np.einsum("i,ijk->jk", weights, curvature), _STAYS)
+    unit, (_, null) = np.eye(len(place.changes)), split(place.jacobian)
+    H = unit + np.einsum("i,ijk->jk", weights, curvature)
+    if not _firm(null.T @ H @ null, _STAYS):
+        H = unit
     g = place.changes if rule.least else np.zeros_like(place.changes)
     scaled = place.scaled
     low, high = scaled.least - place.changes, scaled.most - place.changes
@@ -228,11 +245,14 @@ def _wished(place: Place, curvature: FloatArray, rule: Rule) -> _Wish | None:
 def _nearer(place: Place, curvature: FloatArray, low: FloatArray, high: FloatArray) -> _Wish | None:
     """Give the step that makes misses least within bounds; None where they are."""
     J, misses = place.jacobian, place.misses
-    H = _firm(J.T @ J, np.einsum("i,ijk->jk", misses, curvature), _FIRM)
+    H = J.T @ J + np.einsum("i,ijk->jk", misses, curvature)
     g = J.T @ misses
-    none = np.zeros((0, len(g)))
-    step = Quadratic(H, g, none, np.zeros(0), low, high).step()
-    if step is None or -(g @ step) <= _FLAT * place.size**2:
+    step = None
+    if _firm(H, _FIRM):
+        step = Quadratic(H, g, np.zeros((0, len(g))), np.zeros(0), low, high).step()
+    if step is None:
+        step = least_squares_step(J, -misses, low, high)
+    if -(g @ step) <= _FLAT * place.size**2:
         return None
     return _Wish(step, "nearest")
 
@@ -244,13 +264,10 @@ def _multipliers(place: Place) -> FloatArray:
     return found
 
 
-def _firm(main: FloatArray, more: FloatArray, least: float) -> FloatArray:
-    """Add what is known of curvature where the sum stays positive; else lift the main part."""
-    both = main + more
-    values = np.linalg.eigvalsh(both)
-    if values[0] > least * values[-1]:
-        return both
-    return main + least * np.linalg.norm(main, 2) * np.eye(len(main))
+def _firm(H: FloatArray, least: float) -> bool:
+    """Tell whether a symmetric matrix is positive, the least by a part of the largest."""
+    values = np.linalg.eigvalsh(H) if len(H) else np.ones(1)
+    return bool(values[0] > least * values[-1])
 
 
 def _taken(place: Place, wish: _Wish, rule: Rule) -> _Taken | str:
@@ -260,7 +277,7 @@ def _taken(place: Place, wish: _Wish, rule: Rule) -> _Taken | str:
         try:
             after = place.scaled.at(place.changes + part * wish.step)
             if _serves(place, after, wish, part, rule):
-                return _Taken(after, part, why if part < _LITTLE else "")
+                return _Taken(after, part, why)
         except AssocHullError as error:
             why = str(error)
         part *= 0.5

@@ -25,7 +25,12 @@ from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.limits import present
-from assoc_hull.variation.notes import also_changed, folds_outside, went_along
+from assoc_hull.variation.notes import (
+    also_changed,
+    folds_outside,
+    shifted_without_body,
+    went_along,
+)
 from assoc_hull.variation.reaching import settle_reach
 from assoc_hull.variation.room import Room
 from assoc_hull.variation.script import script_of
@@ -135,6 +140,7 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     regions = (*found.whole.regions(), *applied.regions)
     now = present(measure_all(document.state), ask.layout)
     notes = (
+        *shifted_without_body(parent, found.values),
         *folds_outside(found.whole, document.state, ask.tolerance),
         *went_along(levels, document.state), *also_changed(was, now, found.values),
     )  # fmt: skip
