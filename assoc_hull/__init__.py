@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
     "Appendage",
@@ -98,6 +99,7 @@ __all__ = [
     "open",
     "panels",
     "read",
+    "sensitivities",
     "stability",
     "vary",
     "vary_by",
@@ -144,6 +146,7 @@ _HOMES = {
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
 

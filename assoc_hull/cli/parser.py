@@ -19,6 +19,7 @@ from assoc_hull.cli import (
     parameters,
     plot,
     replay,
+    sensitivities,
     shell,
     stability,
     transform,
@@ -69,7 +70,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, vary, plot, export, shell,
+        stability, transform, panels, vary, sensitivities, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)
