@@ -123,10 +123,11 @@ def table(hull: ah.Hull) -> None:
         found, seconds = aim(hull, names, count, Rule(least=least))
         residuals = ", ".join(f"{each.residual:.1e}" for each in found.steps)
         what = f"{len(names)}, {count}" + ("" if least else ", shortest steps")
-        kkt = f"{found.kkt:.1e}" if count > len(names) else ""
+        square = count == len(names)
+        by, kkt = (f"{ratio(found):.2g}", "") if square else ("", f"{found.kkt:.1e}")
         print(
-            f"| {what} | {residuals} | {ratio(found):.2g} | {found.condition:.3g} | "
-            f"{found.change:.7g} | {kkt} | {seconds:.0f} |",
+            f"| {what} | {residuals} | {by} | {found.condition:.3g} | {found.change:.6f} | "
+            f"{kkt} | {seconds:.0f} |",
             flush=True,
         )
 
