@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
 from assoc_hull.arguments import shown
-from assoc_hull.cli.arguments import (
-    HULL_ENDINGS,
-    Commands,
-    add_command,
-    add_hull,
-    add_json,
-    add_replace,
-    add_wait,
-)
+from assoc_hull.cli.arguments import Commands, add_command, add_hull
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.pairs import limits, pairs
-from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
+from assoc_hull.cli.varied import add_out, told_if_refused, varied_into
 from assoc_hull.cli.words import edit_words
-from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.errors import BadInputError
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -81,58 +72,37 @@ def add(commands: Commands) -> None:
         "--tolerance", type=float, metavar="M",
         help="how far a driver may leave its exact image, m (default: 0.002)",
     )  # fmt: skip
-    parser.add_argument("--name", help="name of the step in the history")
     parser.add_argument(
         "--list",
         action="store_true",
         help="show present values and what may be asked; write nothing",
     )
-    parser.add_argument(
-        "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
-    )
-    add_wait(parser)
-    add_replace(parser)
-    add_json(parser)
+    add_out(parser)
 
 
 def _vary(arguments: argparse.Namespace) -> int:
     if arguments.list:
         return _list(arguments)
     script = _script(arguments)
-    try:
-        return _carry_out(arguments, script)
-    except RefusedEditError as error:
-        facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
-        emit(arguments, facts, "\n".join(error.findings))
-        print(f"refused: {error.edit!r}; the hull is unchanged", file=sys.stderr)
-        return 1
+    return told_if_refused(arguments, lambda: _carry_out(arguments, script))
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     from assoc_hull.variants import vary_by
 
-    target: Path = arguments.out or arguments.hull
-    apart = is_apart(arguments.out, arguments.hull)
-    check_target(target, HULL_ENDINGS)
-    if apart:
-        check_hull_target(target, replace=arguments.replace)
-    hull = open_hull(arguments.hull, wait=arguments.wait)
-    if apart:
-        hull.detach()
-    with progress("varying"):
-        found = vary_by(hull, script, in_place=True)
-    report = found.report
+    hull, found = varied_into(
+        arguments, "varying", lambda hull: vary_by(hull, script, in_place=True)
+    )
+    report, saved = found.report, str(arguments.out or arguments.hull)
     facts = {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
-        "refused": False, "saved": str(target), "script": report.script, "aim": report.aim,
+        "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
     }  # fmt: skip
     told = [report.edit.name, *(f"  {each}" for each in report.targets)]
     if report.aim is not None:
         told += [f"  {each}" for each in str(report.aim).splitlines()]
-    told += [edit_words(hull, report.edit), f"written: {target}"]
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)
+    told += [edit_words(hull, report.edit), f"written: {saved}"]
     emit(arguments, facts, "\n".join(told))
     return 0
 
