@@ -18,7 +18,6 @@ import numpy as np
 
 from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.analysis.moving import defining_rows
-from assoc_hull.analysis.net.cells import Layout
 from assoc_hull.analysis.net.followed import followed
 from assoc_hull.analysis.net.gather import Net, Part, gather
 from assoc_hull.analysis.net.loops import Frame
