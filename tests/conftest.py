@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
 from assoc_hull.io.slice_report import SliceReport
-from assoc_hull.sources import examples
+from assoc_hull.sources import Examples, examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
 from tests.twins import made_once, packed, twin
@@ -94,6 +94,18 @@ def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
         return found
 
     return give
+
+
+@pytest.fixture
+def made_already(shipped: Shipped, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the examples give hulls that were made once, the same to the last bit."""
+    made, make = {0.60: "series60_60", 0.70: "series60_70"}, Examples.series60
+
+    def series60(self: Examples, cb: float = 0.70) -> Hull:
+        return shipped(made[cb]) if cb in made else make(self, cb)
+
+    monkeypatch.setattr(Examples, "series60", series60)
+    monkeypatch.setattr(Examples, "bulk_carrier_207k", lambda _: shipped("bulk_carrier"))
 
 
 @pytest.fixture(scope="session")

@@ -16,21 +16,18 @@ from types import MappingProxyType
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.algebra import Values
 from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.analysis.compute import values_at
 from assoc_hull.analysis.floating import planes_of
 from assoc_hull.analysis.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.hydrostatics import DraughtTo, OnError, position_of, trusted_table
 from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
-from assoc_hull.analysis.parameters import Parameter, Position, Shape
+from assoc_hull.analysis.parameters import Parameter
 from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.tangents import AT_ONCE, dots, tangents_by
+from assoc_hull.analysis.tangents import dots, tangents_by
 from assoc_hull.arguments import all_of, choice
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.dual import Dual, as_array
 from assoc_hull.geometry.immersed import Planes
 
 __all__ = ["Derivatives", "hydrostatic_derivatives"]
@@ -154,31 +151,9 @@ def hydrostatic_derivatives(
 def _differentiated(
     body: Flotation, plane: Planes, header: HydrostaticHeader, wrt: Sequence[Parameter]
 ) -> dict[str, FloatArray]:
-    """Give the derivatives, (k,) by field; those by the position, which are cheap, apart."""
+    """Give the derivatives, (k,) by field; nan where there is no value."""
     found = {name: np.zeros(len(wrt)) for name in FIELDS}
-    positions = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Position)]
-    shapes = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Shape)]
-    for i in range(0, len(positions), AT_ONCE):
-        some = positions[i : i + AT_ONCE]
-        tilted = _planes(plane, header.length, [each for _, each in some])
-        _put(found, [k for k, _ in some], values_at(body, tilted, header))
-    for few in tangents_by(body, plane, header, [each for _, each in shapes]):
-        _put(found, [k for k, _ in shapes[few.where]], few.values)
+    for some in tangents_by(body, plane, header, wrt):
+        for name, value in some.values.items():
+            found[name][list(some.where)] = dots(value, some.count)
     return found
-
-
-def _put(found: dict[str, FloatArray], where: list[int], values: Values) -> None:
-    """Put the tangents of values at one position in their places; nan where there is no value."""
-    for name, value in values.items():
-        found[name][where] = dots(value, len(where))
-
-
-def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
-    """Give the plane with its tangents."""
-    aft, fore, heel = np.array([each.rates for each in some]).T[..., None]
-    turn = np.radians(heel) * (1.0 + plain.tan_heel**2)
-    return Planes(
-        as_array(Dual(plain.height, aft)),
-        as_array(Dual(plain.tan_trim, (fore - aft) / length)),
-        as_array(Dual(plain.tan_heel, turn)),
-    )

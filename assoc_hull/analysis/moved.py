@@ -11,12 +11,10 @@ of how far they pass, which is less than rounding for moves of a trial.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.flotation import Flotation, flotation
 from assoc_hull.analysis.moving import defining_rows
 from assoc_hull.analysis.net.followed import followed
 from assoc_hull.analysis.net.gather import Net, Part, gather
@@ -28,7 +26,7 @@ from assoc_hull.geometry.spline import loft
 from assoc_hull.model.recipe import curve_data
 from assoc_hull.model.state import HullState
 
-__all__ = ["moved", "moved_to", "same_structure"]
+__all__ = ["flotation_like", "moved", "moved_to", "same_structure"]
 
 
 def moved(base: Flotation, data: CurveData, points: FloatArray) -> Flotation:
@@ -93,6 +91,24 @@ def moved_to(base: Flotation, state: HullState) -> Flotation | None:
     return _put(base, state, net, state.rows.xyz.data)
 
 
+def flotation_like(base: HullState, state: HullState) -> Flotation:
+    """Make what floats of a hull, by the layout of another one if their structure is the same.
+
+    Parameters
+    ----------
+    base : HullState
+        The hull that it comes from.
+    state : HullState
+        Its own tables, which keep nothing of this.
+
+    Raises
+    ------
+    BadInputError
+        As `flotation`.
+    """
+    return moved_to(flotation(base), state) or flotation(state)
+
+
 def same_structure(base: Flotation, state: HullState, net: Net) -> bool:
     """Tell whether a net has the lines and crossings of a hull, in the same order."""
     was = base.net
@@ -116,7 +132,7 @@ def _order(x: FloatArray) -> IntArray:
 
 def _put(base: Flotation, state: HullState, net: Net, points: FloatArray) -> Flotation:
     cells = followed(base.layout, base.net, net.batch, points)
-    frames = tuple(_frame(each, base.net.batch, net.batch) for each in base.layout.frames)
+    frames = _frames(base.layout.frames, base.net.batch, net.batch)
     layout = attrs.evolve(base.layout, cells=cells, frames=frames)
     return Flotation(state, net, layout, CoonsStrips.on(cells, net.batch), base.kinds)
 
@@ -137,18 +153,26 @@ def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray)
     return found
 
 
-def _frame(frame: Frame, was: SplineBatch, now: SplineBatch) -> Frame:
-    sides = {
-        name: _parts(getattr(frame, name), was, now) for name in ("aft", "fore", "keel", "deck")
-    }
-    return attrs.evolve(frame, **sides)
+def _frames(frames: tuple[Frame, ...], was: SplineBatch, now: SplineBatch) -> tuple[Frame, ...]:
+    """Give strips whose sides run between the same places of the lines as they have become."""
+    parts = [part for each in frames for side in _sides(each) for part in side]
+    if not parts:
+        return frames
+    curve = np.array([part[0] for part in parts]).repeat(2)
+    t = np.array([part[1:] for part in parts]).ravel()
+    ends = iter(_carried(was, now, curve, t).reshape(-1, 2).tolist())
+    found = []
+    for each in frames:
+        aft, fore, keel, deck = (
+            tuple(_between(part[0], *next(ends)) for part in side) for side in _sides(each)
+        )
+        found.append(Frame(aft, fore, keel, deck, each.slab, each.plane))
+    return tuple(found)
 
 
-def _parts(parts: Iterable[Part], was: SplineBatch, now: SplineBatch) -> tuple[Part, ...]:
-    given = tuple(parts)
-    if not given:
-        return given
-    curve = np.array([each[0] for each in given]).repeat(2)
-    t = np.array([each[1:] for each in given]).ravel()
-    ends = _carried(was, now, curve, t).reshape(-1, 2).tolist()
-    return tuple((each[0], low, high) for each, (low, high) in zip(given, ends, strict=True))
+def _between(curve: int, low: float, high: float) -> Part:
+    return curve, low, high
+
+
+def _sides(frame: Frame) -> tuple[tuple[Part, ...], ...]:
+    return frame.aft, frame.fore, frame.keel, frame.deck

@@ -24,7 +24,7 @@ from assoc_hull.model.state import Ends, HullState, Particulars
 if TYPE_CHECKING:
     from assoc_hull.edit.transaction import Transaction
 
-__all__ = ["Nudge", "nudge", "write_nudge"]
+__all__ = ["Nudge", "nudge", "nudged", "write_nudge"]
 
 
 @attrs.frozen(eq=False)
@@ -115,20 +115,24 @@ def write_nudge(
             f"a nudge of {len(by.move)} points for a hull of {state.rows.count}", "in nudge",
             "carry the hull in full",
         )  # fmt: skip
-    planes = _planes(state, by.level)
-    table = state.rows
-    watched = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.WATCHED)
-    rows = np.flatnonzero(table.alive.data & (table.driver.data < 0) & ~watched)
+    planes, rows = _planes(state, by.level), nudged(state)
     rows = rows[by.move[rows].any(axis=1)]
     lines = np.flatnonzero(by.level != 0.0)
     journal.put(state.lines.offset, lines, planes.offset[lines])
-    places = into_planes(state, planes, rows, table.xyz.data[rows] + by.move[rows])
-    journal.put(table.xyz, rows, places)
+    places = into_planes(state, planes, rows, state.rows.xyz.data[rows] + by.move[rows])
+    journal.put(state.rows.xyz, rows, places)
     _turn_points(state, journal, by.turn)
     _turn_ends(state, journal, by.turn)
     if by.particulars != state.particulars:
         journal.set(state.settings.particulars, [0], [by.particulars])
     return rows, tuple(_moved(each, by.features.get(each.key, {})) for each in features)
+
+
+def nudged(state: HullState) -> IntArray:
+    """Give the points that a nudge moves by itself: they are alive, and not computed."""
+    table = state.rows
+    watched = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.WATCHED)
+    return np.flatnonzero(table.alive.data & (table.driver.data < 0) & ~watched)
 
 
 def _planes(state: HullState, level: FloatArray) -> Planes:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from types import MappingProxyType
 
 import attrs
@@ -121,7 +122,15 @@ def _numbers(given: object) -> dict[str, float]:
         )
     for name in given:
         text(name, "a name in reach", _WHERE)
-    return {name: number(value, name, _WHERE) for name, value in given.items()}
+    return {name: _target(value, name) for name, value in given.items()}
+
+
+def _target(given: object, name: str) -> float:
+    """Take a finite number: a moment of inertia may be larger than any length."""
+    real = isinstance(given, Real) and not isinstance(given, bool)
+    if not real or not math.isfinite(given):  # type: ignore[arg-type]
+        raise BadInputError(f"{name} is {shown(given)}", _WHERE, "give a finite number")
+    return float(given)  # type: ignore[arg-type]
 
 
 def _free(given: object) -> tuple[str | Layer, ...]:

@@ -32,8 +32,8 @@ __all__ = ["HullProblem", "Reached"]
 _FAR = 0.25
 """m: a hull of which no point moves farther is nudged, and not carried in full."""
 
-_SLID = 0.02
-"""m: points that slide over the hull do so by no more in a nudge; beyond, the hull bends."""
+_OFF = 0.25
+"""In a nudge points leave the hull by no more than this part of the drivers' tolerance."""
 
 _HAIR = 1e-3
 """Usual changes by which it is found which lines of a parent will drive."""
@@ -72,8 +72,8 @@ class Base:
         by = amplitudes - self.amplitudes
         if self.still:
             return not by.any()
-        far, slid = self.rates.reach(by)
-        return far <= _FAR and slid <= _SLID
+        far, off = self.rates.reach(by)
+        return far <= _FAR and off <= _OFF * self.maps.ask.tolerance
 
     def nudge_to(self, amplitudes: FloatArray) -> Nudge | None:
         """Give the nudge that leads to amplitudes; None if nothing moves."""

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.edit.normals import curve_tangents, hull_normals
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curvature import curvature
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.model.state import HullState
 
-__all__ = ["Ground"]
+__all__ = ["Ground", "bending"]
 
 _STEEP = 0.02
 """A line as level as this to a plane (sine of the angle) is no way into it."""
@@ -25,6 +26,16 @@ _FLAT = 1e-3
 
 _KEPT = 1e-9
 """A point leaves its plane by no more than this part of the largest movement."""
+
+
+def bending(state: HullState) -> FloatArray:
+    """Give the larger curvature of the curves through every point, (rows,), 1/m."""
+    found, curves = np.zeros(state.rows.count), state.live("curves").tolist()
+    batch = SplineBatch.join([state.spline(curve) for curve in curves])
+    bend = np.sqrt((curvature(batch) ** 2).sum(axis=1))
+    rows = np.concatenate([state.curves.rows.data[curve] for curve in curves])
+    np.maximum.at(found, rows, np.nan_to_num(bend))
+    return found
 
 
 @attrs.frozen(eq=False)

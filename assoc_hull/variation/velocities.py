@@ -16,13 +16,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.edit.carry_planes import flat_borders
-from assoc_hull.edit.nudge import Nudge
+from assoc_hull.edit.nudge import Nudge, nudged
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.model.state import Ends, HullState, Particulars
-from assoc_hull.variation.features_map import FeatureMap
 from assoc_hull.variation.hull_maps import HullMaps, Laid
-from assoc_hull.variation.slide import Ground
+from assoc_hull.variation.slide import Ground, bending
 
 __all__ = ["SIZES", "Velocities", "velocities"]
 
@@ -60,6 +59,10 @@ class Velocities:
         Of length, breadth, depth and draught.
     features : tuple of k mappings of str to mapping of str to float or (3,)
         Of centres, radii and offsets, by key.
+    rows : (n,) int
+        The points that move by themselves; the others are computed.
+    bend : (n,), 1/m
+        How much the curves through these bend.
     """
 
     move: FloatArray
@@ -68,9 +71,11 @@ class Velocities:
     level: FloatArray
     sizes: FloatArray
     features: tuple[Mapping[str, Mapping[str, FloatArray]], ...]
+    rows: IntArray
+    bend: FloatArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.move, self.carried, self.turn, self.level, self.sizes)
+        freeze(self.move, self.carried, self.turn, self.level, self.sizes, self.rows, self.bend)
 
     def nudge(self, by: FloatArray, size: Particulars, within: float) -> Nudge:
         """Give the nudge that changes of the amplitudes make.
@@ -98,9 +103,15 @@ class Velocities:
         )  # fmt: skip
 
     def reach(self, by: FloatArray) -> tuple[float, float]:
-        """Give how far points move at most, and how far they slide at most, m."""
-        move, slid = _sum(by, self.move), _sum(by, self.move - self.carried)
-        return tuple(float(np.sqrt((each * each).sum(axis=1).max())) for each in (move, slid))  # type: ignore[return-value]
+        """Give how far the map moves points, and how far sliding ones leave the hull, m.
+
+        A point that slides by s along a curve of curvature k leaves it by k s^2 / 2.
+        """
+        carried = _sum(by, self.carried[:, self.rows])
+        slid = _sum(by, self.move[:, self.rows]) - carried
+        off = 0.5 * self.bend * (slid * slid).sum(axis=1)
+        far = np.sqrt((carried * carried).sum(axis=1))
+        return float(far.max(initial=0.0)), float(off.max(initial=0.0))
 
     def turning(self, by: FloatArray) -> FloatArray:
         """Give how directions turn that were turned already by a nudge, (k, rows, 3, 3)."""
@@ -143,7 +154,7 @@ def velocities(
         The map cannot be undone at a point; parameters have no neighbouring values.
     """
     here = maps.laid(amplitudes, lines, follow=follow)
-    source = _sources(state, maps.state, here.map)
+    source = _sources(state, maps.state, here)
     ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
@@ -153,7 +164,10 @@ def velocities(
         found.append(_rates(state, ground, here, pair, source, 2.0 * float(step[j])))
         features.append(_feature_rates(pair, 2.0 * float(step[j])))
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
-    return Velocities(move, carried, turn, level, sizes, tuple(features))
+    rows = nudged(state)
+    return Velocities(
+        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows]
+    )
 
 
 def _rates(
@@ -172,7 +186,7 @@ def _rates(
     return move, carried, turn, level, (size[0] - size[1]) / span
 
 
-def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatArray:
+def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
     """Give where the points of a carried hull come from, (rows, 3), m.
 
     Points of the parent that went where the map sends them come from where they were, to the bit.
@@ -182,17 +196,17 @@ def _sources(state: HullState, parent: HullState, mapped: FeatureMap) -> FloatAr
     places: FloatArray = state.rows.xyz.data
     found = places.copy()
     source = parent.rows.xyz.data[old]
-    went = np.abs(mapped(source) - places[old]).max(axis=1) <= _SAME
+    went = np.abs(here.map(source) - places[old]).max(axis=1) <= _SAME
     found[old[went]] = source[went]
     rest = np.setdiff1d(live, old[went])
-    found[rest] = _undone(mapped, places[rest])
+    found[rest] = _undone(here, places[rest])
     return found
 
 
-def _undone(mapped: FeatureMap, places: FloatArray) -> FloatArray:
+def _undone(here: Laid, places: FloatArray) -> FloatArray:
     """Undo a map at places, by Newton's rule: to rounding, but beside circles drawn anew."""
-    found, best = places.copy(), np.full(len(places), np.inf)
-    guess, left = places.copy(), np.arange(len(places))
+    guess, mapped = np.array(here.vmap.inverse(places)), here.map
+    found, best, left = guess.copy(), np.full(len(places), np.inf), np.arange(len(places))
     for _ in range(_ROUNDS):
         off = mapped(guess[left]) - places[left]
         away = np.abs(off).max(axis=1, initial=0.0)

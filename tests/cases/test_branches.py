@@ -12,7 +12,8 @@ import pytest
 import assoc_hull as ah
 from tests.cases.valley import LENGTH, breadth_at, valley_hull
 
-LOW, HIGH = 2.2, 3.3
+LOW, LAST, HIGH = 2.2, 2.7, 3.3
+"""Half-breadths (m): before the first two branches meet, past the last, and far past it."""
 LEVELS = tuple(float(z) for z in np.linspace(0.0, 8.0, 9)[2:-1])
 
 
@@ -53,15 +54,19 @@ def clear_of_merging(breadth: float) -> bool:
     return bool(np.abs(middle - breadth).min() > 2e-3)
 
 
-@pytest.mark.parametrize("step", [0.5, 0.1, 0.01], ids=["50 cm", "10 cm", "1 cm"])
+@pytest.mark.parametrize(
+    ("step", "high"),
+    [(0.5, HIGH), (0.1, HIGH), (0.01, LAST)],
+    ids=["50 cm", "10 cm", "1 cm"],
+)
 def test_no_crossing_changes_its_branch_and_births_and_deaths_are_the_true_ones(
-    step: float,
+    step: float, high: float
 ) -> None:
     """Out and back: an id keeps its branch for life, a dead one never comes back."""
     hull = valley_hull(LOW)
     before = hull.fingerprint
-    count = max(1, round((HIGH - LOW) / step))
-    out = [LOW + (HIGH - LOW) * i / count for i in range(1, count + 1)]
+    count = max(1, round((high - LOW) / step))
+    out = [LOW + (high - LOW) * i / count for i in range(1, count + 1)]
     places = [p for p in [*out, *out[-2::-1]] if clear_of_merging(p)]
     life = dict(present(hull))
     alive, dead = set(life), set[str]()

@@ -2,9 +2,9 @@
 
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
 be followed without doubt. Shifts of 1, 10 and 50 cm must attach each crossing to the branch
-that this path leads to. The steps of 1 cm are taken where the events are closest together;
-``ASSOC_HULL_LONG=1`` takes them along the whole ranges, and the shifts also in steps of 1 mm
-round every event, in a quarter of an hour.
+that this path leads to. The steps of 50 cm go along the whole ranges, those of 10 cm where most
+events are, those of 1 cm where they are closest together; ``ASSOC_HULL_LONG=1`` takes all along
+the whole ranges, and the shifts also in steps of 1 mm round every event, in a quarter of an hour.
 """
 
 from __future__ import annotations
@@ -26,8 +26,20 @@ RANGES = {
 }
 """Group and range (m); by 3 mm beside the planes that other lines have."""
 
-NEAR = {"bulb": (14.093, 14.253), "bossing": (5.803, 6.003), "buttock": (2.103, 2.223)}
-"""Where the events are closest together (m), for steps of 1 cm."""
+WITHIN = {
+    0.5: RANGES,
+    0.1: {
+        "bulb": ("waterlines", 13.403, 14.603),
+        "bossing": ("waterlines", 4.003, 6.003),
+        "buttock": ("buttocks", 2.003, 4.003),
+    },
+    0.01: {
+        "bulb": ("waterlines", 14.093, 14.253),
+        "bossing": ("waterlines", 5.803, 6.003),
+        "buttock": ("buttocks", 2.103, 2.223),
+    },
+}
+"""For each step: the range on its own, most of its 12, 7 and 25 events, the closest of them."""
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +79,7 @@ def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
     path: Path, where: str, step: float
 ) -> None:
     """There and back: every crossing keeps its branch, and every branch its crossing."""
-    low, high = RANGES[where][1:] if LONG or step > 0.01 else NEAR[where]
+    low, high = (RANGES if LONG else WITHIN[step])[where][1:]
     watched = watch(path, where, steps(low, high, step))
     assert watched.wrong == []
     assert watched.off < CLOSE

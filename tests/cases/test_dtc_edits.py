@@ -14,7 +14,7 @@ from tests.cases import places
 from tests.properties.test_i01_consistency import assert_consistent
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
-EVERY = 1 if LONG else 8
+EVERY = 1 if LONG else 24
 PLACES = 48
 SEED = 1
 REACH = (20.0, 8.0)

@@ -37,9 +37,11 @@ for name, make in makers.items():
         chance = random.Random(1000 * seed + turn)
         print(name, fingerprint(make()))
 chance = random.Random(seed)
-carrier = import_module("assoc_hull.examples.bulk_carrier").bulk_carrier_207k_adopted
-print("carrier", fingerprint(carrier()[0]))
-print("whole", fingerprint(series60.series60(0.60 + 0.10 * (seed % 2))))
+if seed % 2:
+    carrier = import_module("assoc_hull.examples.bulk_carrier").bulk_carrier_207k_adopted
+    print("carrier", fingerprint(carrier()[0]))
+else:
+    print("whole", fingerprint(series60.series60(0.70)))
 """
 
 
@@ -69,14 +71,14 @@ def test_twenty_shuffles_in_four_processes_give_one_fingerprint(
 
 
 def test_the_whole_net_of_series_60_does_not_depend_on_the_order(printed: list[list[str]]) -> None:
-    """Lines cut from a shuffled net: two processes each for CB .60 and .70."""
-    whole = [lines[-1] for lines in printed]
-    assert all(line.startswith("whole ") for line in whole)
-    assert (whole[0], whole[1]) == (whole[2], whole[3])
+    """Lines cut from a shuffled net, in two processes."""
+    found = [line for lines in printed for line in lines if line.startswith("whole ")]
+    assert len(found) == 2
+    assert len(set(found)) == 1
 
 
 def test_lines_of_several_pieces_do_not_depend_on_the_order(printed: list[list[str]]) -> None:
-    """The bulk carrier from shuffled sources, once in each of four processes."""
+    """The bulk carrier from shuffled sources, in two processes."""
     found = [line for lines in printed for line in lines if line.startswith("carrier ")]
-    assert len(found) == 4
+    assert len(found) == 2
     assert len(set(found)) == 1

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import importlib.util
 import re
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 import pytest
-
-from assoc_hull.hull import Hull
-from assoc_hull.sources import Examples
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
@@ -45,19 +41,7 @@ def _headings(page: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
-@pytest.fixture
-def _made_already(shipped: Callable[[str], Hull], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the examples give hulls that were made once, the same to the last bit."""
-    made, make = {0.60: "series60_60", 0.70: "series60_70"}, Examples.series60
-
-    def series60(self: Examples, cb: float = 0.70) -> Hull:
-        return shipped(made[cb]) if cb in made else make(self, cb)
-
-    monkeypatch.setattr(Examples, "series60", series60)
-    monkeypatch.setattr(Examples, "bulk_carrier_207k", lambda _: shipped("bulk_carrier"))
-
-
-@pytest.mark.usefixtures("_made_already")
+@pytest.mark.usefixtures("made_already")
 @pytest.mark.parametrize("page", BLOCKS.pages(), ids=_name)
 def test_code_runs_and_prints_what_the_page_shows(page: Path, tmp_path: Path) -> None:
     """Each block runs after those before it; `python docs/blocks.py` renews what is shown."""
@@ -73,7 +57,7 @@ def test_the_catalogue_of_form_parameters_is_that_of_the_code() -> None:
     assert script.refreshed(page) == page, "the page is out of date: python docs/catalogue.py"
 
 
-@pytest.mark.usefixtures("_made_already")
+@pytest.mark.usefixtures("made_already")
 def test_the_named_parameters_are_those_of_the_code() -> None:
     """Each stands on its page as it is; `python docs/named_parameters.py` renews it."""
     script = _script("named_parameters")

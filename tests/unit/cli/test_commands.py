@@ -47,6 +47,7 @@ def test_help_shows_examples(capsys: pytest.CaptureFixture[str]) -> None:
     assert "examples:\n  assoc-hull info " in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("made_already")
 @pytest.mark.parametrize(
     "name",
     [
