@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 import assoc_hull.examples  # else its first import would bind this name again
+import assoc_hull.study  # likewise
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
         RingError,
         StaleHullError,
         UnknownNameError,
+        UnreachableError,
     )
     from assoc_hull.geometry.curves import PointKind
     from assoc_hull.geometry.plane import Plane
@@ -47,10 +49,15 @@ if TYPE_CHECKING:
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import examples, open, read
+    from assoc_hull.studies import Study, study
+    from assoc_hull.study.sampling import sample
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
+    from assoc_hull.variation.comparison import compare
+    from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
     "Appendage",
@@ -80,9 +87,12 @@ __all__ = [
     "RingError",
     "Screw",
     "StaleHullError",
+    "Study",
     "Tolerances",
     "UnknownNameError",
+    "UnreachableError",
     "__version__",
+    "compare",
     "cross_curves",
     "curve_transform",
     "equilibrium",
@@ -96,7 +106,12 @@ __all__ = [
     "open",
     "panels",
     "read",
+    "sample",
+    "sensitivities",
+    "shift_sections",
     "stability",
+    "study",
+    "swing",
     "vary",
     "vary_by",
 ]
@@ -129,6 +144,7 @@ _HOMES = {
         "RingError",
         "StaleHullError",
         "UnknownNameError",
+        "UnreachableError",
     ),
     "geometry.curves": ("PointKind",),
     "geometry.plane": ("Plane",),
@@ -137,17 +153,22 @@ _HOMES = {
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "shifts": ("shift_sections", "swing"),
     "sources": ("examples", "open", "read"),
+    "studies": ("Study", "study"),
+    "study.sampling": ("sample",),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),
+    "variation.comparison": ("compare",),
+    "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
 
 if not TYPE_CHECKING:
     # What only lofts and cuts does not wait for the modules of whole hulls.
     _home = {name: module for module, names in _HOMES.items() for name in names}
-    del assoc_hull, examples  # the subpackage; below the name means the hulls that ship
+    del assoc_hull, examples, study  # the subpackages; below the names mean other things
 
     def __getattr__(name: str) -> object:
         """Import a public name when it is first used."""

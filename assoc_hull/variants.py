@@ -57,6 +57,10 @@ def vary(
     hull: Hull,
     *,
     set: Mapping[str, float] | None = None,
+    reach: Mapping[str, float] | None = None,
+    free: Sequence[object] | str = (),
+    bounds: Mapping[str, tuple[float | None, float | None]] | None = None,
+    exact: bool = True,
     layers: Sequence[object] = (),
     layout: Mapping[str, Any] | Layout | None = None,
     drivers: Sequence[Group | Line | str] | None = None,
@@ -135,8 +139,8 @@ def vary(
     [11.0, 7.0]
     """
     ask = Ask.of(
-        set, layers=layers, layout=layout, drivers=drivers, stations=stations,
-        planes=planes, tolerance=tolerance, name=name,
+        set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
+        drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
     )  # fmt: skip
     return _carry_out(hull, ask, in_place=flag(in_place, "in_place", "in vary"))
 

@@ -12,12 +12,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 from drawings.common import ship
+from drawings.comparison import comparison
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
+from drawings.shifts import section_shifts
 from drawings.stern import bulk_carrier, carrier_combs, counter
 from drawings.story import bossing_lines, bossing_profile
+from drawings.variant import variant_areas, variant_plan
 from drawings.variation import rounded_hat, variation_fields
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -108,13 +111,17 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "carrier_combs": carrier_combs,
     "variation_fields": variation_fields,
     "rounded_hat": rounded_hat,
+    "section_shifts": section_shifts,
+    "comparison": comparison,
+    "variant_areas": variant_areas,
+    "variant_plan": variant_plan,
     "bossing_profile": bossing_profile,
     "bossing_lines": bossing_lines,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
-       "form_sheet": 100, "panels": 105}  # fmt: skip
+       "comparison": 110, "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
 
 

@@ -23,7 +23,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"io"}),
     frozenset({"examples"}),
     frozenset({"hull"}),
-    frozenset({"sources", "variants"}),
+    frozenset({"sources", "studies", "variants", "shifts"}),
     frozenset({"plot"}),
     frozenset({"page"}),
     frozenset({"cli"}),

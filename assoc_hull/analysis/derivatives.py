@@ -12,32 +12,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
 
 import attrs
 import numpy as np
 
 from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.analysis.compute import values_at
 from assoc_hull.analysis.floating import planes_of
 from assoc_hull.analysis.flotation import Flotation, flotation
 from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
 from assoc_hull.analysis.hydrostatics import DraughtTo, OnError, position_of, trusted_table
 from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
-from assoc_hull.analysis.parameters import Parameter, Position, Shape
+from assoc_hull.analysis.parameters import Parameter
 from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.varied import varied_by
+from assoc_hull.analysis.tangents import dots, tangents_by
 from assoc_hull.arguments import all_of, choice
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.dual import Dual, as_array, real
 from assoc_hull.geometry.immersed import Planes
 
 __all__ = ["Derivatives", "hydrostatic_derivatives"]
 
 _WHERE = "in hydrostatic_derivatives"
-_AT_ONCE = 8
-"""Tangents that are carried along together, which bounds the memory."""
 
 
 @attrs.frozen(eq=False)
@@ -102,7 +97,7 @@ def hydrostatic_derivatives(
         The hull.
     wrt : iterable of k parameters
         By what: `DRAUGHT`, `TRIM`, `DRAUGHT_AFT`, `DRAUGHT_FORE` (m), `HEEL` (degree),
-        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.parameters`.
+        `PointMove` (m), `Deformation`; of `assoc_hull.analysis.parameters`; or `Moves`.
     draught, draughts, heel_deg, rho, shell_factor, kg, transom, on_error, appendages
         As for `hydrostatics`.
     keel_thickness, draught_to
@@ -120,7 +115,8 @@ def hydrostatic_derivatives(
 
     Notes
     -----
-    Particulars (Lpp, B), water, KG and appendages stay as they are. The layout of the surface
+    Draughts, water, KG and appendages stay as they are, and so do Lpp and B but where a parameter
+    has rates for them (`assoc_hull.analysis.moves.Moves`). The layout of the surface
     is that of the hull as it stands; where a value has a kink (the largest station changes,
     a section begins to be wet) the derivative is that to one side.
 
@@ -155,34 +151,9 @@ def hydrostatic_derivatives(
 def _differentiated(
     body: Flotation, plane: Planes, header: HydrostaticHeader, wrt: Sequence[Parameter]
 ) -> dict[str, FloatArray]:
-    """Give the derivatives, (k,) by field; those by the position, which are cheap, apart."""
+    """Give the derivatives, (k,) by field; nan where there is no value."""
     found = {name: np.zeros(len(wrt)) for name in FIELDS}
-    positions = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Position)]
-    shapes = [(k, each) for k, each in enumerate(wrt) if isinstance(each, Shape)]
-    for i in range(0, len(positions), _AT_ONCE):
-        some = positions[i : i + _AT_ONCE]
-        tilted = _planes(plane, header.length, [each for _, each in some])
-        _put(found, [k for k, _ in some], values_at(body, tilted, header))
-    for i in range(0, len(shapes), _AT_ONCE):
-        few = shapes[i : i + _AT_ONCE]
-        varied = varied_by(body, [each for _, each in few])
-        _put(found, [k for k, _ in few], values_at(varied, plane, header))
+    for some in tangents_by(body, plane, header, wrt):
+        for name, value in some.values.items():
+            found[name][list(some.where)] = dots(value, some.count)
     return found
-
-
-def _put(found: dict[str, FloatArray], where: list[int], values: Mapping[str, Any]) -> None:
-    """Put the tangents of values at one position in their places; nan where there is no value."""
-    for name, value in values.items():
-        dot = value.dot[:, 0] if isinstance(value, Dual) else 0.0
-        found[name][where] = np.where(np.isnan(real(value)[0]), np.nan, dot)
-
-
-def _planes(plain: Planes, length: float, some: Sequence[Position]) -> Planes:
-    """Give the plane with its tangents."""
-    aft, fore, heel = np.array([each.rates for each in some]).T[..., None]
-    turn = np.radians(heel) * (1.0 + plain.tan_heel**2)
-    return Planes(
-        as_array(Dual(plain.height, aft)),
-        as_array(Dual(plain.tan_trim, (fore - aft) / length)),
-        as_array(Dual(plain.tan_heel, turn)),
-    )

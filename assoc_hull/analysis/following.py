@@ -60,11 +60,22 @@ class Driven:
         segment, u = locate(net.batch, driver[good], place[good])
         return cls(row[good], segment, u, normal[good])
 
-    def moves(self, batch: SplineBatch) -> FloatArray:
-        """Give how they move with drivers that carry k tangents, (k, d, 3)."""
+    def rates(self, points: FloatArray) -> FloatArray:
+        """Give how fast the planes move along their normals, (k, d).
+
+        Planes go as the points do that are given with them: `points` (k, r, 3), by row.
+        """
+        found: FloatArray = (points[:, self.row] * self.normal).sum(axis=2)
+        return found
+
+    def moves(self, batch: SplineBatch, rates: FloatArray | float = 0.0) -> FloatArray:
+        """Give how they move with drivers that carry k tangents, (k, d, 3).
+
+        `rates` (k, d) tells how fast the planes of the lines move along their normals.
+        """
         place, slope = on_cubics(power(batch)[self.segment], self.u)
         dot, along = cast("Dual", place).dot, real(slope)
         steep = (along * self.normal).sum(axis=1)
-        share = (dot * self.normal).sum(axis=2) / np.where(steep == 0.0, np.inf, steep)
+        share = ((dot * self.normal).sum(axis=2) - rates) / np.where(steep == 0.0, np.inf, steep)
         moved: FloatArray = dot - share[..., None] * along
         return moved

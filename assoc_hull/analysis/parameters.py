@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.arguments import checked, choice, flag, numbers, text
+from assoc_hull.arguments import checked, choice, flag, number, numbers, text
 from assoc_hull.errors import BadInputError, FreedomError, PointRoleError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.plane import AXES
@@ -22,8 +22,8 @@ from assoc_hull.model.place import free_axes
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "DRAUGHT", "DRAUGHT_AFT", "DRAUGHT_FORE", "HEEL", "TRIM", "Deformation", "Parameter",
-    "PointMove", "Position", "Shape",
+    "DRAUGHT", "DRAUGHT_AFT", "DRAUGHT_FORE", "HEEL", "HELD", "TRIM", "Deformation", "Parameter",
+    "PointMove", "Position", "Rates", "Shape",
 ]  # fmt: skip
 
 _WHERE = "in hydrostatic_derivatives"
@@ -96,8 +96,31 @@ HEEL = Position("heel", (0.0, 0.0, 1.0), "deg")
 """The heel, + starboard down, draughts on the centre line held; per degree."""
 
 
+@attrs.frozen
+class Rates:
+    """How the principal dimensions change with a parameter, m per unit.
+
+    Attributes
+    ----------
+    length, breadth, depth, draught : float
+        Lpp, moulded breadth and depth, moulded design draught.
+    """
+
+    length: float = attrs.field(default=0.0, validator=checked(number, _WHERE))
+    breadth: float = attrs.field(default=0.0, validator=checked(number, _WHERE))
+    depth: float = attrs.field(default=0.0, validator=checked(number, _WHERE))
+    draught: float = attrs.field(default=0.0, validator=checked(number, _WHERE))
+
+
+HELD = Rates()
+"""No principal dimension changes."""
+
+
 class Shape(Parameter):
     """A parameter of the shape: points move, given directions may turn."""
+
+    rates: Rates = HELD
+    """How the principal dimensions go along."""
 
     @property
     def follows(self) -> bool:

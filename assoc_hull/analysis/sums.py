@@ -146,19 +146,21 @@ def _largest(stations: StationAreas, middle: float) -> IntArray:
     """Give which station is the largest, (d,): of equal ones that next to Lpp / 2."""
     area = real(stations.area)
     most = area.max(axis=1, keepdims=True)
-    off = np.where(area >= most * (1.0 - 1e-12), np.abs(real(stations.x) - middle), np.inf)
+    away = np.abs(real(stations.x) - real(middle))
+    off = np.where(area >= most * (1.0 - 1e-12), away, np.inf)
     found: IntArray = off.argmin(axis=1)
     return found
 
 
 def _section(stations: StationAreas, x: float) -> FloatArray:
     """Give the area of a section at x, (d,), m2, by Lagrange's cubic where no station is."""
-    known, count = real(stations.x), min(4, len(stations.x))
-    near = int(np.argmin(np.abs(known - x)))
-    if is_plain(stations.x) and abs(known[near] - x) <= 1e-9 * max(abs(x), 1.0):
+    known, count, place = real(stations.x), min(4, len(stations.x)), float(real(x))
+    near = int(np.argmin(np.abs(known - place)))
+    plain = is_plain(stations.x) and is_plain(x)
+    if plain and abs(known[near] - place) <= 1e-9 * max(abs(place), 1.0):
         found: FloatArray = stations.area[:, near]
         return found
-    first = int(np.clip(np.searchsorted(known, x) - 2, 0, len(known) - count))
+    first = int(np.clip(np.searchsorted(known, place) - 2, 0, len(known) - count))
     knots = [stations.x[i] for i in range(first, first + count)]
     areas = [stations.area[:, i] for i in range(first, first + count)]
     return lagrange(knots, areas, x)

@@ -5,19 +5,19 @@ from __future__ import annotations
 import argparse
 import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assoc_hull.cli.arguments import Commands, add_command, add_json
 from assoc_hull.cli.floating_terms import add_draughts
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target, check_target
+from assoc_hull.cli.screw_terms import add_screw, screw_of
 from assoc_hull.errors import BadInputError
 from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.form.parameter import Parameter
     from assoc_hull.analysis.form.report import FormReport
-    from assoc_hull.analysis.form.screw import Screw
 
 __all__ = ["add"]
 
@@ -40,7 +40,7 @@ def add(commands: Commands) -> None:
         "hull", metavar="HULL", type=Path, nargs="?", help="a .hull or .hull.json file"
     )
     _add_position(parser)
-    _add_screw(parser)
+    add_screw(parser)
     _add_output(parser)
 
 
@@ -56,28 +56,6 @@ def _add_position(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--transom", action="store_true", help="count the immersed transom as wetted surface"
-    )
-
-
-def _add_screw(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--shaft-height", type=float, metavar="Z", help="of the shaft at the screw, above base, m"
-    )
-    parser.add_argument("--propeller-diameter", type=float, metavar="D", help="m")
-    parser.add_argument(
-        "--screw-x", type=float, metavar="X", help="plane of the screw, from AP, + forward, m"
-    )
-    parser.add_argument(
-        "--shaft-spacing", type=float, metavar="M", help="between the shafts of two screws, m"
-    )
-    parser.add_argument(
-        "--boss-diameter", type=float, metavar="D", help="of the stern boss at its aft face, m"
-    )
-    parser.add_argument(
-        "--boss-x",
-        type=float,
-        metavar="X",
-        help="aft face of the stern boss, from AP, + forward, m",
     )
 
 
@@ -132,7 +110,7 @@ def _report(arguments: argparse.Namespace) -> FormReport:
     """Measure what was asked."""
     from assoc_hull.analysis.form.report import form_report
 
-    screw = _screw(arguments)
+    screw = screw_of(arguments)
     hull = open_hull(arguments.hull)
     with progress("measuring"):
         return form_report(
@@ -150,25 +128,6 @@ def _symbols(arguments: argparse.Namespace) -> list[str] | None:
     if not found:
         raise BadInputError("no symbol is named", "in --only", "give some, as Cb,Cp")
     return found
-
-
-def _screw(arguments: argparse.Namespace) -> Screw | None:
-    """Take what is told of the screw; height and diameter go together, others need both."""
-    from assoc_hull.analysis.form.screw import Screw
-
-    given = {
-        "height": arguments.shaft_height, "diameter": arguments.propeller_diameter,
-        "x": arguments.screw_x, "spacing": arguments.shaft_spacing,
-        "boss_diameter": arguments.boss_diameter, "boss_x": arguments.boss_x,
-    }  # fmt: skip
-    told: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    if not told:
-        return None
-    for name, option in (("height", "--shaft-height"), ("diameter", "--propeller-diameter")):
-        if name not in told:
-            what = f"the screw is told without {option}"
-            raise BadInputError(what, _CALL, "give height of the shaft and diameter of the screw")
-    return Screw(**told)
 
 
 def _catalogue(arguments: argparse.Namespace) -> int:

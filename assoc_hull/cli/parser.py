@@ -7,6 +7,7 @@ import sys
 from typing import NoReturn
 
 from assoc_hull.cli import (
+    compare,
     demo,
     edit,
     export,
@@ -19,8 +20,11 @@ from assoc_hull.cli import (
     parameters,
     plot,
     replay,
+    sensitivities,
     shell,
+    shift,
     stability,
+    study,
     transform,
     vary,
     why,
@@ -69,7 +73,8 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, vary, plot, export, shell,
+        stability, transform, panels, vary, shift, study, compare, sensitivities, plot, export,
+        shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -13,7 +13,7 @@ from assoc_hull.cli.problems import check_target
 __all__ = ["add"]
 
 _SHELLS = ("bash", "zsh", "fish")
-_DOCUMENTS = ("hull", "form-catalogue", "form-parameters")
+_DOCUMENTS = ("hull", "form-catalogue", "form-parameters", "comparison")
 
 
 def add(commands: Commands) -> None:
@@ -83,6 +83,10 @@ def _schema_of(document: str) -> dict[str, Any]:
         from assoc_hull.io.hull_schema import hull_json_schema
 
         return hull_json_schema()
+    if document == "comparison":
+        from assoc_hull.io.comparison_schema import comparison_schema
+
+        return comparison_schema()
     from assoc_hull.io.form_schema import catalogue_schema, form_schema
 
     return catalogue_schema() if document == "form-catalogue" else form_schema()

@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
 from assoc_hull.arguments import shown
-from assoc_hull.cli.arguments import (
-    HULL_ENDINGS,
-    Commands,
-    add_command,
-    add_hull,
-    add_json,
-    add_replace,
-    add_wait,
-)
+from assoc_hull.cli.arguments import Commands, add_command, add_hull
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import UsageError, check_hull_target, check_target, is_apart
+from assoc_hull.cli.pairs import limits, pairs
+from assoc_hull.cli.varied import add_out, told_if_refused, varied_into
 from assoc_hull.cli.words import edit_words
-from assoc_hull.errors import BadInputError, RefusedEditError
+from assoc_hull.errors import BadInputError
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -34,6 +26,8 @@ def add(commands: Commands) -> None:
         assoc-hull vary ship.hull --set shaft_height=6.0 --set bossing_radius=1.0 -o larger.hull
         assoc-hull vary ship.hull --set breadth=51.5 --stations x --json
         assoc-hull vary ship.hull --script larger_screw.json -o larger.hull
+        assoc-hull vary ship.hull --reach volume=236000 --reach lcb=157 --free breadth=49:52
+        --free fore_shift=-3:3 --free aft_shift -o fuller.hull
 
         larger_screw.json: {"set": {"shaft_height": 6.0, "bossing_radius": 1.0},
         "layout": {"stern": 0.3}, "name": "larger screw"}
@@ -43,6 +37,18 @@ def add(commands: Commands) -> None:
     parser.add_argument(
         "--set", metavar="NAME=VALUE", action="append", default=[],
         help="a named parameter and the value it is to have; may be given more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--reach", metavar="NAME=VALUE", action="append", default=[],
+        help="an output and the value it is to reach, as volume, lcb or cw; more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--free", metavar="NAME[=LOW:HIGH]", action="append", default=[],
+        help="a named parameter that may change for it, and between which values; more than once",
+    )  # fmt: skip
+    parser.add_argument(
+        "--compromise", action="store_true",
+        help="where targets are out of reach, come as near as possible",
     )  # fmt: skip
     parser.add_argument(
         "--layout", metavar="NAME=VALUE", action="append", default=[],
@@ -66,56 +72,37 @@ def add(commands: Commands) -> None:
         "--tolerance", type=float, metavar="M",
         help="how far a driver may leave its exact image, m (default: 0.002)",
     )  # fmt: skip
-    parser.add_argument("--name", help="name of the step in the history")
     parser.add_argument(
         "--list",
         action="store_true",
         help="show present values and what may be asked; write nothing",
     )
-    parser.add_argument(
-        "-o", "--out", metavar="OUT", type=Path, help="where to write the hull (default: HULL)"
-    )
-    add_wait(parser)
-    add_replace(parser)
-    add_json(parser)
+    add_out(parser)
 
 
 def _vary(arguments: argparse.Namespace) -> int:
     if arguments.list:
         return _list(arguments)
     script = _script(arguments)
-    try:
-        return _carry_out(arguments, script)
-    except RefusedEditError as error:
-        facts = {"refused": True, "edit": error.edit, "findings": error.findings, "saved": None}
-        emit(arguments, facts, "\n".join(error.findings))
-        print(f"refused: {error.edit!r}; the hull is unchanged", file=sys.stderr)
-        return 1
+    return told_if_refused(arguments, lambda: _carry_out(arguments, script))
 
 
 def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
     from assoc_hull.variants import vary_by
 
-    target: Path = arguments.out or arguments.hull
-    apart = is_apart(arguments.out, arguments.hull)
-    check_target(target, HULL_ENDINGS)
-    if apart:
-        check_hull_target(target, replace=arguments.replace)
-    hull = open_hull(arguments.hull, wait=arguments.wait)
-    if apart:
-        hull.detach()
-    with progress("varying"):
-        found = vary_by(hull, script, in_place=True)
-    report = found.report
+    hull, found = varied_into(
+        arguments, "varying", lambda hull: vary_by(hull, script, in_place=True)
+    )
+    report, saved = found.report, str(arguments.out or arguments.hull)
     facts = {
         "targets": report.targets, "rounds": report.rounds, "regions": report.regions,
         "drivers": report.drivers, "added": report.added, "fingerprint": hull.fingerprint,
-        "refused": False, "saved": str(target), "script": report.script,
+        "refused": False, "saved": saved, "script": report.script, "aim": report.aim,
     }  # fmt: skip
     told = [report.edit.name, *(f"  {each}" for each in report.targets)]
-    told += [edit_words(hull, report.edit), f"written: {target}"]
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)
+    if report.aim is not None:
+        told += [f"  {each}" for each in str(report.aim).splitlines()]
+    told += [edit_words(hull, report.edit), f"written: {saved}"]
     emit(arguments, facts, "\n".join(told))
     return 0
 
@@ -137,15 +124,11 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     from assoc_hull.variation.script import read_script
 
     script: dict[str, Any] = read_script(arguments.script) if arguments.script else {}
-    for key in ("set", "layout"):
-        given = _pairs(getattr(arguments, key), key)
+    for key in ("set", "layout", "reach"):
+        given = pairs(getattr(arguments, key), key)
         if given:
-            held = script.get(key, {})
-            if not isinstance(held, dict):
-                raise BadInputError(
-                    f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
-                )
-            script[key] = {**held, **given}
+            script[key] = {**_held(script, key, arguments), **given}
+    _reach(script, arguments)
     for key in ("drivers", "stations", "planes", "tolerance", "name"):
         value = getattr(arguments, key)
         if value is not None:
@@ -153,23 +136,25 @@ def _script(arguments: argparse.Namespace) -> dict[str, Any]:
     return script
 
 
-def _pairs(given: list[str], option: str) -> dict[str, Any]:
-    """Take ``NAME=VALUE``; what is no number is a word."""
-    found: dict[str, Any] = {}
-    for each in given:
-        name, equals, value = each.partition("=")
-        if not equals or not name or not value:
-            raise UsageError(f"--{option} {each}: give NAME=VALUE")
-        if name in found:
-            raise UsageError(f"--{option} {name} is given twice")
-        found[name] = _value(value)
-    return found
+def _held(script: dict[str, Any], key: str, arguments: argparse.Namespace) -> dict[str, Any]:
+    """Give what the file says by name."""
+    held = script.get(key, {})
+    if not isinstance(held, dict):
+        raise BadInputError(
+            f"{key} is {shown(held)}", f"in {arguments.script}", "give values by name"
+        )
+    return held
 
 
-def _value(text: str) -> float | bool | str:
-    if text in ("true", "false"):
-        return text == "true"
-    try:
-        return float(text)
-    except ValueError:
-        return text
+def _reach(script: dict[str, Any], arguments: argparse.Namespace) -> None:
+    """Add what is free, with its bounds, to what the file says."""
+    given = limits(arguments.free, "free")
+    if given:
+        held = script.get("free", [])
+        known = list(held) if isinstance(held, list) else [held]
+        script["free"] = [*known, *(name for name in given if name not in known)]
+    bounds = {name: span for name, span in given.items() if span is not None}
+    if bounds:
+        script["bounds"] = {**_held(script, "bounds", arguments), **bounds}
+    if arguments.compromise:
+        script["exact"] = False

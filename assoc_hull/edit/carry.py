@@ -282,9 +282,8 @@ def _lay(vectors: FloatArray, normal: FloatArray) -> FloatArray:
     return laid
 
 
-def _turned(work: Carried, at: FloatArray, vectors: FloatArray) -> FloatArray:
+def _turned(slope: FloatArray, vectors: FloatArray) -> FloatArray:
     """Turn vectors with the mapping; their lengths stay, and so do bits where it is still."""
-    slope = work.space.jacobians(at)
     new = (slope * vectors[:, None, :]).sum(axis=2)
     still = (slope == np.eye(3)).all(axis=(1, 2))
     old = np.sqrt((vectors * vectors).sum(axis=1))
@@ -307,7 +306,7 @@ def carry_directions(work: Carried, journal: Journal) -> set[int]:
             continue
         curve = table.curve.data[rows]
         old = table.direction.data[rows, side]
-        new = _turned(work, table.xyz.data[rows], old)
+        new = _turned(work.space.jacobians(table.xyz.data[rows]), old)
         moved = (new != old).any(axis=1)
         line = np.where(curve >= 0, state.curves.line.data[curve], -1)
         normal = np.where((line >= 0)[:, :, None], work.planes.normal[line], 0.0)
@@ -322,30 +321,29 @@ def carry_directions(work: Carried, journal: Journal) -> set[int]:
 
 def carry_ends(work: Carried, journal: Journal) -> set[int]:
     """Turn and bend the end conditions of curves with the mapping; give those that change."""
-    state, changed = work.state, set[int]()
-    for curve in state.live("curves").tolist():
-        ends: Ends = state.curves.ends.data[curve]
-        if not any(ends.kind):
-            continue
-        new = tuple(_end(work, curve, ends, at) for at in (0, 1))
-        if new != ends.vector:
-            journal.set(state.curves.ends, [curve], [Ends(ends.kind, (new[0], new[1]))])
+    state, changed, ends = work.state, set[int](), work.state.curves.ends.data
+    bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
+    places = [state.spline(curve).xyz[[0, -1]] for curve in bound]
+    slopes = work.space.jacobians(np.concatenate([np.zeros((0, 3)), *places])).reshape(-1, 2, 3, 3)
+    for curve, slope in zip(bound, slopes, strict=True):
+        old: Ends = ends[curve]
+        new = tuple(_end(work, curve, at, slope[[at]]) for at in (0, 1))
+        if new != old.vector:
+            journal.set(state.curves.ends, [curve], [Ends(old.kind, (new[0], new[1]))])
             changed.add(curve)
     return changed
 
 
-def _end(work: Carried, curve: int, ends: Ends, at: int) -> tuple[float, float, float]:
-    """Give the vector of one end condition under the mapping."""
-    if ends.kind[at] == EndKind.FREE:
+def _end(work: Carried, curve: int, at: int, slope: FloatArray) -> tuple[float, float, float]:
+    """Give the vector of one end condition under the mapping, of the slope (1, 3, 3) there."""
+    ends: Ends = work.state.curves.ends.data[curve]
+    if ends.kind[at] == EndKind.FREE or (slope[0] == np.eye(3)).all():
         return ends.vector[at]
     spline = work.state.spline(curve)
     knot = 0 if at == 0 else -1
     place, vector = spline.xyz[[knot]], np.array([ends.vector[at]])
-    slope = work.space.jacobians(place)
-    if (slope[0] == np.eye(3)).all():
-        return ends.vector[at]
     if ends.kind[at] == EndKind.TANGENT:
-        new = _turned(work, place, vector)
+        new = _turned(slope, vector)
     else:
         tangent = derivative(spline, np.zeros(1, np.int64), spline.knot[[knot]])
         tangent = tangent / np.sqrt((tangent * tangent).sum())

@@ -7,7 +7,7 @@ mapping sends most of it to a parallel plane, whichever is asked.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -97,22 +97,17 @@ def carry_planes(
     lines = state.lines
     normal, offset = lines.normal.data.copy(), lines.offset.data.copy()
     planar, bent = lines.planar.data.copy(), dict[int, float]()
-    asked = levels or {}
-    for line in state.live("lines").tolist():
-        if not planar[line]:
-            continue
-        if line in asked and line not in drivers:
-            offset[line] = asked[line]
-            continue
-        if not (follow or line in drivers):
-            continue
-        before = _samples(state, line)
-        after = space.places(before)
+    drive, asked = set(drivers.tolist()), levels or {}
+    flat = [line for line in state.live("lines").tolist() if planar[line]]
+    apart = [line for line in flat if line in asked and line not in drive]
+    offset[apart] = [asked[line] for line in apart]
+    going = [line for line in flat if (follow or line in drive) and line not in apart]
+    for line, before, after in _samples(state, space, going):
         level = np.sort(heights(after, normal[line]))
         spread = float(level[-1] - level[0])
         if spread <= PLANE:
             offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
-        elif line in drivers:
+        elif line in drive:
             found = _oblique(state, space, line, before, after)
             if found is None:
                 _refuse_centre(state, line, spread)
@@ -132,9 +127,19 @@ def most_in_one(level: FloatArray) -> bool:
     return bool((np.abs(level - level[len(level) // 2]) <= PLANE).mean() >= 0.5)
 
 
-def _samples(state: HullState, line: int) -> FloatArray:
-    splines = [state.spline(curve) for curve in state.lines.curves.data[line]]
-    return np.array(sample(SplineBatch.join(splines), 4)[1])
+def _samples(
+    state: HullState, space: SpaceMap, lines: Sequence[int]
+) -> Iterator[tuple[int, FloatArray, FloatArray]]:
+    """Give places along lines, and where a mapping, asked once for all, sends them."""
+    if not lines:
+        return
+    curves = [state.lines.curves.data[line] for line in lines]
+    splines = [state.spline(curve) for part in curves for curve in part]
+    start, before = sample(SplineBatch.join(splines), 4)
+    after = space.places(np.array(before))
+    cut = start[np.cumsum([0, *map(len, curves)])]
+    for line, begin, end in zip(lines, cut[:-1].tolist(), cut[1:].tolist(), strict=True):
+        yield line, before[begin:end], after[begin:end]
 
 
 def _is_centre(state: HullState, line: int) -> bool:

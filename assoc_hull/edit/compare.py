@@ -13,21 +13,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import attrs
-import numpy as np
 
 from assoc_hull.analysis.volume import displaced
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.farthest import Owned, farthest, same_bits
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["Comparison", "LineDifference", "compare"]
-
-_PARTS = np.linspace(0.0, 1.0, 5)[:-1]
-"""Where on each segment distances are taken."""
 
 
 @attrs.frozen
@@ -43,7 +38,7 @@ class LineDifference:
     distance : float, m
         The largest distance of either form of it from the other; 0 if it did not move.
     place : (float, float, float) or None, m
-        Where that is.
+        Where that is, on the line as it is after.
     """
 
     line: str
@@ -118,7 +113,7 @@ def compare(before: HullState, after: HullState, states: tuple[str, str]) -> Com
     old, new = (_lines(state) for state in (before, after))
     found = [LineDifference(old[key][0], "removed") for key in old if key not in new]
     found += [LineDifference(new[key][0], "added") for key in new if key not in old]
-    found += [each for key in new if key in old for each in _differences(old[key], new[key])]
+    found += _differences([(old[key], new[key]) for key in new if key in old])
     order = sorted(found, key=lambda each: (-each.distance, each.what, each.line))
     one, two = _numbers(before), _numbers(after)
     numbers = {name: (one[name], two[name]) for name in one if one[name] != two[name]}
@@ -131,52 +126,25 @@ Pieces = tuple[str, list[SplineBatch]]
 
 
 def _lines(state: HullState) -> dict[str, Pieces]:
-    """Give name and splines of each line, by key."""
-    book, table, found = AddressBook(state), state.curves, dict[str, Pieces]()
+    """Give name and splines of each line that has a shape, by key."""
+    book, found = AddressBook(state), dict[str, Pieces]()
     for line in state.live("lines").tolist():
-        curves = [curve for curve in state.lines.curves.data[line] if table.alive.data[curve]]
-        splines = [state.spline(curve) for curve in curves if table.spline.data[curve] is not None]
-        found[str(state.lines.key.data[line])] = book.line_name(line), splines
+        splines = [state.spline(curve) for curve in state.curves_of(line)]
+        if splines:
+            found[str(state.lines.key.data[line])] = book.line_name(line), splines
     return found
 
 
-def _differences(old: Pieces, new: Pieces) -> Iterator[LineDifference]:
-    """Say how a line differs, if it does."""
-    if not _same(old[1], new[1]):
-        place, distance = _farthest(old[1], new[1])
-        x, y, z = place.tolist()
-        yield LineDifference(new[0], "moved", distance, (x, y, z))
-    if old[0] != new[0]:
-        yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
-
-
-def _same(old: Sequence[SplineBatch], new: Sequence[SplineBatch]) -> bool:
-    """Tell whether two lines have the same bits."""
-    names = ("knot", "xyz", "leave", "arrive")
-    return len(old) == len(new) and all(
-        getattr(a, name).tobytes() == getattr(b, name).tobytes()
-        for a, b in zip(old, new, strict=True)
-        for name in names
-    )
-
-
-def _farthest(old: Sequence[SplineBatch], new: Sequence[SplineBatch]) -> tuple[FloatArray, float]:
-    """Give the place of either line that lies farthest from the other, and how far."""
-    best = np.zeros(3), -1.0
-    for mine, theirs in ((new, old), (old, new)):
-        for spline in mine:
-            points = _points(spline)
-            away = np.min([closest(each, 0, points)[2] for each in theirs], axis=0)
-            worst = int(away.argmax())
-            if away[worst] > best[1]:
-                best = points[worst], float(away[worst])
-    return best
-
-
-def _points(spline: SplineBatch) -> FloatArray:
-    knot = spline.knot
-    t = np.append((knot[:-1, None] + np.diff(knot)[:, None] * _PARTS).ravel(), knot[-1])
-    return np.asarray(evaluate(spline, np.zeros(len(t), np.int64), t))
+def _differences(pairs: Sequence[tuple[Pieces, Pieces]]) -> Iterator[LineDifference]:
+    """Say how lines of both differ, those that do."""
+    moved = [pair for pair in pairs if not same_bits(pair[0][1], pair[1][1])]
+    far = farthest(*(Owned.of([pair[k][1] for pair in moved]) for k in (0, 1)))
+    for (_, new), place, distance in zip(moved, far.other.tolist(), far.distance, strict=True):
+        x, y, z = place
+        yield LineDifference(new[0], "moved", float(distance), (x, y, z))
+    for old, new in pairs:
+        if old[0] != new[0]:
+            yield LineDifference(f"{old[0]} -> {new[0]}", "renamed")
 
 
 def _numbers(state: HullState) -> dict[str, float | None]:

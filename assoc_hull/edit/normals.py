@@ -17,7 +17,7 @@ from assoc_hull.model.index import Objects
 from assoc_hull.model.recipe import loft_curves
 from assoc_hull.model.state import HullState
 
-__all__ = ["free_normals", "hull_normals", "shape_stamp"]
+__all__ = ["curve_tangents", "free_normals", "hull_normals", "shape_stamp"]
 
 
 def hull_normals(state: HullState) -> FloatArray:
@@ -60,7 +60,7 @@ def shape_stamp(state: HullState) -> Hashable:
 
 def _normals(state: HullState) -> FloatArray:
     table = state.rows
-    tangent = _tangents(state)
+    tangent = curve_tangents(state)
     crossing = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
     normal = np.zeros((table.count, 3))
     normal[crossing] = crossing_normals(tangent[crossing, 0], tangent[crossing, 1])
@@ -69,8 +69,8 @@ def _normals(state: HullState) -> FloatArray:
     return normal
 
 
-def _tangents(state: HullState) -> FloatArray:
-    """Give the unit tangents of both curves at every point, (rows, 2, 3)."""
+def curve_tangents(state: HullState) -> FloatArray:
+    """Give the unit tangents of both curves at every point, (rows, 2, 3); nil where unknown."""
     table, curves = state.rows, state.live("curves").tolist()
     found = np.zeros((table.count, 2, 3))
     known = np.zeros((table.count, 2), bool)

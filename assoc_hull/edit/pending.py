@@ -8,6 +8,7 @@ import attrs
 
 from assoc_hull.edit.carry_features import CarriedFeatures
 from assoc_hull.edit.field import Field
+from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run import Policy
 
@@ -69,6 +70,8 @@ class Pending:
         Points that were inserted, taken out or given another kind, each with the curve.
     features : CarriedFeatures or None
         The features as a mapping carried them; as they are in the tables if None.
+    nudge : Nudge or None
+        A small movement of the whole hull when all else has run.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -89,6 +92,7 @@ class Pending:
     cut_again: list[str] = attrs.field(factory=list)
     by_hand: set[tuple[int, int]] = attrs.field(factory=set)
     features: CarriedFeatures | None = None
+    nudge: Nudge | None = None
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

@@ -184,7 +184,7 @@ class Transaction:
     def _idle(self) -> bool:
         """Tell whether all that was asked for is so already: then there is nothing to undo."""
         pending, xyz = self.pending, self.state.rows.xyz.data
-        if pending.fields or pending.curves or pending.computed:
+        if pending.fields or pending.curves or pending.computed or pending.nudge is not None:
             return False
         asked = [
             xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()

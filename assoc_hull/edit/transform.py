@@ -27,11 +27,11 @@ from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.unplane import bend_lines, let_go
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.make import PointSpec
+from assoc_hull.model.make import Maker, PointSpec
 from assoc_hull.model.network import bits_differ
 from assoc_hull.model.state import HullState, Meets, Particulars
 
-__all__ = ["Reshape", "transform"]
+__all__ = ["Reshape", "carry_meetings", "driving", "move_planes", "refuse_others", "transform"]
 
 Reshape = Callable[[Carried], None]
 """Gives points that features own their exact places, before the drivers are cut."""
@@ -101,7 +101,8 @@ def transform(
             f"give at least {_FINEST:g} m: finer, and points crowd without end",
         )  # fmt: skip
     state = edit.state
-    driver = _drivers(edit, drivers)
+    driver = driving(state, drivers)
+    refuse_others(edit)
     edit.pending.alone = True
     planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
     work = carry_points(edit.maker, space, planes, driver)
@@ -124,16 +125,21 @@ def transform(
     _watch(edit, work)
     added = hold_images(work, image, tolerance)
     let_go(edit, work)
-    _move_planes(edit, planes)  # first, so that lines that come back find their new ones
+    move_planes(edit.maker, planes)  # first, so that lines that come back find their new ones
     take_out(edit, work, may_go=lines_may_go)
     _publish(edit, work, turned)
     _tell(edit, work, added, size)
     return added
 
 
-def _drivers(edit: Transaction, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
-    """Check the drivers and the state of the edit; mark the driving lines."""
-    state = edit.state
+def driving(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
+    """Mark the driving lines, (l,): those that are named, and boundary curves.
+
+    Raises
+    ------
+    BadInputError
+        None is named, or a curve has failed.
+    """
     driver = np.zeros(state.lines.count, bool)
     driver[list(drivers)] = True
     boundary = state.lines.boundary.data >= 0
@@ -142,14 +148,18 @@ def _drivers(edit: Transaction, drivers: Sequence[int]) -> np.typing.NDArray[np.
             "no driver but boundary curves" if driver.any() else "no driver", "in transform",
             "name groups or lines that carry the hull, for instance ['sections', 'profile']",
         )  # fmt: skip
-    pending = edit.pending
-    if edit.journal.entries or pending.values or pending.fields or pending.curves:
-        raise BadInputError(*pending.not_alone(edit.name))
     if state.failed:
         keys = ", ".join(str(state.curves.key.data[curve]) for curve in state.failed)
         raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
     found: np.typing.NDArray[np.bool_] = (driver | boundary) & state.lines.alive.data
     return found
+
+
+def refuse_others(edit: Transaction) -> None:
+    """See that nothing else is in the edit."""
+    pending = edit.pending
+    if edit.journal.entries or pending.values or pending.fields or pending.curves:
+        raise BadInputError(*pending.not_alone(edit.name))
 
 
 def _anything(state: HullState, work: Carried) -> bool:
@@ -166,9 +176,10 @@ def _anything(state: HullState, work: Carried) -> bool:
     )
 
 
-def _move_planes(edit: Transaction, planes: Planes) -> None:
-    table, put = edit.state.lines, edit.journal.put
-    lines = edit.state.live("lines")
+def move_planes(maker: Maker, planes: Planes) -> None:
+    """Write where the planes of all lines have come to."""
+    table, put = maker.state.lines, maker.journal.put
+    lines = maker.state.live("lines")
     put(table.planar, lines, planes.planar[lines])
     put(table.normal, lines, planes.normal[lines])
     put(table.offset, lines, planes.offset[lines])
@@ -179,7 +190,7 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     state, pending = edit.state, edit.pending
     for curve in sorted(work.made):
         _define(edit, curve, work.made[curve], work.gone)
-    _carry_meetings(edit, work)
+    carry_meetings(edit, work.space)
     _remove(edit, work)
     live = state.live("rows")
     live = live[live < len(work.value)]
@@ -231,14 +242,17 @@ def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> N
         edit.maker.define(curve, rows)
 
 
-def _carry_meetings(edit: Transaction, work: Carried) -> None:
+def carry_meetings(edit: Transaction, space: SpaceMap) -> None:
     """Let the update look for each meeting where the mapping has carried it."""
-    state = edit.state
-    for curve in state.live("curves").tolist():
-        meets: Meets = state.curves.meets.data[curve]
-        if len(meets.line):
-            carried = work.space.places(meets.xyz)
-            edit.journal.set(state.curves.meets, [curve], [attrs.evolve(meets, xyz=carried)])
+    state, table = edit.state, edit.state.curves.meets
+    curves = [curve for curve in state.live("curves").tolist() if len(table.data[curve].line)]
+    if not curves:
+        return
+    meets: list[Meets] = [table.data[curve] for curve in curves]
+    carried = space.places(np.concatenate([each.xyz for each in meets]))
+    parts = np.split(carried, np.cumsum([len(each.line) for each in meets])[:-1])
+    for curve, each, xyz in zip(curves, meets, parts, strict=True):
+        edit.journal.set(table, [curve], [attrs.evolve(each, xyz=xyz)])
 
 
 def _remove(edit: Transaction, work: Carried) -> None:

@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 
+from assoc_hull.edit.carry_features import CarriedFeatures
 from assoc_hull.edit.check import (
     find_beyond,
     find_folds,
@@ -23,6 +24,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
 from assoc_hull.edit.mend import mend
+from assoc_hull.edit.nudge import write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
@@ -79,6 +81,7 @@ def update(
             _settle(work)
             _relink(work)
             _follow_up(work)
+            _run_nudge(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -218,6 +221,24 @@ def _follow_up(work: Work) -> None:
     live = [curve for curve in sorted(pending.curves) if work.state.curves.alive.data[curve]]
     work.go(_NONE, np.array(live, np.int64))
     _settle(work)
+
+
+def _run_nudge(work: Work) -> None:
+    """Move the hull as it has become by a little, and let what is computed follow."""
+    pending, state = work.pending, work.state
+    if pending.nudge is None:
+        return
+    curves = state.live("curves")
+    features = state.features if pending.features is None else pending.features.features
+    rows, moved = write_nudge(state, work.journal, pending.nudge, features)
+    pending.features = CarriedFeatures(moved, frozenset(), pending.nudge.within)
+    adopted = state.live("rows")
+    pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
+    pending.relink |= set(curves.tolist())
+    work.renew()
+    work.go(rows, curves)
+    _settle(work)
+    _relink(work)
 
 
 def _check(work: Work) -> tuple[str, ...]:

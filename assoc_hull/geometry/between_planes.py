@@ -11,6 +11,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.dual import is_plain
 from assoc_hull.geometry.immersed import Immersed, Planes
 from assoc_hull.geometry.immersion import immersed, prepare
 from assoc_hull.geometry.immersion_half import curve_by_curve
@@ -20,7 +21,7 @@ from assoc_hull.geometry.quadrature import bunched
 from assoc_hull.geometry.raked import Raked
 from assoc_hull.geometry.strip_spans import Spans, level_at
 
-__all__ = ["Between", "between"]
+__all__ = ["Between", "Stretches", "between"]
 
 _POINTS = 16
 """Sections in each part of a raked strip that is cut."""
@@ -56,8 +57,18 @@ def _tuple(part: Between) -> tuple[float, ...]:
 
 
 @attrs.frozen(eq=False)
-class _Stretches:
-    """Strips from one v to another; implements `Strips`."""
+class Stretches:
+    """Strips from one v to another; implements `Strips`.
+
+    Attributes
+    ----------
+    whole : Strips
+        The body.
+    strip : (k,) int
+        Which of its strips.
+    begin, finish : (k,)
+        From which v to which; in any arithmetic.
+    """
 
     whole: Strips
     strip: IntArray
@@ -66,16 +77,19 @@ class _Stretches:
 
     @property
     def count(self) -> int:
+        """Number of strips."""
         return len(self.strip)
 
     @property
     def order(self) -> IntArray:
+        """How many Gauss points along v each strip wants, (count,)."""
         return self.whole.order[self.strip]
 
     def curves(self, strip: IntArray, v: FloatArray) -> IsoCurves:
+        """Give one curve for each pair of a strip and a v, (k,) each."""
         length = (self.finish - self.begin)[strip]
         found = self.whole.curves(self.strip[strip], self.begin[strip] + length * v)
-        if (length == 1.0).all():
+        if is_plain(length) and (length == 1.0).all():
             return found
         rate = np.repeat(length, np.diff(found.start))[:, None, None]
         return IsoCurves(found.start, found.point, rate * found.across, found.deck)
@@ -127,7 +141,7 @@ def between(body: Spans, aft: float, fore: float, plane: Planes) -> Between:
         (finish, fore, body.fore[level] > fore),
     ):
         ends[cut] = level_at(body, level[cut], place)
-    found = _taken(immersed(prepare(_Stretches(strips, level, begin, finish)), plane))
+    found = _taken(immersed(prepare(Stretches(strips, level, begin, finish)), plane))
     for strip in np.flatnonzero(inside & ~whole & ~body.flat).tolist():
         low, high = max(aft, float(body.aft[strip])), min(fore, float(body.fore[strip]))
         found = found + _raked(body.raked[strip], low, high, plane)

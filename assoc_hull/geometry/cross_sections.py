@@ -14,7 +14,7 @@ from assoc_hull.geometry.immersed_sections import sections_below
 from assoc_hull.geometry.isocurves import IsoCurves
 from assoc_hull.geometry.strip_spans import Spans, level_at
 
-__all__ = ["areas_at", "cross_section"]
+__all__ = ["areas_at", "cross_section", "sides_at"]
 
 _ON = 1e-9
 """m: an end of a strip that is so near to the plane lies in it."""
@@ -88,11 +88,20 @@ def areas_at(body: Spans, x: FloatArray, plane: Planes) -> FloatArray:
     return found
 
 
-def _met(body: Spans, x: float) -> IntArray:
-    """Give the strips that a plane meets; at a section, those of the side without raked ones."""
+def sides_at(body: Spans, x: float) -> tuple[IntArray, IntArray]:
+    """Give the strips that a plane across the ship meets, from aft and from forward of it.
+
+    Within a strip both are the same; at a section they are those on either side.
+    """
     long = body.fore > body.aft + _ON
     before = np.flatnonzero(long & (body.aft < x - _ON) & (body.fore >= x - _ON))
     behind = np.flatnonzero(long & (body.aft <= x + _ON) & (body.fore > x + _ON))
+    return before, behind
+
+
+def _met(body: Spans, x: float) -> IntArray:
+    """Give the strips that a plane meets; at a section, those of the side without raked ones."""
+    before, behind = sides_at(body, x)
     for side in (before, behind):
         if len(side) and body.flat[side].all():
             return side

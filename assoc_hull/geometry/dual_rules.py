@@ -43,6 +43,7 @@ PARTIAL: Mapping[np.ufunc, tuple[Partial | None, ...]] = {
     np.absolute: (lambda x, y: np.sign(x),),
     np.square: (lambda x, y: 2.0 * x,),
     np.sqrt: (lambda x, y: 0.5 / y,),
+    np.cbrt: (lambda x, y: y / (3.0 * x),),
     np.reciprocal: (lambda x, y: -y * y,),
     np.exp: (lambda x, y: y,),
     np.log: (lambda x, y: 1.0 / x,),

@@ -328,6 +328,15 @@ class HullState:
         found: SplineBatch = self.curves.spline.data[curve]
         return found
 
+    def curves_of(self, line: int) -> list[int]:
+        """Give the curves of a line that have a shape, in their order."""
+        curves = self.curves
+        return [
+            curve
+            for curve in self.lines.curves.data[line]
+            if curves.alive.data[curve] and curves.spline.data[curve] is not None
+        ]
+
     def live(self, table: str) -> IntArray:
         """Give the numbers of the live rows of a table."""
         return np.flatnonzero(getattr(self, table).alive.data)

@@ -3,6 +3,8 @@
 from assoc_hull.plot.comb_plan import combs_plan
 from assoc_hull.plot.combs import curvature_combs
 from assoc_hull.plot.compare import before_after, snapshot
+from assoc_hull.plot.comparison_plan import comparison_plan
+from assoc_hull.plot.comparison_sheet import comparison_pdf
 from assoc_hull.plot.deviations import adoption_deviations
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.lines_plan import lines_plan
@@ -14,6 +16,8 @@ __all__ = [
     "before_after",
     "bonjean_curves",
     "combs_plan",
+    "comparison_pdf",
+    "comparison_plan",
     "curvature_combs",
     "hydrostatic_curves",
     "lines_plan",

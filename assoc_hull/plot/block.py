@@ -15,7 +15,10 @@ from assoc_hull.plot.view import View
 if TYPE_CHECKING:
     from matplotlib.text import Text
 
-__all__ = ["caption", "frame", "particulars_of", "scale_bar", "title_block"]
+__all__ = ["ROW", "block_height", "caption", "frame", "particulars_of", "scale_bar", "title_block"]
+
+ROW = 4.4
+"""Height of a row of a block, mm at A3."""
 
 _BARS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
@@ -59,6 +62,11 @@ def _ratios(drawing: Drawing) -> str:
     return ",  ".join(f"{ratio:.3f}" for ratio in ratios)
 
 
+def block_height(rows: int, notes: int) -> float:
+    """Give the height of a block of so many rows and notes, mm at A3."""
+    return 12.5 + ROW * (rows + 1.2 + 0.9 * notes)
+
+
 def title_block(
     sheet: Sheet,
     corner: tuple[float, float],
@@ -70,7 +78,7 @@ def title_block(
     """Draw the block with its right upper corner at a place; give its lower edge, mm."""
     factor = sheet.paper.factor
     right, top = corner
-    left, inset, row = right - width, right - width + 3.0 * factor, 4.4 * factor
+    left, inset, row = right - width, right - width + 3.0 * factor, ROW * factor
     y = top - 8.5 * factor
     sheet.take(
         sheet.text(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +20,7 @@ from assoc_hull.plot.views import Views, body_halves
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["before_after", "snapshot"]
+__all__ = ["before_after", "overlay", "pairs_of", "snapshot"]
 
 _SIDE = 38.0  # mm at A3, for the words at the arrow
 _ABOVE, _BELOW = 16.0, 20.0
@@ -29,6 +29,8 @@ _TOLD = 12
 
 _AFTER = Pen(0.22, TINT, over=3.0)
 _ARROW = Pen(0.2, TINT, over=4.0)
+
+Pair = tuple[DrawnLine | None, DrawnLine | None]
 
 
 def snapshot(hull: Sketchable) -> Drawing:
@@ -128,28 +130,29 @@ def _half(views: Views, old: Drawing) -> float:
     x = 0.5 * (paper.width - 1e3 / scale * length) - 1e3 / scale * float(low[0])
     view = View("half-breadth", (0, 1), scale, (x, (MARGIN + 20.0) * factor))
     views.half_breadth(view)
-    for name in _names(old.of("waterlines"), views.drawing.of("waterlines")):
-        _overlay(views, view, old, name)
+    overlay(views.sheet, view, pairs_of(old.of("waterlines"), views.drawing.of("waterlines")))
     words = f"HALF-BREADTH PLAN  1:{scale:g}"
     caption(views.sheet, (view.across(views.middle), view.up(0.0) - 11.0 * factor), words)
     return view.up(float(high[1])) + 12.0 * factor
 
 
-def _names(old: Sequence[DrawnLine], new: Sequence[DrawnLine]) -> list[str]:
-    return list(dict.fromkeys(line.name for line in (*old, *new)))
+def pairs_of(old: Sequence[DrawnLine], new: Sequence[DrawnLine]) -> Iterator[Pair]:
+    """Give lines before and after by name, each once; None where there is none."""
+    was, now = ({line.name: line for line in lines} for lines in (old, new))
+    yield from ((was.get(name), now.get(name)) for name in dict.fromkeys((*was, *now)))
 
 
-def _overlay(views: Views, view: View, old: Drawing, name: str) -> None:
-    """Draw a line as it was, in grey, and in red where it has moved."""
-    was = {line.name: line for line in old.lines}.get(name)
-    now = {line.name: line for line in views.drawing.lines}.get(name)
-    if was is not None and now is not None and same(was, now):
-        return
-    for points in () if was is None else was.polylines:
-        views.sheet.line(view.on_paper(points), BEFORE, f"{view.name}/before/{name}")
-    if now is not None:
-        for part in moved_parts(was, now):
-            views.sheet.line(view.on_paper(part), _AFTER, f"{view.name}/moved/{name}")
+def overlay(sheet: Sheet, view: View, pairs: Iterable[Pair], pen: Pen = BEFORE) -> None:
+    """Draw lines as they were, in grey or another pen, and in red where they moved."""
+    for was, now in pairs:
+        if was is not None and now is not None and same(was, now):
+            continue
+        if was is not None:
+            for points in was.polylines:
+                sheet.line(view.on_paper(points), pen, f"{view.name}/before/{was.name}")
+        if now is not None:
+            for part in moved_parts(was, now):
+                sheet.line(view.on_paper(part), _AFTER, f"{view.name}/moved/{now.name}")
 
 
 def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]) -> None:
@@ -166,8 +169,7 @@ def _body(views: Views, old: Drawing, base: float, moved: Sequence[LineMovement]
     sections = Views(views.sheet, old, low, high).sections
     halves = (body_halves(lines, views.middle) for lines in (sections, views.sections))
     for half, was, now in zip((view.mirrored(), view), *halves, strict=True):
-        for name in _names(was, now):
-            _overlay(views, half, old, name)
+        overlay(views.sheet, half, pairs_of(was, now))
     foot = view.up(float(low[2])) - 9.0 * factor
     caption(views.sheet, (view.across(0.0), foot), f"BODY PLAN  1:{scale:g}")
     if moved and not np.isnan((largest := moved[0]).distance):

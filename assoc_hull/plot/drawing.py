@@ -191,7 +191,7 @@ def _crossings(state: HullState, book: AddressBook) -> Crossings:
 def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:
     table, family = state.lines, state.family(line)
     boundary = int(table.boundary.data[line])
-    splines = tuple(state.spline(curve) for curve in _curves(state, line))
+    splines = tuple(state.spline(curve) for curve in state.curves_of(line))
     chords = CHORDS if boundary < 0 else 4 * CHORDS
     normal = table.normal.data[line].copy()
     flat = bool(table.planar.data[line])
@@ -205,16 +205,6 @@ def _drawn(state: HullState, book: AddressBook, line: int) -> DrawnLine:
         splines,
         tuple(sample(spline, chords)[1] for spline in splines),
     )
-
-
-def _curves(state: HullState, line: int) -> list[int]:
-    """Give the curves of a line that have a shape."""
-    curves = state.curves
-    return [
-        curve
-        for curve in state.lines.curves.data[line]
-        if curves.alive.data[curve] and curves.spline.data[curve] is not None
-    ]
 
 
 def short_name(name: str, prefix: str) -> str:

@@ -1,9 +1,9 @@
-"""Cells that flow in two columns down upright pages, below headings."""
+"""Cells that flow in one or two columns down upright pages, below headings."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import Literal, Protocol
 
 import attrs
 
@@ -68,23 +68,49 @@ class Flow:
         self.pages.append(Sheet(PAGE))
         self.y = self.begin(self.sheet, len(self.pages) == 1)
 
-    def part(self, title: str, cells: Sequence[Cell], *, ruled: bool = True) -> None:
-        """Draw a heading and cells in two columns, on as many pages as they need."""
+    def part(
+        self,
+        title: str,
+        cells: Sequence[Cell],
+        *,
+        ruled: bool = True,
+        columns: Literal[1, 2] = 2,
+        head: Cell | None = None,
+    ) -> None:
+        """Draw a heading and cells below it, on as many pages as they need.
+
+        Parameters
+        ----------
+        title : str
+            The heading; it is said again where a page begins.
+        cells : sequence of Cell
+            What stands below it.
+        ruled : bool
+            Whether a hairline parts the rows.
+        columns : 1 or 2
+            In how many columns cells stand.
+        head : Cell or None
+            Stands below the heading on every page.
+        """
         rest, words = list(cells), title
+        top = 0.0 if head is None else head.tall
         while rest:
-            count = self._count(rest)
-            if count < min(2 * _LEAST, len(rest)):
+            count = self._count(rest, columns, top)
+            if count < min(columns * _LEAST, len(rest)):
                 self.turn()
-                count = max(self._count(rest), 1)
+                count = max(self._count(rest, columns, top), 1)
             self._heading(words)
-            self._columns(rest[:count], ruled)
+            if head is not None:
+                self._columns([head], ruled, 1)
+            self._columns(rest[:count], ruled, columns)
             rest, words = rest[count:], f"{title} (continued)"
         self.y -= 0.4 * _HEADING
 
-    def _count(self, cells: Sequence[Cell]) -> int:
-        """Give how many of the cells have room on this page, below a heading."""
-        room = self.y - _LOW - _HEADING
-        return next((n for n in range(len(cells), 0, -1) if sum(_talls(cells[:n])) <= room), 0)
+    def _count(self, cells: Sequence[Cell], columns: int, top: float) -> int:
+        """Give how many of the cells have room on this page, below a heading and a head."""
+        room = self.y - _LOW - _HEADING - top
+        counts = range(len(cells), 0, -1)
+        return next((n for n in counts if sum(_talls(cells[:n], columns)) <= room), 0)
 
     def _heading(self, title: str) -> None:
         low = self.y - _HEADING + 1.4
@@ -96,24 +122,29 @@ class Flow:
         self.sheet.text(place, title, size=1.1, across="left", bold=True, name="label/heading")
         self.y -= _HEADING
 
-    def _columns(self, cells: Sequence[Cell], ruled: bool) -> None:
-        middle = (len(cells) + 1) // 2
+    def _columns(self, cells: Sequence[Cell], ruled: bool, columns: int) -> None:
+        middle = _rows(cells, columns)
         top = self.y
-        for k, tall in enumerate(_talls(cells)):
+        for k, tall in enumerate(_talls(cells, columns)):
             cells[k].draw(self.sheet, LEFT, self.y)
             if middle + k < len(cells):
                 cells[middle + k].draw(self.sheet, LEFT + COLUMN + _GAP, self.y)
             self.y -= tall
             if ruled:
                 self.sheet.rule((LEFT, self.y), (RIGHT, self.y), _HAIR, "row")
-        if ruled:
+        if ruled and columns > 1:
             x = 0.5 * (LEFT + RIGHT)
             self.sheet.rule((x, top), (x, self.y), _HAIR, "between")
 
 
-def _talls(cells: Sequence[Cell]) -> list[float]:
-    """Give the heights of lines of two cells."""
-    middle = (len(cells) + 1) // 2
+def _rows(cells: Sequence[Cell], columns: int) -> int:
+    """Give how many cells stand below one another."""
+    return -(-len(cells) // columns)
+
+
+def _talls(cells: Sequence[Cell], columns: int) -> list[float]:
+    """Give the heights of lines of one or two cells."""
+    middle = _rows(cells, columns)
     right = [each.tall for each in cells[middle:]] + [0.0]
     return [max(each.tall, right[min(k, len(right) - 1)]) for k, each in enumerate(cells[:middle])]
 

@@ -9,20 +9,20 @@ import attrs
 
 from assoc_hull.analysis.form.report import FormReport, Row, number_text
 from assoc_hull.plot.form_flow import COLUMN, LEFT, RIGHT, Flow, wrapped
+from assoc_hull.plot.page_ends import GREY, page_foot, page_head
 from assoc_hull.plot.pages import pdf_of
-from assoc_hull.plot.pens import FRAME, LINE
 from assoc_hull.plot.sheet import Sheet, require_matplotlib
 
 __all__ = ["form_pdf", "form_sheets"]
 
 _LINE, _PAD = 2.7, 1.5  # height of a line of a cell, and what is free above and below, mm
 _NAME, _NUMBER, _MARK = 19.0, COLUMN - 16.0, COLUMN  # places in a cell, mm
-_SMALL, _GREY = 0.88, "0.3"
+_SMALL = 0.88
 _DATED = ("ship", "date", "fingerprint", "datum")  # told elsewhere than among the conditions
 _UNITS: Mapping[str, str] = MappingProxyType(
     {"m2": "m²", "m3": "m³", "m4": "m⁴", "deg": "°", "-": "–"}
 )
-_TITLE, _TOP = "Form parameters", 285.0
+_TITLE = "Form parameters"
 
 
 def form_pdf(report: FormReport) -> bytes:
@@ -95,7 +95,7 @@ class _Entry:
                    name=f"label/symbol/{entry.symbol}")  # fmt: skip
         for k, words in enumerate(self.names):
             sheet.text((x + _NAME, y - k * _LINE), words, size=_SMALL, across="left",
-                       up="baseline", colour=_GREY, name=f"label/name/{entry.symbol}")  # fmt: skip
+                       up="baseline", colour=GREY, name=f"label/name/{entry.symbol}")  # fmt: skip
         sheet.text((x + _NUMBER, y), number_text(self.row).replace("-", "−"), across="right",
                    up="baseline", name=f"label/number/{entry.symbol}")  # fmt: skip
         if value.number is not None:
@@ -103,7 +103,7 @@ class _Entry:
                        size=_SMALL, up="baseline", name=f"label/unit/{entry.symbol}")  # fmt: skip
         if self.row.mark:
             sheet.text((x + _MARK, y), self.row.mark, size=0.8, across="right", up="baseline",
-                       colour=_GREY, name=f"label/mark/{entry.symbol}")  # fmt: skip
+                       colour=GREY, name=f"label/mark/{entry.symbol}")  # fmt: skip
 
 
 @attrs.frozen
@@ -135,16 +135,7 @@ class _Words:
 
 def _begin(report: FormReport, sheet: Sheet, first: bool) -> float:
     """Draw what stands at the top of a page."""
-    size, y = (2.3, _TOP - 7.0) if first else (1.3, _TOP - 4.0)
-    ship = " ".join(report.header.ship.split())
-    room = RIGHT - LEFT - sheet.width(_TITLE, size=0.75 * size) - 6.0
-    wide = sheet.width(ship, size=size, bold=True)
-    sheet.text((LEFT, y), ship, size=size * min(1.0, room / max(wide, 1.0)), across="left",
-               up="baseline", bold=True, name="label/ship")  # fmt: skip
-    sheet.text((RIGHT, y), _TITLE, size=0.75 * size, across="right", up="baseline",
-               name="label/form")  # fmt: skip
-    y -= 2.6
-    sheet.rule((LEFT, y), (RIGHT, y), FRAME, "head")
+    y = page_head(sheet, report.header.ship, _TITLE, first=first)
     if first:
         y -= 4.2
         sheet.text((LEFT, y), _floating(report), across="left", up="baseline", name="label/place")
@@ -166,11 +157,5 @@ def _floating(report: FormReport) -> str:
 
 def _end(report: FormReport, sheet: Sheet, number: str) -> None:
     """Draw what stands at the foot of a page."""
-    y = 17.0
-    sheet.rule((LEFT, y), (RIGHT, y), LINE, "foot")
     words = wrapped(sheet, report.header.datum, RIGHT - LEFT - 12.0, 0.72)
-    lines = [*words, f"hull {report.header.fingerprint}"]
-    for k, line in enumerate(lines):
-        sheet.text((LEFT, y - 3.2 - 2.5 * k), line, size=0.72, across="left", up="baseline",
-                   colour=_GREY, name="label/foot")  # fmt: skip
-    sheet.text((RIGHT, y - 3.2), number, across="right", up="baseline", name="label/page")
+    page_foot(sheet, [*words, f"hull {report.header.fingerprint}"], number)

@@ -17,7 +17,7 @@ from assoc_hull.plot.views import Views
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["lines_plan"]
+__all__ = ["captions", "lines_plan"]
 
 
 def lines_plan(
@@ -73,7 +73,7 @@ def lines_plan(
     layout = lay_out(plan, sheet.paper)
     frame(sheet, MARGIN * sheet.paper.factor)
     _block(sheet, plan, layout, title or plan.particulars.name)
-    _captions(sheet, plan, layout)
+    captions(sheet, plan, layout)
     views = Views(sheet, plan, layout.low, layout.high, tinted)
     views.profile(layout.profile)
     views.half_breadth(layout.half)
@@ -102,7 +102,7 @@ def _block(sheet: Sheet, plan: Drawing, layout: Layout, title: str) -> None:
         scale_bar(sheet, view, place, width - 14.0 * factor, words)
 
 
-def _captions(sheet: Sheet, plan: Drawing, layout: Layout) -> None:
+def captions(sheet: Sheet, plan: Drawing, layout: Layout) -> None:
     """Write the names of the views below them."""
     factor = sheet.paper.factor
     middle = 0.5 * plan.particulars.length

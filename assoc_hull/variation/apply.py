@@ -15,7 +15,7 @@ from assoc_hull.edit.mapping import SpaceMap
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.edit.transform import transform
 from assoc_hull.model.state import HullState, Particulars
-from assoc_hull.variation.drivers import Keeps, default_drivers, keeps, planes_go
+from assoc_hull.variation.drivers import Driving, driving
 from assoc_hull.variation.features_net import regenerated
 from assoc_hull.variation.field import Region
 from assoc_hull.variation.stations import section_planes
@@ -34,8 +34,8 @@ class Applied:
     ----------
     drivers : tuple of str
         Names of the lines that drove, boundary curves among them.
-    keeps : Keeps
-        Which planes the map keeps.
+    driving : Driving
+        How they were chosen.
     added : int
         How many adopted points hold the drivers to their images.
     regions : tuple of Region
@@ -43,7 +43,7 @@ class Applied:
     """
 
     drivers: tuple[str, ...]
-    keeps: Keeps
+    driving: Driving
     added: int
     regions: tuple[Region, ...] = ()
 
@@ -56,7 +56,7 @@ def apply(
     stations: Stations = "number",
     follow: bool = False,
     tolerance: float = 2e-3,
-    particulars: Mapping[str, float] | None = None,
+    particulars: Particulars | None = None,
     radii: Mapping[str, float] | None = None,
 ) -> Applied:
     """Carry a net by a map, within an edit that holds nothing else.
@@ -78,8 +78,8 @@ def apply(
         plane; else they stay at their heights and half-breadths.
     tolerance : float, m
         How far a driver may leave its exact image.
-    particulars : mapping of str to float or None
-        Those of ``length``, ``breadth``, ``depth``, ``draught`` (m) that change.
+    particulars : Particulars or None
+        Those of the hull afterwards; None leaves them.
     radii : mapping of str to float or None
         Radii (m) that are asked for of circles, by the keys of features.
 
@@ -90,30 +90,15 @@ def apply(
     """
     state, anew = edit.state, regenerated(edit.state, vmap, radii)
     space = SpaceMap(anew.map, anew.map.jacobian)
-    kept, follow = keeps(state, space), follow and planes_go(state, space)
-    chosen = (
-        default_drivers(state, kept, stations, follow=follow)
-        if drivers is None else tuple(sorted(drivers))
-    )  # fmt: skip
+    chosen = driving(state, space, drivers, stations, follow=follow)
     levels = section_planes(state, vmap.layers) if stations == "number" else None
-    size = _resized(state.particulars, particulars) if particulars else None
     added = transform(
-        edit, space, chosen, follow=follow, levels=levels, tolerance=tolerance,
-        reshape=anew.settle, particulars=size, lines_may_go=True,
+        edit, space, chosen.lines, follow=chosen.follow, levels=levels, tolerance=tolerance,
+        reshape=anew.settle, particulars=particulars, lines_may_go=True,
     )  # fmt: skip
     if edit.pending.features is not None:
         edit.pending.features = anew.features(edit.pending.features)
-    return Applied(_names(state, chosen), kept, added, anew.regions())
-
-
-def _resized(size: Particulars, new: Mapping[str, float]) -> Particulars:
-    return attrs.evolve(
-        size,
-        length=new.get("length", size.length),
-        breadth=new.get("breadth", size.breadth),
-        depth=new.get("depth", size.depth),
-        draught=new.get("draught", size.draught),
-    )
+    return Applied(_names(state, chosen.lines), chosen, added, anew.regions())
 
 
 def _names(state: HullState, lines: Sequence[int]) -> tuple[str, ...]:

@@ -4,7 +4,8 @@
  "layout": {"stern": 0.3}, "drivers": ["sections", "buttocks"], "stations": "number",
  "planes": "follow", "layers": [[{"hat": {...}}]], "tolerance": 0.002, "name": "larger screw"}
 
-No key must be there but ``set`` or ``layers``; ``version`` is that of this form.
+No key must be there but ``set``, ``reach`` or ``layers``; ``version`` is that of this form. What
+belongs to ``reach`` stands in `assoc_hull.variation.ask_reach`.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import attrs
 from assoc_hull.arguments import choice, number, positive, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.model.handles import Group, Line
+from assoc_hull.variation.ask_reach import AskReach, acts
 from assoc_hull.variation.catalogue import CATALOGUE, NAMES
 from assoc_hull.variation.layer import Layer
 from assoc_hull.variation.layout import Layout
@@ -34,8 +36,8 @@ Planes = Literal["follow", "stay"]
 VERSION = 1
 """Of the form of scripts."""
 
-_KEYS = ("version", "set", "layers", "layout", "drivers", "stations", "planes", "tolerance",
-         "name")  # fmt: skip
+_KEYS = ("version", "set", "reach", "free", "bounds", "exact", "layers", "layout", "drivers",
+         "stations", "planes", "tolerance", "name")  # fmt: skip
 _SPOKEN = {each.short: each.name for each in CATALOGUE.values()} | {
     "pmb_start": "parallel_body_start", "pmb_end": "parallel_body_end", "LPP": "length",
 }  # fmt: skip
@@ -66,6 +68,8 @@ class Ask:
         Of the step in the history.
     given : tuple or None
         The layers as they were given, if they were given as data.
+    reach : AskReach or None
+        What outputs are to be reached, and what is free for it.
     """
 
     values: Mapping[str, float]
@@ -77,12 +81,17 @@ class Ask:
     tolerance: float = TOLERANCE
     name: str = "vary"
     given: tuple[object, ...] | None = ()
+    reach: AskReach | None = None
 
     @classmethod
     def of(
         cls,
         values: Mapping[str, float] | None = None,
         *,
+        reach: Mapping[str, float] | None = None,
+        free: object = (),
+        bounds: Mapping[str, object] | None = None,
+        exact: bool = True,
         layers: Sequence[object] = (),
         layout: Mapping[str, Any] | Layout | None = None,
         drivers: Sequence[Group | Line | str] | None = None,
@@ -100,11 +109,12 @@ class Ask:
         BadInputError
             A value that is no number or has no meaning; nothing is asked for.
         """
-        found = _values(values)
-        if not found and not layers:
+        found, aimed = _values(values), AskReach.of(reach, free, bounds, exact)
+        if not found and not layers and aimed is None:
             raise BadInputError(
                 "nothing is asked for", "in vary", "give values of named parameters, or fields"
             )
+        _refuse_both(found, aimed)
         wanted = choice(stations, "stations", get_args(Stations), "in vary")
         level = choice(planes, "planes", get_args(Planes), "in vary")
         made = _layers(layers)
@@ -112,8 +122,8 @@ class Ask:
             MappingProxyType(found), made, _layout(layout), _drivers(drivers),
             "x" if wanted == "x" else "number", "stay" if level == "stay" else "follow",
             positive(tolerance, "tolerance", "in vary"),
-            _title(found) if name is None else text(name, "the name", "in vary"),
-            None if any(_acts(each) for each in layers) else tuple(layers),
+            _title(found, aimed) if name is None else text(name, "the name", "in vary"),
+            None if any(acts(each) for each in layers) else tuple(layers), aimed,
         )  # fmt: skip
 
 
@@ -146,10 +156,11 @@ def ask_from(data: object) -> Ask:
             f"the script is of version {shown(version)}", "in vary", f"give version {VERSION}"
         )
     return Ask.of(
-        data.get("set"), layers=data.get("layers", ()), layout=data.get("layout"),
-        drivers=data.get("drivers"), stations=data.get("stations", "number"),
-        planes=data.get("planes", "follow"), tolerance=data.get("tolerance", TOLERANCE),
-        name=data.get("name"),
+        data.get("set"), reach=data.get("reach"), free=data.get("free", ()),
+        bounds=data.get("bounds"), exact=data.get("exact", True),
+        layers=data.get("layers", ()), layout=data.get("layout"), drivers=data.get("drivers"),
+        stations=data.get("stations", "number"), planes=data.get("planes", "follow"),
+        tolerance=data.get("tolerance", TOLERANCE), name=data.get("name"),
     )  # fmt: skip
 
 
@@ -180,17 +191,11 @@ def _layers(given: object) -> tuple[Layer, ...]:
         )
     made = list[Layer]()
     for i, each in enumerate(given):
-        if _acts(each):
+        if acts(each):
             made.append(each)
         else:
             made += [attrs.evolve(one, name=f"raw fields {i + 1}") for one in layers_from([each])]
     return tuple(made)
-
-
-def _acts(given: object) -> bool:
-    """Tell a layer from the data of one."""
-    parts = ("name", "displacement", "jacobian", "regions")
-    return not isinstance(given, type) and all(hasattr(given, part) for part in parts)
 
 
 def _layout(given: Mapping[str, Any] | Layout | None) -> Layout:
@@ -208,6 +213,17 @@ def _drivers(given: object) -> tuple[Group | Line | str, ...] | None:
     return tuple(given)
 
 
-def _title(values: Mapping[str, float]) -> str:
+def _refuse_both(values: Mapping[str, float], reach: AskReach | None) -> None:
+    """Refuse parameters that are set and free."""
+    for name in () if reach is None else reach.names:
+        if name in values:
+            raise BadInputError(f"'{name}' is set and free", "in vary", "leave it out of one")
+
+
+def _title(values: Mapping[str, float], reach: AskReach | None) -> str:
     words = ", ".join(f"{name}={value:g}" for name, value in values.items())
-    return f"vary {words}" if words else "vary by fields"
+    found = f"vary {words}" if words else "vary by fields"
+    if reach is None:
+        return found
+    goal = ", ".join(f"{name}={value:g}" for name, value in reach.targets.items())
+    return f"{found} to reach {goal}" if words else f"vary to reach {goal}"

@@ -6,6 +6,8 @@ exactly. One whose plane would bend is better cut again: a designer's sections s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 
@@ -16,7 +18,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.spline import sample
 from assoc_hull.model.state import HullState
 
-__all__ = ["Keeps", "default_drivers", "keeps", "planes_go"]
+__all__ = ["Driving", "Keeps", "default_drivers", "driving", "keeps", "planes_go"]
 
 _SAMPLES = 4
 """Places a segment at which a map is asked."""
@@ -36,6 +38,54 @@ class Keeps:
 
     plane: np.typing.NDArray[np.bool_]
     place: np.typing.NDArray[np.bool_]
+
+
+@attrs.frozen(eq=False)
+class Driving:
+    """Which lines carry a hull under a map.
+
+    Attributes
+    ----------
+    lines : tuple of int
+        Their numbers; boundary curves drive besides.
+    follow : bool
+        Whether planes of waterlines and buttocks go along.
+    keeps : Keeps
+        Which planes the map keeps.
+    """
+
+    lines: tuple[int, ...]
+    follow: bool
+    keeps: Keeps
+
+
+def driving(
+    state: HullState, space: SpaceMap, given: Sequence[int] | None, stations: str, *, follow: bool
+) -> Driving:
+    """Choose the lines that carry a hull.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    space : SpaceMap
+        The map.
+    given : sequence of int or None
+        Lines that drive; None for all whose planes the map keeps.
+    stations : {"number", "x"}
+        Whether sections may go with the map.
+    follow : bool
+        Whether waterlines and buttocks may, if the map sends them to parallel planes.
+
+    Raises
+    ------
+    BadInputError
+        Nothing can drive.
+    """
+    kept, goes = keeps(state, space), follow and planes_go(state, space)
+    if given is not None:
+        return Driving(tuple(sorted(given)), goes, kept)
+    return Driving(default_drivers(state, kept, stations, follow=goes), goes, kept)
 
 
 def keeps(state: HullState, space: SpaceMap) -> Keeps:

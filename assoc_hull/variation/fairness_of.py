@@ -202,7 +202,7 @@ def measure_fairness(
         if not 0 <= line < table.count or not table.alive.data[line]:
             what = f"there is no line {line}"
             raise BadInputError(what, "in measure_fairness", "give numbers of live lines")
-    curves = [(line, curve) for line in wanted for curve in _curves(state, line)]
+    curves = [(line, curve) for line in wanted for curve in state.curves_of(line)]
     wanted = list(dict.fromkeys(line for line, _ in curves))
     views = {line: _views(state, line, like or {}) for line in wanted}
     seen = [(line, curve, view) for line, curve in curves for view in views[line]]
@@ -230,16 +230,6 @@ def _summed(
     greatest = np.zeros(len(comb))
     np.maximum.at(greatest, owner, greatest_curvatures(batch, normals))
     return list(zip(changes.tolist(), comb.tolist(), greatest.tolist(), strict=True))
-
-
-def _curves(state: HullState, line: int) -> list[int]:
-    """Give the curves of a line that have a shape."""
-    curves = state.curves
-    return [
-        curve
-        for curve in state.lines.curves.data[line]
-        if curves.alive.data[curve] and curves.spline.data[curve] is not None
-    ]
 
 
 def _views(state: HullState, line: int, like: Mapping[str, LineFairness]) -> FloatArray:

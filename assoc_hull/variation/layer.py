@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.field import Region
@@ -10,6 +10,7 @@ from assoc_hull.variation.field import Region
 __all__ = ["Layer"]
 
 
+@runtime_checkable
 class Layer(Protocol):
     """What a map is composed of.
 

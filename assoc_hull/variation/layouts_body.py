@@ -13,6 +13,7 @@ from assoc_hull.variation.share import Share
 
 __all__ = [
     "aft_shift", "deck_height", "depth", "fore_shift", "parallel_body_end", "parallel_body_start",
+    "shift_terminals",
 ]  # fmt: skip
 
 _ALL = Chain.constant(1.0)
@@ -75,17 +76,43 @@ def parallel_body_end(parent: Parent, asked: float, layout: Layout) -> Share:
 
 def fore_shift(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between the parallel body and where the profile rises, forward."""
-    return _bump(parent, "fore_shift", ("body end", "fore terminal"), asked, layout)
+    _, _, inner, outer = shift_terminals(parent, "fore_shift")
+    return _bump("fore_shift", inner, outer, asked, layout)
 
 
 def aft_shift(parent: Parent, asked: float, layout: Layout) -> Share:
     """Shift the sections between where the profile rises and the parallel body, aft."""
-    return _bump(parent, "aft_shift", ("body start", "aft terminal"), asked, layout)
+    outer, inner, _, _ = shift_terminals(parent, "aft_shift")
+    return _bump("aft_shift", inner, outer, asked, layout)
 
 
-def _bump(parent: Parent, name: str, ends: tuple[str, str], asked: float, layout: Layout) -> Share:
-    """Shift between two terminals, inner and outer: the bump is full where its shape is."""
-    inner, outer = (float(parent.at(end, name)[0]) for end in ends)
+def shift_terminals(parent: Parent, name: str) -> tuple[float, float, float, float]:
+    """Give between which places sections shift, m from AP, from aft.
+
+    They are where the profile begins to rise and the ends of the parallel body; where there is
+    none, the two stations with the largest areas.
+
+    Parameters
+    ----------
+    parent : Parent
+    name : str
+        Of the parameter, for the error.
+
+    Raises
+    ------
+    BadInputError
+        The parent has neither.
+    """
+    largest = parent.has("largest aft") and not parent.has("body start")
+    inner = ("largest aft", "largest fore") if largest else ("body start", "body end")
+    aft, start, end, fore = (
+        float(parent.at(place, name)[0]) for place in ("aft terminal", *inner, "fore terminal")
+    )
+    return aft, start, end, fore
+
+
+def _bump(name: str, inner: float, outer: float, asked: float, layout: Layout) -> Share:
+    """Shift between two terminals: the bump is full where its shape is."""
     bump = Bump(inner, outer, 1.0, layout.shift)
     full = bump.top
     course = bump.scaled(asked / float(bump.at(np.array(full))))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -11,10 +11,12 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.fold_outside import fold_outside
+from assoc_hull.variation.layouts_body import shift_terminals
 from assoc_hull.variation.limits import hull_box
+from assoc_hull.variation.parent import Parent
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["also_changed", "folds_outside", "went_along"]
+__all__ = ["also_changed", "folds_outside", "shifted_without_body", "went_along"]
 
 _SEEN = 1e-3
 """A named value that changes by less (m, degrees) is not told."""
@@ -72,3 +74,23 @@ def also_changed(
         and abs(after[name] - before[name]) > _SEEN
     ]  # fmt: skip
     return (f"also changed: {', '.join(told)}",) if told else ()
+
+
+def shifted_without_body(
+    parent: Parent, asked: Iterable[str] = ("fore_shift", "aft_shift")
+) -> tuple[str, ...]:
+    """Tell what stands for the parallel body where sections shift and there is none.
+
+    Parameters
+    ----------
+    parent : Parent
+    asked : iterable of str
+        Names of the parameters that are asked for.
+    """
+    shifts = any(name in ("fore_shift", "aft_shift") for name in asked)
+    if not shifts or parent.has("body start") or not parent.has("largest aft"):
+        return ()
+    _, start, end, _ = shift_terminals(parent, "section shifts")
+    where = f"at {start:.6g} m" if start == end else f"from {start:.6g} to {end:.6g} m"
+    what = "the largest station stands" if start == end else "the two largest stations stand"
+    return (f"no parallel middle body: {what} for it, {where}",)

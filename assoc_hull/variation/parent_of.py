@@ -6,7 +6,10 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from assoc_hull.analysis.flotation import flotation
+from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.immersed import Planes
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchor import Anchor, Measures
@@ -17,6 +20,12 @@ __all__ = ["parent_of"]
 
 _LEVEL = 1e-6
 """So near to the lowest place (m) the keel is level."""
+
+_ALIKE = 1e-6
+"""Areas of two stations differ by less, in parts of the largest."""
+
+_FEWEST = 3
+"""Stations that a hull must have for its areas to tell anything."""
 
 
 def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
@@ -44,6 +53,8 @@ def parent_of(state: HullState, measures: Measures | None = None) -> Parent:
         if anchor.value is not None:
             places.update(_PLACES.get(anchor.name, _nothing)(anchor))
     places.update(_terminals(state))
+    if "body start" not in places:
+        places.update(_largest_stations(state))
     places.update(_cylinder(state, places.get("boss side")))
     depth = float(found["depth"]) if "depth" in found else ship.depth
     breadth = float(found["breadth"]) if "breadth" in found else ship.breadth
@@ -147,3 +158,24 @@ def _terminals(state: HullState) -> dict[str, FloatArray]:
         if level.max() - level.min() > 0.1 * length:
             aft, fore = max(0.0, float(level.min())), min(length, float(level.max()))
     return {"aft terminal": _place(aft, 0.0, 0.0), "fore terminal": _place(fore, 0.0, 0.0)}
+
+
+def _largest_stations(state: HullState) -> dict[str, FloatArray]:
+    """Give the two stations with the largest areas, which stand for the ends of a parallel body.
+
+    If two are second alike, the largest alone stands for both.
+    """
+    level = Planes(np.array([state.particulars.draught]), np.zeros(1), np.zeros(1))
+    try:
+        found = flotation(state).stations(level)
+    except AssocHullError:
+        return {}  # what has no areas cannot be shifted by them
+    area = found.area[0]
+    order = np.argsort(-area, kind="stable")
+    if len(order) < _FEWEST:
+        return {}
+    first, second, third = order[:3].tolist()
+    if area[second] - area[third] <= _ALIKE * area[first] < area[first] - area[second]:
+        second = first
+    aft, fore = np.sort(found.x[[first, second]]).tolist()
+    return {"largest aft": _place(aft, 0.0, 0.0), "largest fore": _place(fore, 0.0, 0.0)}

@@ -5,24 +5,35 @@
 {"stack": {"name": "bow", "axis": "y", "boundaries": [["low", 5], ["T", 18]],
            "pieces": [{"a": {"x": [270, 300], "v": [0, 0.05]}}, {}]}}
 {"rake": {"name": "stem", "along": {"x": [270, 300], "v": [0, 1]}, "q": 0.1, "z0": 18, "w": 4}}
+
+A function of x is a number, a chain as above, a spline (``"smooth": true`` beside x and v),
+straight lines (``"straight": true``), or a bump:
+{"begin": 200, "end": 300, "size": 1.5, "shape": "c2"}.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, get_args
+
+import attrs
 
 from assoc_hull.arguments import choice, flag, number, positive, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.variation.blend import BLENDS, Blend
+from assoc_hull.variation.bump import Bump
+from assoc_hull.variation.bump import Shape as BumpShape
 from assoc_hull.variation.chain import Chain, Contour, Course
 from assoc_hull.variation.field import Axis, Boundary, Field, Piece, Tube
 from assoc_hull.variation.fields_layer import FieldLayer, Rake
 from assoc_hull.variation.hat import hat
+from assoc_hull.variation.polyline import Polyline
 
-__all__ = ["fields_from", "layers_from"]
+__all__ = ["course_data", "fields_from", "layers_from"]
 
 _WHERE = "in a field of vary"
+
+_SHAPES: tuple[BumpShape, ...] = get_args(BumpShape)
 
 
 def layers_from(given: object) -> tuple[FieldLayer, ...]:
@@ -129,16 +140,53 @@ def _tube(given: object, blend: Blend) -> Tube:
 
 
 def _course(given: object, blend: Blend, name: str) -> Course:
-    """Take a number, a chain ``{"x", "v"}`` or a contour ``{"x", "v", "smooth": true}``."""
+    """Take a number, or a course in one of the forms that `course_data` gives."""
     if not isinstance(given, Mapping):
         return Chain.constant(number(given, name, _WHERE))
-    data = _table(given, name, ("x", "v"), ("smooth",))
+    if "shape" in given:
+        return _bump(given, name)
+    data = _table(given, name, ("x", "v"), ("smooth", "straight"))
     chain = Chain.through(data["x"], data["v"], blend, name)
-    if not flag(data.get("smooth", False), "smooth", _WHERE):
+    smooth, straight = (flag(data.get(key, False), key, _WHERE) for key in ("smooth", "straight"))
+    if not smooth and not straight:
         return chain
+    if smooth and straight:
+        raise BadInputError(f"{name} is both smooth and straight", _WHERE, "say one of them")
     if len(chain.x) < 2:
-        raise BadInputError(f"{name} is smooth through one node", _WHERE, "give two or more")
-    return Contour(chain.x, chain.v)
+        word = "smooth" if smooth else "straight"
+        raise BadInputError(f"{name} is {word} through one node", _WHERE, "give two or more")
+    return Contour(chain.x, chain.v) if smooth else Polyline(chain.x, chain.v)
+
+
+def _bump(given: Mapping[str, Any], name: str) -> Bump:
+    data = _table(given, name, ("begin", "end", "shape"), ("size",))
+    shape = choice(data["shape"], "shape", _SHAPES, _WHERE)
+    return Bump(
+        _number(data["begin"]), _number(data["end"]), _number(data.get("size", 1.0)),
+        next(each for each in _SHAPES if each == shape),
+    )  # fmt: skip
+
+
+def course_data(course: Course) -> dict[str, Any]:
+    """Give a course as data: a chain by its nodes and values, a bump by its terminals.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.bump import Bump
+    >>> from assoc_hull.variation.raw import course_data
+    >>> course_data(Bump(60.0, 120.0, 0.5))
+    {'begin': 60.0, 'end': 120.0, 'size': 0.5, 'shape': 'c2'}
+    """
+    if isinstance(course, Bump):
+        return attrs.asdict(course)
+    if not isinstance(course, Chain | Contour | Polyline):
+        raise BadInputError(
+            f"a {type(course).__name__} has no form as data", _WHERE, "give it as a layer"
+        )
+    nodes: dict[str, Any] = {"x": course.x.tolist(), "v": course.v.tolist()}
+    if isinstance(course, Chain):
+        return nodes
+    return {**nodes, "smooth" if isinstance(course, Contour) else "straight": True}
 
 
 def _axis(name: str) -> Axis:

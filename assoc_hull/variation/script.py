@@ -63,10 +63,12 @@ def script_of(ask: Ask) -> Mapping[str, Any] | None:
     >>> dict(script_of(Ask.of({"breadth": 51.5}, layout={"stern": 0.3})))["layout"]
     {'stern': 0.3}
     """
-    if ask.given is None:
+    if ask.given is None or (ask.reach is not None and ask.reach.given is None):
         return None
     usual = attrs.asdict(Layout())
     found: dict[str, Any] = {"version": VERSION, "set": dict(ask.values)}
+    if ask.reach is not None:
+        found.update(ask.reach.data())
     layout = {name: each for name, each in attrs.asdict(ask.layout).items() if each != usual[name]}
     if layout:
         found["layout"] = layout

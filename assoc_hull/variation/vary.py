@@ -11,36 +11,33 @@ from collections.abc import Mapping
 from typing import Any
 
 import attrs
-import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.given import Given
 from assoc_hull.edit.report import EditReport
-from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.errors import BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
+from assoc_hull.variation.aim_report import Aimed
 from assoc_hull.variation.anchors import measure_all
-from assoc_hull.variation.apply import Applied, apply
 from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.carry_out import carry_out
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
-from assoc_hull.variation.limits import hull_box, present
-from assoc_hull.variation.notes import also_changed, folds_outside, went_along
-from assoc_hull.variation.parent import Parent
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.room import SAME, Room, asked_radii
+from assoc_hull.variation.limits import present
+from assoc_hull.variation.notes import (
+    also_changed,
+    folds_outside,
+    shifted_without_body,
+    went_along,
+)
+from assoc_hull.variation.reaching import settle_reach
+from assoc_hull.variation.room import Room
 from assoc_hull.variation.script import script_of
+from assoc_hull.variation.settled import Settled, measured, settle
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Target", "VariationReport", "vary_document"]
-
-_MET = 1e-7
-"""A target (m, degrees) is met where it is missed by less than this; 1e-6 is promised."""
-
-_PROMISED = 1e-6
-_ROUNDS = 6
 
 
 @attrs.frozen
@@ -89,6 +86,8 @@ class VariationReport:
     script : mapping or None
         What was asked for as data: with it, `assoc_hull.variants.vary_by` repeats the variation.
         None where layers were given that are not data.
+    aim : Aimed or None
+        How targets of outputs were reached; None where none were given.
     """
 
     targets: tuple[Target, ...]
@@ -100,9 +99,12 @@ class VariationReport:
     edit: EditReport
     notes: tuple[str, ...] = ()
     script: Mapping[str, Any] | None = None
+    aim: Aimed | None = None
 
     def __str__(self) -> str:
-        return "\n".join([*(str(each) for each in self.targets), *self.notes, str(self.edit)])
+        aimed = () if self.aim is None else (str(self.aim),)
+        targets = (str(each) for each in self.targets)
+        return "\n".join([*targets, *aimed, *self.notes, str(self.edit)])
 
 
 def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
@@ -120,142 +122,52 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     BadInputError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    before = measure_all(document.state)
-    parent = parent_of(document.state, before)
+    room = Room.of(document.state, ask.layout, ask.tolerance)
+    parent, was = room.parent, room.present
     for name in ask.values:
-        if name in before.absent:
+        if name in parent.absent:
             raise BadInputError(
-                f"cannot vary '{name}': {before.absent[name]}", "in vary", "leave it out"
+                f"cannot vary '{name}': {parent.absent[name]}", "in vary", "leave it out"
             )
-    was = present(before, ask.layout)
-    found = _settle(document.state, parent, ask, was)
+    found = _settled(document, room, ask)
     levels = document.state.lines.offset.data.copy()
-    applied, report = _apply(document, found.map, parent, ask, was)
-    reached = _measured(document.state, ask)
+    applied, report = carry_out(document, found.map, parent, ask, was, found.values, found.nudge)
+    reached = measured(document.state, ask)
     targets = tuple(
         Target(name, CATALOGUE[name].unit, was[name], value, reached[name])
         for name, value in ask.values.items()
     )
-    regions = (*found.map.regions(), *applied.regions)
+    regions = (*found.whole.regions(), *applied.regions)
     now = present(measure_all(document.state), ask.layout)
     notes = (
-        *folds_outside(found.map, document.state, ask.tolerance),
-        *went_along(levels, document.state), *also_changed(was, now, ask.values),
+        *shifted_without_body(parent, found.values),
+        *folds_outside(found.whole, document.state, ask.tolerance),
+        *went_along(levels, document.state), *also_changed(was, now, found.values),
     )  # fmt: skip
-    return found.map, VariationReport(
+    return found.whole, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        notes, script_of(ask),
+        notes, script_of(ask), found.aimed,
     )  # fmt: skip
 
 
-@attrs.frozen
-class _Settled:
-    """A map whose applied values are nearly the asked ones, how it was found, what it misses."""
-
-    map: VMap
-    rounds: int
-    certificate: Certificate
-    miss: dict[str, float]
-
-    @property
-    def worst(self) -> float:
-        """The largest miss, m or degrees."""
-        return max((abs(each) for each in self.miss.values()), default=0.0)
-
-
-def _settle(state: HullState, parent: Parent, ask: Ask, was: Mapping[str, float]) -> _Settled:
-    """Find the map whose applied values are the asked ones."""
-    room = Room(state, parent, was, ask.layout, hull_box(state, ask.tolerance))
+def _settled(document: Document, room: Room, ask: Ask) -> Settled:
+    """Find the map whose applied values are the asked ones, and what is nudged after it."""
     room.check(ask.values)
-    aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
-    best = found = _tried(state, room, ask, aim, 1)
-    for rounds in range(2, _ROUNDS + 1):
-        if best.worst <= _MET:
-            break
-        # what others move away from a value that was to stay is asked for as well
-        aim = {
-            name: aim.get(name, ask.values[name]) + each
-            for name, each in found.miss.items() if name in aim or abs(each) > _MET
-        }  # fmt: skip
-        try:
-            found = _tried(state, room, ask, aim, rounds)
-        except AssocHullError:
-            break  # the aim went astray: what was asked for is not at fault
-        if found.worst < best.worst:
-            best = found
-    if best.worst > _PROMISED:
-        raise _missed(best, ask)
-    return best
+    if ask.reach is not None:
+        return settle_reach(document.state, room, ask, ask.reach)
+    return settle(
+        ask, room.present, lambda aim, rounds: _tried(document.state, room, ask, aim, rounds)
+    )
 
 
 def _tried(
     state: HullState, room: Room, ask: Ask, aim: Mapping[str, float], rounds: int
-) -> _Settled:
+) -> Settled:
     """Lay out the map of an aim, and measure what it gives beside the published hull."""
     vmap = VMap((*room.map(aim).layers, *ask.layers))
     certificate = room.certified(vmap, aim)
     trial = Document(copy_of(state))
-    _apply(trial, vmap, room.parent, ask, room.present)
-    reached = _measured(trial.state, ask)
+    carry_out(trial, vmap, room.parent, ask, room.present)
+    reached = measured(trial.state, ask)
     miss = {name: value - reached[name] for name, value in ask.values.items()}
-    return _Settled(vmap, rounds, certificate, miss)
-
-
-def _missed(best: _Settled, ask: Ask) -> BadInputError:
-    """Say which value cannot be had, and what came nearest to it."""
-    name, miss = max(best.miss.items(), key=lambda each: abs(each[1]))
-    asked, unit = ask.values[name], CATALOGUE[name].unit
-    return BadInputError(
-        f"{name} reached {asked - miss:.9g} {unit}, asked {asked:.9g} {unit}, {abs(miss):.2g} off",
-        "in vary", "ask for less, or give a finer tolerance",
-    )  # fmt: skip
-
-
-def _apply(
-    document: Document, vmap: VMap, parent: Parent, ask: Ask, was: Mapping[str, float]
-) -> tuple[Applied, EditReport]:
-    """Apply a map as one step."""
-    drivers = None if ask.drivers is None else Given(document.state).driving(ask.drivers)
-    with Transaction(document, ask.name) as edit:
-        applied = apply(
-            edit, vmap, drivers=drivers, stations=ask.stations,
-            follow=ask.planes == "follow", tolerance=ask.tolerance,
-            particulars=_particulars(document.state, vmap, parent, ask),
-            radii=asked_radii(document.state, parent, ask.values, was),
-        )  # fmt: skip
-    report = edit.report
-    if report is None:
-        raise BadInputError("an edit is open", "in vary", "finish it before")
-    return applied, report
-
-
-def _particulars(state: HullState, vmap: VMap, parent: Parent, ask: Ask) -> dict[str, float]:
-    """Give the principal dimensions that change with the map."""
-    ship, aim = state.particulars, ask.values
-    found = {name: aim[name] for name in ("length", "draught") if name in aim}
-    deck = parent.places.get("deck", np.array([0.5 * ship.length, 0.0, ship.depth]))
-    rise = float(vmap(deck[None, :])[0, 2] - deck[2])
-    if rise != 0.0:
-        found["depth"] = ship.depth + rise
-    sizes = ("breadth", ship.breadth, parent.breadth), ("depth", ship.depth, parent.depth)
-    for name, stored, measured in sizes:
-        if name in aim:
-            found[name] = _in_proportion(stored, measured, aim[name])
-    return found
-
-
-def _in_proportion(stored: float, measured: float, asked: float) -> float:
-    """Give what becomes of a stored dimension whose measured value differs a little."""
-    return asked if stored == measured else stored * (asked / measured)
-
-
-def _measured(state: HullState, ask: Ask) -> dict[str, float]:
-    """Measure what was asked for; amplitudes are what was asked for."""
-    names = [name for name in ask.values if not CATALOGUE[name].amplitude]
-    found = present(measure_all(state, names), ask.layout)
-    lost = [name for name in names if name not in found]
-    if lost:
-        raise BadInputError(
-            f"cannot measure '{lost[0]}' on the varied hull", "in vary", "ask for less"
-        )
-    return {name: found.get(name, value) for name, value in ask.values.items()}
+    return Settled(vmap, rounds, certificate, miss, ask.values, vmap)

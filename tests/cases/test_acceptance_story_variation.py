@@ -125,6 +125,21 @@ def test_lines_cut_anew_keep_their_points_forward_of_the_stern(
         assert new == old, name
 
 
+def test_the_comparison_tells_what_came_of_it(bulk_carrier: ah.Hull, story: Variation) -> None:
+    """Circles by their parameters, the shaft by its own, lines where they moved and no others."""
+    found = ah.compare(bulk_carrier, story.hull)
+    changed = {each.name: each for each in found.features if each.what != "same"}
+    assert {"bossing end", "ST 0.45 circle", "ST 0.5 circle"} <= set(changed)
+    end = changed["bossing end"]
+    assert (end.before or {})["radius"] == 0.725
+    assert (end.after or {})["radius"] == 1.0
+    assert found.parameter("SCH").difference == pytest.approx(1.0, abs=1e-6)
+    assert "BTK 1 x bossing end" in found.points.came
+    assert found.line("bossing end").length == pytest.approx(1.275, abs=1e-6)  # its top: 5.725 > 7
+    assert {found.line(name).what for name in ("ST 3", "ST 10", "ST 20.3")} == {"same"}
+    assert {line.what for line in found.lines} == {"same", "moved"}
+
+
 def test_the_bossing_alone_becomes_as_wide(bulk_carrier: ah.Hull) -> None:
     """Two waterlines and a buttock are tangent to it then; the hull is sound, all are met."""
     alone = ah.vary(bulk_carrier, set={"bossing_radius": 1.0})

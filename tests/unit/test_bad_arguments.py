@@ -112,6 +112,9 @@ CURVES: dict[str, Given] = {
 LINES: dict[str, Given] = {"meet": {"plane": ((1.0, 0.0, 0.0), 40.0)}}
 MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "open": (ah.open, {"path": "a"}),
+    "sample": (
+        ah.sample, {"ranges": {"breadth": (9.0, 11.0)}, "count": 2, "seed": 0, "method": "latin"}
+    ),
     "read": (
         ah.read,
         {
@@ -213,6 +216,13 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "sensitivities": {
+        "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
+    },
+    "study": {
+        "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
+        "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
+    },
     "vary": {
         "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
         "stations": "number", "planes": "follow", "tolerance": 2e-3, "name": None,

@@ -91,6 +91,26 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["'bilge_radius' leaves less than 0.05 at x=5.600 y=2.500 z=7.800 (D=0.031); ask for less"],
     ),
     (
+        errors.TooFewFreeError(3, 2),
+        ValueError,
+        ["3 targets need at least 3 free parameters", "(2 given)", "only with exact=False"],
+    ),
+    (
+        errors.DependentTargetsError(("LCB", "LCF"), 3.2e7),
+        ValueError,
+        ["aim: targets LCB and LCF move together (condition 3e7); drop one or free another"],
+    ),
+    (
+        errors.UnreachableError(
+            "volume", "m3", 57238.76, 52698.21, 52035.24, ("fore_shift", "aft_shift")
+        ),
+        ValueError,
+        [
+            "aim: cannot reach volume 57238.8 m3: best 52698.2 m3 (-8.73 % of the parent), "
+            "fore_shift and aft_shift at their bounds"
+        ],
+    ),
+    (
         errors.MissingExtraError("matplotlib", "plot"),
         ImportError,
         ["matplotlib", "pip install 'assoc-hull[plot]'"],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
 from assoc_hull.analysis.form.literature import LEWIS, TABLE_3
 from assoc_hull.analysis.form.parameter import entries_in, parameter
@@ -14,7 +14,7 @@ __all__ = ["PARAMETERS", "of_waterplane"]
 
 def of_waterplane(number: float | None) -> Found:
     """Give a number of the record that it lacks, or has as nan, where there is no waterplane."""
-    if number is None or math.isnan(number):
+    if number is None or np.isnan(number):
         return Absent("no waterplane: the deck is in the water")
     return number
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
 from assoc_hull.analysis.form.literature import ITTC, TABLE_3
 from assoc_hull.analysis.form.parameter import entries_in, parameter
@@ -17,7 +17,8 @@ __all__ = ["PARAMETERS"]
     source=TABLE_3, needs=("B", "T"),
 )  # fmt: skip
 def reduced_breadth(breadth: float, draught: float) -> float:
-    return math.hypot(0.5 * breadth, draught)
+    found: float = np.hypot(0.5 * breadth, draught)
+    return found
 
 
 @parameter(
@@ -49,7 +50,8 @@ def length_over_draught(length: float, draught: float) -> float:
     definition="Lpp / V^(1/3)", source=ITTC, needs=("Lpp", "V"),
 )  # fmt: skip
 def slenderness(length: float, volume: float) -> float:
-    return length / math.cbrt(volume)
+    found: float = length / np.cbrt(volume)
+    return found
 
 
 @parameter(
@@ -65,7 +67,8 @@ def volumetric(volume: float, length: float) -> float:
     ittc="C_S", definition="WSA / sqrt(V Lpp)", source=ITTC, needs=("WSA", "V", "Lpp"),
 )  # fmt: skip
 def surface(wetted: float, volume: float, length: float) -> float:
-    return wetted / math.sqrt(volume * length)
+    found: float = wetted / np.sqrt(volume * length)
+    return found
 
 
 @parameter(

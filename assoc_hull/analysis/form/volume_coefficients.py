@@ -5,7 +5,7 @@ Prisms have the greatest section, A_max, unless the definition says otherwise.
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
 from assoc_hull.analysis.form.literature import TABLE_3
 from assoc_hull.analysis.form.parameter import entries_in, parameter
@@ -92,7 +92,8 @@ def fineness_aft_reduced(length: float, reduced: float, prismatic: float) -> flo
     definition="Cm / (L/B) / sqrt((B/T) Cb)", source=TABLE_3, needs=("Cm", "L/B", "B/T", "Cb"),
 )  # fmt: skip
 def form(section: float, slender: float, wide: float, block: float) -> float:
-    return section / slender / math.sqrt(wide * block)
+    found: float = section / slender / np.sqrt(wide * block)
+    return found
 
 
 @parameter(

@@ -52,7 +52,7 @@ def completed(script: Path, *words: str) -> set[str]:
         (("import", "--unit", "m"), {"m", "mm"}),
         (("param",), {"parameters"}),
         (("parameters", "--sha"), {"--shaft-height", "--shaft-spacing"}),
-        (("schema", "--of", ""), {"hull", "form-catalogue", "form-parameters"}),
+        (("schema", "--of", ""), {"hull", "form-catalogue", "form-parameters", "comparison"}),
         (("check", "--"), {"--help", "--json", "--notes"}),
         (("info", "sh"), {"ship.hull.json"}),
         (("completion", ""), {"bash", "zsh", "fish"}),
@@ -95,7 +95,7 @@ def test_the_schema_is_printed_and_written(
     assert main(["schema", "-o", str(tmp_path / "hull.txt")]) == 2
 
 
-@pytest.mark.parametrize("document", ["form-catalogue", "form-parameters"])
+@pytest.mark.parametrize("document", ["form-catalogue", "form-parameters", "comparison"])
 def test_the_schema_of_another_document_is_printed(
     document: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

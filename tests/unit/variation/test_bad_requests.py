@@ -244,7 +244,6 @@ def test_parameters_that_contradict_each_other_are_both_named(
         ("bilge_radius", "parent has no bilge"),
         ("parallel_body_end", "parent has no parallel middle body"),
         ("deadrise_deg", "parent has no parallel middle body"),
-        ("fore_shift", "parent has no parallel middle body"),
     ],
 )
 def test_what_a_parent_has_not_cannot_be_varied(wigley: ah.Hull, name: str, why: str) -> None:

@@ -1,17 +1,4 @@
-"""The errors this package raises: one small family, each also the fitting builtin.
-
-Every message says what is wrong, where, how much, and what to do; the same facts are
-fields of the exception, so a program need not read the text.
-
-Examples
---------
->>> from assoc_hull.errors import UnknownNameError
->>> error = UnknownNameError("line", "WL 9", ("WL 0.5", "WL 1"))
->>> isinstance(error, KeyError) and isinstance(error, AssocHullError)
-True
->>> str(error)
-"there is no line named 'WL 9'; the nearest names are 'WL 1', 'WL 0.5'"
-"""
+"""The root of the errors, and all of them that no subject has to itself."""
 
 from __future__ import annotations
 

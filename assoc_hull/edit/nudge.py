@@ -1,0 +1,170 @@
+"""A nudge: all points of a hull move by a little that is known, its structure stays.
+
+A transformation finds anew which points a line needs; so its result is no smooth function of the
+mapping. A nudge moves the points that there are, with the planes of their lines, by given
+displacements. What is computed from curves follows, and no point comes or goes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.carry_planes import Planes, into_planes
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.feature import Feature
+from assoc_hull.model.state import Ends, HullState, Particulars
+
+if TYPE_CHECKING:
+    from assoc_hull.edit.transaction import Transaction
+
+__all__ = ["Nudge", "nudge", "nudged", "write_nudge"]
+
+
+@attrs.frozen(eq=False)
+class Nudge:
+    """By how much everything of a hull moves.
+
+    Attributes
+    ----------
+    move : (rows, 3), m
+        Displacements of all points of the tables; those of computed and watched points are not
+        read.
+    turn : (rows, 3, 3)
+        At each point: a given direction t becomes t + turn t. Nil along the normals of the planes
+        that the direction must stay in.
+    level : (lines,), m
+        By how much the planes of lines move along their normals; nil for curves in space.
+    features : mapping of str to mapping of str to float or (3,)
+        By the keys of features, what is added to ``centre``, ``radius`` and ``offset`` (m).
+    particulars : Particulars
+        Those of the hull afterwards.
+    within : float, m
+        How far points of features may come to lie off them.
+    """
+
+    move: FloatArray
+    turn: FloatArray
+    level: FloatArray
+    features: Mapping[str, Mapping[str, FloatArray]]
+    particulars: Particulars
+    within: float
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.move, self.turn, self.level)
+
+
+def nudge(edit: Transaction, by: Nudge) -> None:
+    """Move a hull by a little when all else of an edit has run.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit: empty, or with a transformation in it.
+    by : Nudge
+        What moves, for the tables as they are then.
+
+    Raises
+    ------
+    BadInputError
+        Something else but a transformation is in the edit.
+    """
+    pending = edit.pending
+    others = pending.values or pending.fields or pending.curves or edit.journal.entries
+    if pending.nudge is not None or (others and not pending.alone):
+        raise BadInputError(*pending.not_alone(edit.name))
+    pending.alone, pending.nudge = True, by
+
+
+def write_nudge(
+    state: HullState, journal: Journal, by: Nudge, features: Sequence[Feature]
+) -> tuple[IntArray, tuple[Feature, ...]]:
+    """Write the new places, planes and directions.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    journal : Journal
+        Takes every write.
+    by : Nudge
+        What moves.
+    features : sequence of Feature
+        As they are before.
+
+    Returns
+    -------
+    (k,) int
+        The points that were moved.
+    tuple of Feature
+        The features afterwards.
+
+    Raises
+    ------
+    BadInputError
+        The tables are others than those that the nudge is for.
+    """
+    if len(by.move) != state.rows.count or len(by.level) != state.lines.count:
+        raise BadInputError(
+            f"a nudge of {len(by.move)} points for a hull of {state.rows.count}", "in nudge",
+            "carry the hull in full",
+        )  # fmt: skip
+    planes, rows = _planes(state, by.level), nudged(state)
+    rows = rows[by.move[rows].any(axis=1)]
+    lines = np.flatnonzero(by.level != 0.0)
+    journal.put(state.lines.offset, lines, planes.offset[lines])
+    places = into_planes(state, planes, rows, state.rows.xyz.data[rows] + by.move[rows])
+    journal.put(state.rows.xyz, rows, places)
+    _turn_points(state, journal, by.turn)
+    _turn_ends(state, journal, by.turn)
+    if by.particulars != state.particulars:
+        journal.set(state.settings.particulars, [0], [by.particulars])
+    return rows, tuple(_moved(each, by.features.get(each.key, {})) for each in features)
+
+
+def nudged(state: HullState) -> IntArray:
+    """Give the points that a nudge moves by itself: they are alive, and not computed."""
+    table = state.rows
+    watched = (table.sort.data == Sort.CROSSING) & (table.role.data == Role.WATCHED)
+    return np.flatnonzero(table.alive.data & (table.driver.data < 0) & ~watched)
+
+
+def _planes(state: HullState, level: FloatArray) -> Planes:
+    lines = state.lines
+    return Planes(lines.normal.data, lines.offset.data + level, lines.planar.data, {})
+
+
+def _turn_points(state: HullState, journal: Journal, turn: FloatArray) -> None:
+    """Turn the directions that are given at points."""
+    table = state.rows
+    turned = table.alive.data & turn.any(axis=(1, 2))
+    rows = np.flatnonzero(turned & table.direction.data.any(axis=(1, 2)))
+    old = table.direction.data[rows]
+    journal.put(table.direction, rows, old + np.einsum("nij,nsj->nsi", turn[rows], old))
+
+
+def _turn_ends(state: HullState, journal: Journal, turn: FloatArray) -> None:
+    """Turn the tangents that are given at the ends of curves."""
+    for curve in state.live("curves").tolist():
+        ends: Ends = state.curves.ends.data[curve]
+        if EndKind.TANGENT not in ends.kind:
+            continue
+        rows = state.curves.rows.data[curve][[0, -1]]
+        old = np.array(ends.vector)
+        tangent = np.array(ends.kind) == EndKind.TANGENT
+        new = old + np.where(tangent[:, None], np.einsum("nij,nj->ni", turn[rows], old), 0.0)
+        if (new != old).any():
+            start, finish = (tuple(each) for each in new.tolist())
+            journal.set(state.curves.ends, [curve], [Ends(ends.kind, (start, finish))])
+
+
+def _moved(feature: Feature, by: Mapping[str, FloatArray]) -> Feature:
+    """Give a feature with what is added to its numbers."""
+    new = {name: np.asarray(getattr(feature, name)) + step for name, step in by.items()}
+    return attrs.evolve(feature, **{name: each.tolist() for name, each in new.items()})

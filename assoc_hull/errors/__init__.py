@@ -1,0 +1,66 @@
+"""The errors this package raises: one small family, each also the fitting builtin.
+
+Every message says what is wrong, where, how much, and what to do; the same facts are
+fields of the exception, so a program need not read the text.
+
+Examples
+--------
+>>> from assoc_hull.errors import UnknownNameError
+>>> error = UnknownNameError("line", "WL 9", ("WL 0.5", "WL 1"))
+>>> isinstance(error, KeyError) and isinstance(error, AssocHullError)
+True
+>>> str(error)
+"there is no line named 'WL 9'; the nearest names are 'WL 1', 'WL 0.5'"
+"""
+
+from assoc_hull.errors.aiming import DependentTargetsError, TooFewFreeError, UnreachableError
+from assoc_hull.errors.family import (
+    AbsentParameterError,
+    AssocHullError,
+    BadInputError,
+    CoincidentPointsError,
+    DamagedFileError,
+    FileBusyError,
+    FoldError,
+    ForeignPointError,
+    FreedomError,
+    HullFileError,
+    MissingExtraError,
+    NameTakenError,
+    NoMeetingError,
+    OutOfRangeError,
+    PointRoleError,
+    RefusedEditError,
+    RingError,
+    StaleHullError,
+    TooFewPointsError,
+    UnknownNameError,
+    WrongTypeError,
+)
+
+__all__ = [
+    "AbsentParameterError",
+    "AssocHullError",
+    "BadInputError",
+    "CoincidentPointsError",
+    "DamagedFileError",
+    "DependentTargetsError",
+    "FileBusyError",
+    "FoldError",
+    "ForeignPointError",
+    "FreedomError",
+    "HullFileError",
+    "MissingExtraError",
+    "NameTakenError",
+    "NoMeetingError",
+    "OutOfRangeError",
+    "PointRoleError",
+    "RefusedEditError",
+    "RingError",
+    "StaleHullError",
+    "TooFewFreeError",
+    "TooFewPointsError",
+    "UnknownNameError",
+    "UnreachableError",
+    "WrongTypeError",
+]

@@ -1,0 +1,1 @@
+"""Many variants of one hull: designs, samples, and what becomes of each."""

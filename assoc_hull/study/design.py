@@ -1,0 +1,230 @@
+"""What a study is asked for: which variants, by what, aimed at what; checked and frozen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import numbers, shown, shown_name, text
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.ask_reach import AskReach
+from assoc_hull.variation.catalogue import NAMES
+from assoc_hull.variation.layer import Layer
+from assoc_hull.variation.layout import Layout
+
+__all__ = ["OUTPUTS", "Design"]
+
+OUTPUTS = (
+    "volume", "displacement", "lcb", "kb", "kmt", "kml", "waterplane_area", "lcf",
+    "wetted_surface", "a_midship", "cb", "cp", "cm", "cw",
+)  # fmt: skip
+"""What is told of each variant unless it is said."""
+
+_WHERE = "in study"
+_MOST = 1_000_000
+"""Variants of one study: their rows are held in memory."""
+
+
+@attrs.frozen(eq=False)
+class Design:
+    """What a study is asked for.
+
+    Attributes
+    ----------
+    given : tuple of str
+        Parameters whose values are given: named ones, and layers.
+    free : tuple of str
+        Parameters whose values are sought.
+    layers : tuple of Layer
+        The raw layers among these, by their names.
+    values : (n, g)
+        Of the given parameters, variant by variant: m, degrees, or the factor on a layer.
+    aims : tuple of str
+        Outputs that are aimed at.
+    targets : (n, m)
+        What they are to be, variant by variant, in their units.
+    bounds : (k, 2)
+        Least and greatest value of each free parameter; infinite where nothing bounds it.
+    outputs : tuple of str
+        What is told of each variant; those that are aimed at among them.
+    layout : Layout
+        How far the fields of named parameters reach.
+    """
+
+    given: tuple[str, ...]
+    free: tuple[str, ...]
+    layers: tuple[Layer, ...]
+    values: FloatArray
+    aims: tuple[str, ...]
+    targets: FloatArray
+    bounds: FloatArray
+    outputs: tuple[str, ...]
+    layout: Layout
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.values, self.targets, self.bounds)
+
+    @property
+    def count(self) -> int:
+        """How many variants."""
+        return len(self.values)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All parameters: given ones, then free ones."""
+        return self.given + self.free
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        set: Mapping[str, object] | None = None,
+        reach: Mapping[str, object] | Sequence[Mapping[str, object]] | None = None,
+        free: object = (),
+        bounds: Mapping[str, object] | None = None,
+        layers: Sequence[object] = (),
+        outputs: Sequence[str] = OUTPUTS,
+        layout: Mapping[str, Any] | Layout | None = None,
+    ) -> Design:
+        """Take what a designer gives; see `assoc_hull.studies.study`.
+
+        Raises
+        ------
+        UnknownNameError
+            No such parameter, or no such output.
+        BadInputError
+            Columns of different lengths, numbers that are none, or fewer free parameters than
+            there are targets.
+        """
+        ask = _ask(layers, layout)
+        raw = {each.name: each for each in ask.layers}
+        aims, targets = _columns(_by_name(reach), "reach")
+        sought = _sought(free, bounds, aims, raw)
+        raw |= {each.name: each for each in sought.free if not isinstance(each, str)}
+        given, values = _columns(set, "set", (*NAMES, *raw))
+        unused = [name for name in raw if name not in given and name not in sought.names]
+        given, values = (*given, *unused), [*values, *(np.ones(1) for _ in unused)]
+        _check(given, sought.names, aims)
+        count = _count([*zip(given, values, strict=True), *zip(aims, targets, strict=True)])
+        return cls(
+            given, sought.names, tuple(raw.values()), _table(values, count), aims,
+            _table(targets, count), sought.limits([0.0] * len(sought.names)),
+            _outputs(outputs, aims), ask.layout,
+        )  # fmt: skip
+
+
+_NOTHING = AskReach({}, (), {})
+"""Nothing is free."""
+
+
+def _sought(
+    free: object, bounds: object, aims: tuple[str, ...], raw: Mapping[str, Layer]
+) -> AskReach:
+    """Take what is free, and between which values, as `vary` does; layers also by their names."""
+    if bounds is not None and not isinstance(bounds, Mapping):
+        raise WrongTypeError(f"bounds is {shown(bounds)}", _WHERE, "give (low, high) by name")
+    if isinstance(free, Sequence) and not isinstance(free, str):
+        free = [raw.get(each, each) if isinstance(each, str) else each for each in free]
+    return AskReach.of(dict.fromkeys(aims, 0.0), free, bounds, True) or _NOTHING
+
+
+def _ask(layers: Sequence[object], layout: Mapping[str, Any] | Layout | None) -> Ask:
+    """Take layers and layout as `vary` does."""
+    if isinstance(layers, str) or not isinstance(layers, Sequence):
+        raise WrongTypeError(f"layers is {shown(layers)}", _WHERE, "give a list of layers")
+    if not layers:
+        whole = attrs.asdict(layout) if isinstance(layout, Layout) else layout
+        return Ask({}, layout=Layout.of(whole))
+    ask = Ask.of(layers=layers, layout=layout)
+    names = [each.name for each in ask.layers]
+    for name in names:
+        if names.count(name) > 1 or name in NAMES:
+            raise BadInputError(
+                f"two parameters are called '{name}'", _WHERE, "give each layer a name of its own"
+            )
+    return ask
+
+
+def _by_name(given: object) -> object:
+    """Turn a row per variant into a column per name."""
+    if given is None or isinstance(given, Mapping):
+        return given
+    if isinstance(given, str) or not isinstance(given, Sequence) or not given:
+        raise WrongTypeError(f"reach is {shown(given)}", _WHERE, "give values by name")
+    rows = [row for row in given if isinstance(row, Mapping)]
+    if len(rows) != len(given) or any(row.keys() != rows[0].keys() for row in rows):
+        raise BadInputError(
+            "the rows of reach do not ask for the same outputs", _WHERE,
+            "give a mapping per variant, all of the same names",
+        )  # fmt: skip
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def _columns(
+    given: object, argument: str, known: tuple[str, ...] | None = None
+) -> tuple[tuple[str, ...], list[FloatArray]]:
+    """Take one number or one per variant, by name."""
+    if given is None:
+        return (), []
+    if not isinstance(given, Mapping):
+        raise WrongTypeError(f"{argument} is {shown(given)}", _WHERE, "give values by name")
+    for name in given:
+        if known is not None and name not in known:
+            raise UnknownNameError("parameter", shown_name(name), known)
+        text(name, f"a name in {argument}", _WHERE)
+    columns = [np.atleast_1d(numbers(each, str(name), _WHERE)) for name, each in given.items()]
+    for name, column in zip(given, columns, strict=True):
+        if not 1 <= len(column) <= _MOST:
+            raise BadInputError(
+                f"{name} has {len(column)} values", _WHERE, f"give from 1 to {_MOST:,}"
+            )
+    return tuple(map(str, given)), columns
+
+
+def _check(given: tuple[str, ...], free: tuple[str, ...], aims: tuple[str, ...]) -> None:
+    """See that given and free parameters and targets fit together."""
+    for name in free:
+        if name in given:
+            raise BadInputError(f"free parameter '{name}' is set as well", _WHERE, "name it once")
+    if not given and not aims:
+        raise BadInputError(
+            "nothing is asked for", _WHERE, "give values with set, or targets with reach"
+        )
+    if len(free) < len(aims):
+        raise BadInputError(
+            f"{len(aims)} targets need at least {len(aims)} free parameters ({len(free)} given)",
+            _WHERE, "free more parameters, or drop targets",
+        )  # fmt: skip
+
+
+def _count(columns: Sequence[tuple[str, FloatArray]]) -> int:
+    """Give how many variants columns are for."""
+    long = [(name, len(column)) for name, column in columns if len(column) > 1]
+    for name, size in long:
+        if size != long[0][1]:
+            raise BadInputError(
+                f"{name} has {size} values, {long[0][0]} has {long[0][1]}", _WHERE,
+                "give one value, or one per variant",
+            )  # fmt: skip
+    return long[0][1] if long else 1
+
+
+def _table(columns: Sequence[FloatArray], count: int) -> FloatArray:
+    """Put columns side by side, (count, c)."""
+    found = np.empty((count, len(columns)))
+    for i, column in enumerate(columns):
+        found[:, i] = column
+    return found
+
+
+def _outputs(given: Sequence[str], aims: tuple[str, ...]) -> tuple[str, ...]:
+    """Take names of outputs: those that are aimed at come first."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        raise WrongTypeError(f"outputs is {shown(given)}", _WHERE, "give a list of names")
+    names = [text(name, "a name in outputs", _WHERE) for name in given]
+    return tuple(dict.fromkeys((*aims, *names)))

@@ -1,0 +1,233 @@
+"""Hulls as a smooth function of amplitudes: carried in full now and then, nudged in between.
+
+A hull that is carried in full has the lines that its map wants; which points these are made through
+is decided anew each time, within the tolerance of the drivers. So a full carry is no smooth
+function of its amplitudes. Near one, all points move in proportion to the changes of the
+amplitudes, and the hull is as smooth a function of these as its sums are of its points.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.moves import Moves
+from assoc_hull.analysis.parameters import Rates
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.nudge import Nudge, nudge
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import RefusedEditError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.model.copy import copy_of
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.carry_out import carry_out
+from assoc_hull.variation.hull_maps import HullMaps
+from assoc_hull.variation.outputs import Outputs
+from assoc_hull.variation.velocities import Velocities, velocities
+
+__all__ = ["HullProblem", "Reached"]
+
+_FAR = 0.25
+"""m: a hull of which no point moves farther is nudged, and not carried in full."""
+
+_OFF = 0.25
+"""In a nudge points leave the hull by no more than this part of the drivers' tolerance."""
+
+_HAIR = 1e-3
+"""Usual changes by which it is found which lines of a parent will drive."""
+
+
+@attrs.frozen(eq=False)
+class Base:
+    """A hull carried in full, from which others are nudged.
+
+    Attributes
+    ----------
+    state : HullState
+    amplitudes : (k,)
+    lines : (d,) int
+        Those that drove, boundary curves among them.
+    follow : bool
+    still : bool
+        Whether it is the parent itself.
+    maps : HullMaps
+    """
+
+    state: HullState
+    amplitudes: FloatArray
+    lines: IntArray
+    follow: bool
+    still: bool
+    maps: HullMaps
+
+    @cached_property
+    def rates(self) -> Velocities:
+        """How fast it moves with the amplitudes."""
+        return velocities(self.state, self.maps, self.amplitudes, self.lines, follow=self.follow)
+
+    def near(self, amplitudes: FloatArray) -> bool:
+        """Tell whether a hull at some amplitudes may be nudged from here."""
+        by = amplitudes - self.amplitudes
+        if self.still:
+            return not by.any()
+        far, off = self.rates.reach(by)
+        return far <= _FAR and off <= _OFF * self.maps.ask.tolerance
+
+    def nudge_to(self, amplitudes: FloatArray) -> Nudge | None:
+        """Give the nudge that leads to amplitudes; None if nothing moves."""
+        by = amplitudes - self.amplitudes
+        if not by.any():
+            return None
+        return self.rates.nudge(by, self.state.particulars, self.maps.ask.tolerance)
+
+
+@attrs.define(eq=False)
+class Reached:
+    """A certified hull at some amplitudes.
+
+    Attributes
+    ----------
+    state : HullState
+        Its tables.
+    amplitudes : (k,)
+    base : Base
+        What it was nudged from.
+    """
+
+    state: HullState
+    amplitudes: FloatArray
+    base: Base
+    outputs: Outputs
+    _values: FloatArray | None = None
+    _jacobian: FloatArray | None = None
+
+    def moves(self) -> list[Moves]:
+        """Give how it moves with each amplitude."""
+        rates = self.base.rates
+        turn = rates.turning(self.amplitudes - self.base.amplitudes)
+        return [
+            Moves(each.name, rates.move[j], turn[j], Rates(*rates.sizes[j].tolist()), each.unit)
+            for j, each in enumerate(self.base.maps.free)
+        ]
+
+    @property
+    def values(self) -> FloatArray:
+        """Outputs in their own units, (m,)."""
+        if self._values is None:
+            self._values = self.outputs.values(self.state)
+        return self._values
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """Derivatives of outputs by amplitudes, (m, k)."""
+        if self._jacobian is None:
+            self._values, self._jacobian = self.outputs.derivatives(self.state, self.moves())
+        return self._jacobian
+
+
+@attrs.define(eq=False)
+class HullProblem:
+    """Outputs of varied hulls as functions of amplitudes; a `Problem` of aiming.
+
+    Attributes
+    ----------
+    maps : HullMaps
+        The maps of the parent.
+    measured : Outputs
+        What is aimed at.
+    base : Base or None
+        The hull that was last carried in full.
+    carries, nudges : int
+        How many hulls were carried and nudged.
+    """
+
+    maps: HullMaps
+    measured: Outputs
+    base: Base | None = None
+    carries: int = 0
+    nudges: int = 0
+    _known: dict[bytes, Reached] = attrs.field(factory=dict)
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Names of the k free parameters."""
+        return tuple(each.name for each in self.maps.free)
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the m outputs."""
+        return self.measured.names
+
+    def at(self, amplitudes: FloatArray) -> Reached:
+        """Give the hull at amplitudes, (k,).
+
+        Raises
+        ------
+        FoldError, OutOfRangeError, RefusedEditError, BadInputError
+            There is no certified hull there.
+        """
+        at = np.array(amplitudes, np.float64)
+        freeze(at)
+        key = at.tobytes()
+        if key not in self._known:
+            self._known[key] = self._reached(at)
+        return self._known[key]
+
+    def _reached(self, at: FloatArray) -> Reached:
+        if self.maps.still(at):
+            if self.base is None or not self.base.still:
+                self.base = self._parent(at)
+            return Reached(self.maps.state, at, self.base, self.measured)
+        self.maps.certified(at)
+        if self.base is not None and self.base.near(at):
+            found = self._nudged(self.base, at)
+            if found is not None:
+                return found
+        self.base = self._carried(at)
+        return Reached(self.base.state, at, self.base, self.measured)
+
+    def _parent(self, at: FloatArray) -> Base:
+        """Take the parent as it is: lines will drive as they do when all parameters move a hair."""
+        maps = self.maps
+        lines, follow = maps.driving(np.array([_HAIR * each.usual for each in maps.free]))
+        return Base(maps.state, at, lines, follow, still=True, maps=maps)
+
+    def _carried(self, at: FloatArray) -> Base:
+        """Carry the parent in full."""
+        maps, room = self.maps, self.maps.room
+        document = Document(copy_of(maps.state))
+        applied, _ = carry_out(
+            document, maps.map(at), room.parent, maps.ask, room.present, maps.values(at)
+        )
+        self.carries += 1
+        lines = maps.with_boundaries(applied.driving.lines)
+        return Base(document.state, at, lines, applied.driving.follow, still=False, maps=maps)
+
+    def _nudged(self, base: Base, at: FloatArray) -> Reached | None:
+        """Nudge a hull; None if its structure would not stay."""
+        document, by = Document(copy_of(base.state)), base.nudge_to(at)
+        if by is None:
+            return Reached(base.state, at, base, self.measured)
+        try:
+            with Transaction(document, self.maps.ask.name) as edit:
+                nudge(edit, by)
+        except RefusedEditError:
+            return None
+        self.nudges += 1
+        same = _same_structure(base.state, document.state)
+        return Reached(document.state, at, base, self.measured) if same else None
+
+
+def _same_structure(one: HullState, other: HullState) -> bool:
+    """Tell whether two hulls have the same points, in the same roles, on the same curves."""
+    if one.rows.count != other.rows.count or one.curves.count != other.curves.count:
+        return False
+    same = (one.rows.alive.data == other.rows.alive.data).all()
+    same &= (one.rows.role.data == other.rows.role.data).all()
+    same &= (one.rows.driver.data == other.rows.driver.data).all()
+    return bool(same) and all(
+        np.array_equal(one.curves.rows.data[curve], other.curves.rows.data[curve])
+        for curve in one.live("curves").tolist()
+    )

@@ -1,0 +1,59 @@
+"""The command `study`: values drawn, targets, files, reasons."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from assoc_hull.cli import main
+from tests.unit.cli.conftest import Json
+
+
+def test_drawn_values_make_a_table(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """LOW:HIGH is drawn for each variant; the file has a row each, below names and units."""
+    target = tmp_path / "variants.csv"
+    found = facts("study", hull, "--set", "draught=6:6.4", "--count", 2, "--seed", 3,
+                  "--outputs", "cb", "-o", target)  # fmt: skip
+    drawn = found["columns"]["draught"]
+    assert found["saved"] == str(target)
+    assert all(6.0 <= value <= 6.4 for value in drawn)
+    rows = list(csv.reader(target.read_text().splitlines()))
+    assert rows[0][:3] == ["number", "draught", "cb"]
+    assert rows[1][1] == "m"
+    assert [float(row[1]) for row in rows[2:]] == pytest.approx(drawn, rel=1e-11)
+
+
+def test_a_script_names_what_is_asked(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Reasons of variants that are none are told; exit 1 if none is left."""
+    script = tmp_path / "asked.json"
+    script.write_text(json.dumps({"reach": {"volume": 2700}, "free": ["breadth"],
+                                  "bounds": {"breadth": [9.9, 9.95]}}))  # fmt: skip
+    assert main(["study", str(hull), "--script", str(script)]) == 1
+    said = capsys.readouterr().out
+    assert "0 of 1 variants, 1 out of range" in said
+    assert "breadth of 9.7" in said
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--set", "breadth"], "give NAME=VALUE"),
+        (["--set", "breadth=x"], "'x' is no number"),
+        (["--set", "breadth=3", "--set", "breadth=4"], "given twice"),
+        (["--set", "bredth=3"], "'breadth'"),
+        (["--reach", "volume=3", "--free", "breadth=3"], "give LOW:HIGH"),
+        ([], "nothing is asked for"),
+    ],
+    ids=["no value", "no number", "twice", "unknown", "no bounds", "nothing"],
+)
+def test_what_cannot_be_asked_ends_with_exit_2(
+    hull: Path, options: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In one line that says what."""
+    assert main(["study", str(hull), *options]) == 2
+    said = capsys.readouterr().err
+    assert words in said
+    assert len(said.splitlines()) == 1
