@@ -216,6 +216,9 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "sensitivities": {
+        "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
+    },
     "study": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
@@ -287,12 +290,12 @@ def check(error: ah.AssocHullError) -> None:
 @pytest.mark.parametrize(("method", "given", "name"), cases(HULL))
 def test_a_hull_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
     for trial in spoilt(given, name):
-        before = hull.fingerprint
         with trial as bad:
             call(getattr(hull, method), bad)
             assert hull.history == ()
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(EDIT))
@@ -323,11 +326,11 @@ def assert_no_trace(hull: ah.Hull, method: str, given: Given) -> None:
 @pytest.mark.parametrize(("method", "given", "name"), cases(CURVES))
 def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """Parameters and places that are none are refused."""
+    curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
     for trial in spoilt(given, name):
-        curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
         with trial as bad:
             call(getattr(curve, method), bad)
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(LINES))
@@ -366,11 +369,11 @@ def test_a_hull_is_measured_by_good_values(
     hull: ah.Hull, method: str, given: Given, name: str
 ) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
     for trial in spoilt(given, name):
-        before = hull.fingerprint
         with trial as bad:
             call(partial(getattr(ah, method), hull), bad)
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize("method", FLOATING)
