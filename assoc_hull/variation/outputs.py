@@ -18,6 +18,7 @@ from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.hydrostatic_header import SALT
 from assoc_hull.analysis.measured_hull import header_of
+from assoc_hull.analysis.moved import flotation_like
 from assoc_hull.analysis.parameters import Parameter, Position
 from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.analysis.tangents import tangents_by
@@ -124,8 +125,15 @@ class Outputs:
         """The unit of each output; a dash where there is none."""
         return tuple(KINDS[kind].unit(key) for kind, key in self.keys)
 
-    def values(self, state: HullState) -> FloatArray:
+    def values(self, state: HullState, *, like: HullState | None = None) -> FloatArray:
         """Give the outputs of a hull, (m,), in their units.
+
+        Parameters
+        ----------
+        state : HullState
+            The hull.
+        like : HullState or None
+            A hull from which it differs by places only: its layout is used, and its doubts count.
 
         Raises
         ------
@@ -134,7 +142,7 @@ class Outputs:
         BadInputError
             It is doubtful, or lacks a value.
         """
-        return self._values(self.afloat(state))
+        return self._values(self.afloat(state, like))
 
     def values_of(self, body: Flotation, particulars: Particulars | None = None) -> FloatArray:
         """Give the outputs of a hull whose surface is at hand, (m,).
@@ -149,14 +157,14 @@ class Outputs:
         return self._values(self._shape(body, particulars))
 
     def derivatives(
-        self, state: HullState, shapes: Sequence[Parameter]
+        self, state: HullState, shapes: Sequence[Parameter], *, like: HullState | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """Give the outputs of a hull (m,), and their derivatives by parameters (m, k)."""
-        found = self.differentiated(state, shapes)
+        found = self.differentiated(state, shapes, like=like)
         return found.values, found.jacobian
 
     def differentiated(
-        self, state: HullState, wrt: Sequence[Parameter], *, body: Flotation | None = None
+        self, state: HullState, wrt: Sequence[Parameter], *, like: HullState | None = None
     ) -> OutputRates:
         """Give the outputs of a hull, their derivatives, and how these were taken.
 
@@ -166,15 +174,15 @@ class Outputs:
             The hull.
         wrt : sequence of k parameters
             Of `assoc_hull.analysis.parameters`, or `Moves`; not of a position that heels.
-        body : Flotation or None
-            Its surface, if that is at hand.
+        like : HullState or None
+            As for `values`.
 
         Raises
         ------
         OutOfRangeError, BadInputError, WrongTypeError
             As `values`; a parameter that cannot be used.
         """
-        shape = self.afloat(state, body)
+        shape = self.afloat(state, like)
         values = self._values(shape)
         jacobian = np.zeros((len(self.names), len(wrt)))
         exact = np.ones(len(self.names), np.bool_)
@@ -185,10 +193,12 @@ class Outputs:
                 exact[rows] &= sure
         return OutputRates(values, jacobian, exact)
 
-    def afloat(self, state: HullState, body: Flotation | None = None) -> Shape:
+    def afloat(self, state: HullState, like: HullState | None = None) -> Shape:
         """Give a hull as its outputs are taken of it, or say what makes it doubtful."""
-        shape = self._shape(flotation(state) if body is None else body, None)
-        doubts = shape.body.doubts(shape.planes, numbers=False)
+        looked_at = flotation(state if like is None else like)
+        body = looked_at if like is None else flotation_like(like, state)
+        shape = self._shape(body, None)
+        doubts = looked_at.doubts(shape.planes, numbers=False)
         if doubts:
             raise BadInputError(doubts[0], _WHERE, "mend the hull")
         return shape

@@ -21,9 +21,9 @@ from assoc_hull.variation.hull_maps import HullMaps
 from assoc_hull.variation.hull_problem import HullProblem, Reached
 from assoc_hull.variation.outputs import Outputs
 from assoc_hull.variation.room import Room
-from assoc_hull.variation.settled import Settled, measured, settle
+from assoc_hull.variation.settled import Settled, changes, measured, settle
 
-__all__ = ["freedoms", "settle_reach"]
+__all__ = ["freedoms", "problem_of", "settle_reach"]
 
 
 def settle_reach(state: HullState, room: Room, ask: Ask, reach: AskReach) -> Settled:
@@ -54,6 +54,39 @@ def settle_reach(state: HullState, room: Room, ask: Ask, reach: AskReach) -> Set
         ask, room.present,
         lambda aim, rounds: _aimed(HullMaps(room, ask, aim, free), outputs, before, reach, rounds),
     )  # fmt: skip
+
+
+def problem_of(state: HullState, ask: Ask) -> HullProblem:
+    """Give the problem that is solved to reach targets, at the values that are set.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables of the parent.
+    ask : Ask
+        What is asked for; it names targets, and what is free.
+
+    Raises
+    ------
+    UnknownNameError, BadInputError
+        Targets, or what is free, that the hull has not; nothing to reach.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.variation.ask import Ask
+    >>> from assoc_hull.variation.reaching import problem_of
+    >>> ask = Ask.of(reach={"volume": 2800.0}, free=["breadth"])
+    >>> hull = problem_of(wigley(stations=5, waterlines=4), ask).at(np.zeros(1))
+    >>> [each.name for each in hull.moves()], hull.jacobian.round(1).tolist()
+    (['breadth'], [[275.5]])
+    """
+    if ask.reach is None:
+        raise BadInputError("nothing to reach", "in vary", "give reach={name: value}")
+    room = Room.of(state, ask.layout, ask.tolerance)
+    free, outputs = freedoms(room, ask, ask.reach), Outputs.of(state, tuple(ask.reach.targets))
+    return HullProblem(HullMaps(room, ask, changes(ask, room.present), free), outputs)
 
 
 def freedoms(room: Room, ask: Ask, reach: AskReach) -> tuple[Freedom, ...]:

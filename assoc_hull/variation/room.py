@@ -11,6 +11,7 @@ from assoc_hull.errors import AssocHullError, BadInputError, FoldError, OutOfRan
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.admissible import admissible
+from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.bounds import bounds
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
@@ -18,8 +19,9 @@ from assoc_hull.variation.certify import certify
 from assoc_hull.variation.compose import compose, refuse_clashes
 from assoc_hull.variation.features_net import regenerated
 from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import interval
+from assoc_hull.variation.limits import hull_box, interval, present
 from assoc_hull.variation.parent import Parent
+from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.vmap import VMap
 
 __all__ = ["SAME", "Room", "asked_radii"]
@@ -72,6 +74,23 @@ class Room:
     layout: Layout
     box: FloatArray
     _found: dict[str, tuple[float, float]] = attrs.field(factory=dict, init=False, repr=False)
+
+    @classmethod
+    def of(cls, state: HullState, layout: Layout, tolerance: float) -> Room:
+        """Measure a hull.
+
+        Parameters
+        ----------
+        state : HullState
+            The tables.
+        layout : Layout
+            How far fields reach.
+        tolerance : float, m
+            How far drivers may leave their images.
+        """
+        measures = measure_all(state)
+        parent, was = parent_of(state, measures), present(measures, layout)
+        return cls(state, parent, was, layout, hull_box(state, tolerance))
 
     def interval(self, name: str) -> tuple[float, float]:
         """Give the least and greatest value of a parameter, asked for alone; sought once."""

@@ -11,7 +11,13 @@ import numpy as np
 from assoc_hull.analysis.measured_hull import HasState, state_of
 from assoc_hull.analysis.parameters import DRAUGHT, TRIM, Parameter
 from assoc_hull.arguments import shown
-from assoc_hull.errors import BadInputError, OutOfRangeError, UnknownNameError, WrongTypeError
+from assoc_hull.errors import (
+    BadInputError,
+    FoldError,
+    OutOfRangeError,
+    UnknownNameError,
+    WrongTypeError,
+)
 from assoc_hull.model.state import HullState
 from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.ask import Ask
@@ -129,8 +135,10 @@ class _Maker:
         for name in NAMES:
             try:
                 found.append(self._named(name))
-            except (BadInputError, OutOfRangeError) as error:
-                absent[name] = getattr(error, "what", str(error))
+            except (BadInputError, OutOfRangeError, FoldError) as error:
+                # What cannot be varied stands before the reason.
+                words = getattr(error, "what", str(error))
+                absent[name] = words.partition(": ")[2] or words
         return found, absent
 
     def chosen(self, given: object) -> list[_Taken]:

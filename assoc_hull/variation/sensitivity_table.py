@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import attrs
@@ -18,6 +19,10 @@ __all__ = ["Sensitivities"]
 
 _WHERE = "in a table of sensitivities"
 _DIGITS = 6
+
+
+def _held(given: Mapping[str, str]) -> Mapping[str, str]:
+    return MappingProxyType(dict(given))
 
 
 @attrs.frozen(eq=False)
@@ -53,7 +58,7 @@ class Sensitivities:
     matrix: FloatArray
     usual: FloatArray
     exact: NDArray[np.bool_]
-    absent: Mapping[str, str] = attrs.field(factory=dict)
+    absent: Mapping[str, str] = attrs.field(factory=dict, converter=_held)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.values, self.matrix, self.usual, self.exact)

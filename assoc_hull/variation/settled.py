@@ -18,7 +18,7 @@ from assoc_hull.variation.limits import present
 from assoc_hull.variation.room import SAME
 from assoc_hull.variation.vmap import VMap
 
-__all__ = ["Settled", "measured", "settle"]
+__all__ = ["Settled", "changes", "measured", "settle"]
 
 _MET = 1e-7
 """A target (m, degrees) is met where it is missed by less than this; 1e-6 is promised."""
@@ -70,6 +70,11 @@ Attempt = Callable[[Mapping[str, float], int], Settled]
 """Takes what the map is to give to parameters, and the number of the round."""
 
 
+def changes(ask: Ask, was: Mapping[str, float]) -> dict[str, float]:
+    """Give the values that are set, but for those that are so already."""
+    return {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
+
+
 def settle(ask: Ask, was: Mapping[str, float], attempt: Attempt) -> Settled:
     """Find what is to be asked of a map so that its applied values are the asked ones.
 
@@ -89,7 +94,7 @@ def settle(ask: Ask, was: Mapping[str, float], attempt: Attempt) -> Settled:
     AssocHullError
         What the first attempt raises.
     """
-    aim = {name: value for name, value in ask.values.items() if abs(value - was[name]) > SAME}
+    aim = changes(ask, was)
     best = found = attempt(aim, 1)
     for rounds in range(2, _ROUNDS + 1):
         if best.worst <= _MET:

@@ -24,14 +24,13 @@ from assoc_hull.variation.carry_out import carry_out
 from assoc_hull.variation.catalogue import CATALOGUE
 from assoc_hull.variation.certificate import Certificate
 from assoc_hull.variation.field import Region
-from assoc_hull.variation.limits import hull_box, present
+from assoc_hull.variation.limits import present
 from assoc_hull.variation.notes import (
     also_changed,
     folds_outside,
     shifted_without_body,
     went_along,
 )
-from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.reaching import settle_reach
 from assoc_hull.variation.room import Room
 from assoc_hull.variation.script import script_of
@@ -123,15 +122,13 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     BadInputError, FoldError, RefusedEditError
         What is asked for cannot be had; the hull is unchanged.
     """
-    before = measure_all(document.state)
-    parent = parent_of(document.state, before)
+    room = Room.of(document.state, ask.layout, ask.tolerance)
+    parent, was = room.parent, room.present
     for name in ask.values:
-        if name in before.absent:
+        if name in parent.absent:
             raise BadInputError(
-                f"cannot vary '{name}': {before.absent[name]}", "in vary", "leave it out"
+                f"cannot vary '{name}': {parent.absent[name]}", "in vary", "leave it out"
             )
-    was = present(before, ask.layout)
-    room = Room(document.state, parent, was, ask.layout, hull_box(document.state, ask.tolerance))
     found = _settled(document, room, ask)
     levels = document.state.lines.offset.data.copy()
     applied, report = carry_out(document, found.map, parent, ask, was, found.values, found.nudge)

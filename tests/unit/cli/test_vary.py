@@ -75,6 +75,46 @@ def test_intervals_are_those_of_the_layout(hull: Path, facts: Json) -> None:
     )
 
 
+def test_targets_are_reached_by_what_is_free(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """The file has the asked volume; the document tells how it was reached, and repeats it."""
+    target = tmp_path / "fuller.hull"
+    found = facts("vary", hull, "--reach", "volume=2800", "--free", "breadth=9:", "-o", target)
+    volume = ah.hydrostatics(ah.open(target)).volume
+    assert volume == pytest.approx(2800.0, rel=1e-10)
+    assert found["aim"]["reached"]
+    assert found["aim"]["free"] == ["breadth"]
+    assert found["aim"]["values"] == pytest.approx([volume], rel=1e-12)
+    assert found["script"]["bounds"] == {"breadth": [9.0, None]}
+    assert "hull" not in found["aim"]
+
+
+def test_a_compromise_is_taken_where_it_is_asked_for(
+    hull: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Out of reach: exit 2 and nothing written; with leave for it, the nearest hull is written."""
+    target = tmp_path / "near.hull"
+    asked = ["vary", str(hull), "--reach", "volume=2800", "--free", "breadth=:10.02",
+             "-o", str(target)]  # fmt: skip
+    assert main(asked) == 2
+    assert "breadth at its bound" in capsys.readouterr().err
+    assert not target.exists()
+    assert main([*asked, "--compromise"]) == 0
+    assert "best compromise" in capsys.readouterr().out
+    assert ah.measure(ah.open(target))["breadth"] == pytest.approx(10.02, abs=1e-6)
+
+
+def test_options_add_to_what_a_script_frees(hull: Path, tmp_path: Path, facts: Json) -> None:
+    """Names on the command line join those of the file, and their bounds go before its own."""
+    script = tmp_path / "aim.json"
+    given = {"reach": {"volume": 2800}, "free": ["breadth"], "bounds": {"breadth": [9, 10.01]}}
+    script.write_text(json.dumps(given))
+    options = "--free", "breadth=9:11", "--free", "draught=6.2:6.3"
+    found = facts("vary", hull, "--script", script, *options, "-o", tmp_path / "out.hull")
+    assert found["script"]["free"] == ["breadth", "draught"]
+    assert found["script"]["bounds"] == {"breadth": [9.0, 11.0], "draught": [6.2, 6.3]}
+    assert found["aim"]["steps"][-1]["kkt"] <= 1e-6
+
+
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -84,6 +124,11 @@ def test_intervals_are_those_of_the_layout(hull: Path, facts: Json) -> None:
         (["--set", "breadth=11", "--set", "breadth=12"], "given twice"),
         (["--set", "bossing_radius=1"], "parent has no bossing circle"),
         (["--set", "breadth=11", "--layout", "sten=0.3"], "the nearest names are 'stern'"),
+        (["--reach", "volume=2800"], "free"),
+        (["--reach", "volumen=2800", "--free", "breadth"], "volume"),
+        (["--reach", "volume=2800", "--free", "breadth=9"], "give NAME or NAME=LOW:HIGH"),
+        (["--reach", "volume=2800", "--free", "breadth=9:a"], "LOW and HIGH are numbers"),
+        (["--reach", "volume=2800", "--free", "breadth", "--free", "breadth=9:"], "given twice"),
         ([], "nothing is asked for"),
     ],
 )
