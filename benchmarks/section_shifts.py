@@ -1,10 +1,10 @@
 """Section shifts on three ships: how well they are met, by how much sections move, fairness.
 
-``python -m benchmarks.section_shifts [--ship series60|carrier|dtc] [--limits]`` prints a row a shape:
-what the closed form leaves, the residual of each Newton step, sizes, largest movement, least 1 + delta',
-changes of the sign of curvature of the waterlines before and after, comb ratios, seconds. With
-``--limits`` it asks for too much, and then for 50 and 98 % of what the refusal says can be had. The
-DTC is there if ASSOC_HULL_DATA names the folder of hulls.
+``python -m benchmarks.section_shifts [--ship series60|carrier|dtc] [--limits]`` prints a row a
+shape: what the closed form leaves, the residual of each Newton step, sizes, largest movement, least
+1 + delta', changes of the sign of curvature of the waterlines before and after, comb ratios,
+seconds. With ``--limits`` it asks for too much, and then for 50 and 98 % of what the refusal says
+can be had. The DTC is there if ASSOC_HULL_DATA names the folder of hulls.
 """
 
 from __future__ import annotations
