@@ -84,6 +84,16 @@ def test_derivatives_are_those_of_central_differences(name: str, hulls: dict[str
         assert off.max() <= 1e-7, (way.name, outputs.names[int(off.argmax())])
 
 
+def test_the_section_amidships_changes_as_stations_pass(hulls: dict[str, Hull]) -> None:
+    """A station there leaves it to either side, by other neighbours: the mean of both counts."""
+    state = hulls["series60_70"].state
+    forward = Moves("forward", np.ones((state.rows.count, 3)) * [1.0, 0.0, 0.0])
+    outputs = Outputs.of(state, ["a_midship", "cm", "lcb", "volume"])
+    jacobian = outputs.derivatives(state, [forward])[1][:, 0]
+    wanted = differences(hulls["series60_70"], outputs, forward, 4e-3)
+    assert_allclose(jacobian, wanted, rtol=1e-7, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", MORE)
 def test_a_hull_that_grows_with_its_dimensions_keeps_its_coefficients(
     name: str, hulls: dict[str, Hull]
