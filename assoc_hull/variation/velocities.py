@@ -89,7 +89,7 @@ class Velocities:
         within : float, m
             How far points of features may come to lie off them.
         """
-        rates = _sum(by, self.sizes)
+        rates = _sum(by, self.sizes).tolist()
         sizes = {name: getattr(size, name) + rates[i] for i, name in enumerate(SIZES)}
         features = dict[str, dict[str, FloatArray]]()
         for amount, each in zip(by.tolist(), self.features, strict=True):
