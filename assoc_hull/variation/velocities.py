@@ -17,7 +17,7 @@ import numpy as np
 
 from assoc_hull.edit.carry_planes import flat_borders
 from assoc_hull.edit.nudge import Nudge, nudged
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.model.state import Ends, HullState, Particulars
 from assoc_hull.variation.hull_maps import HullMaps, Laid
@@ -158,16 +158,40 @@ def velocities(
     ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
-        step = np.zeros(len(amplitudes))
-        step[j] = _STEP * each.usual
-        pair = [maps.laid(amplitudes + by, lines, follow=follow) for by in (step, -step)]
-        found.append(_rates(state, ground, here, pair, source, 2.0 * float(step[j])))
-        features.append(_feature_rates(pair, 2.0 * float(step[j])))
+        beside = list[Laid | AssocHullError]()
+        for by in (_STEP * each.usual, -_STEP * each.usual):
+            there = amplitudes.copy()
+            there[j] += by
+            beside.append(_laid(maps, there, lines, follow=follow))
+        pair, span = _spanned(beside, here, _STEP * each.usual)
+        found.append(_rates(state, ground, here, pair, source, span))
+        features.append(_feature_rates(pair, span))
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
     rows = nudged(state)
     return Velocities(
         move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows]
     )
+
+
+def _laid(
+    maps: HullMaps, amplitudes: FloatArray, lines: IntArray, *, follow: bool
+) -> Laid | AssocHullError:
+    """Lay out a map beside, or give why there is none."""
+    try:
+        return maps.laid(amplitudes, lines, follow=follow)
+    except AssocHullError as error:
+        return error
+
+
+def _spanned(
+    beside: Sequence[Laid | AssocHullError], here: Laid, step: float
+) -> tuple[list[Laid], float]:
+    """Give the maps of a difference, and its span: at the end of a range it is to one side."""
+    pair = [each if isinstance(each, Laid) else here for each in beside]
+    missing = [each for each in beside if not isinstance(each, Laid)]
+    if len(missing) == len(beside):
+        raise missing[0]
+    return pair, step * (len(beside) - len(missing))
 
 
 def _rates(
