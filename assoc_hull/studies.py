@@ -45,18 +45,22 @@ class Study:
 
     Attributes
     ----------
-    design : Design
-        What was asked for.
+    run : Run
+        What was asked for, and the parent.
     rows : tuple of Row
         What became of each variant, in their order; fewer than were asked for after an interrupt.
     interrupted : bool
         Whether it was interrupted.
     """
 
-    design: Design
+    run: Run = attrs.field(repr=False)
     rows: tuple[Row, ...]
     interrupted: bool
-    _run: Run = attrs.field(repr=False)
+
+    @property
+    def design(self) -> Design:
+        """What was asked for."""
+        return self.run.design
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -98,15 +102,15 @@ class Study:
         if row is None or row.failure:
             why = "was not made" if row is None else f"has no hull: {row.reason}"
             raise BadInputError(f"variant {wanted} {why}", "in Study.hull", "take another one")
-        return Hull(self._run.ground.variant(row.values, f"variant {wanted}").document)
+        return Hull(self.run.ground.variant(row.values, f"variant {wanted}").document)
 
     def to_csv(self, path: str | PathLike[str] | None = None) -> str:
         """Give the table as comma-separated text, and write it to a file if one is named."""
-        return _put(study_csv(self.design, self.rows), path)
+        return _put(study_csv(self.run, self.rows), path)
 
     def to_json(self, path: str | PathLike[str] | None = None) -> str:
         """Give the table as JSON, with all digits, and write it to a file if one is named."""
-        return _put(study_json(self.design, self.rows), path)
+        return _put(study_json(self.run, self.rows), path)
 
     def __str__(self) -> str:
         good = len(self.rows) - len(self.failed)
@@ -148,8 +152,9 @@ def study(
     set : mapping of str to float or (n,)
         Values of named parameters (m, degrees), or factors on layers: one, or one per variant.
     reach : mapping of str to float or (n,), or sequence of mappings
-        Targets by the names of hydrostatics fields, at the design draught: one, or one per
-        variant; or a mapping per variant.
+        Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
+        `assoc_hull.variation.outputs.Outputs`: fields of hydrostatics, symbols of form parameters,
+        areas of sections.
     free : sequence of str or layer
         Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
         then the variant is one of nearly the least change.
@@ -159,7 +164,7 @@ def study(
         Raw layers, as in `vary`, which `set` and `free` may name; one that they do not name acts
         as it is.
     outputs : sequence of str
-        Hydrostatics fields that are told of each variant.
+        What is told of each variant, by the same names.
     layout : mapping or Layout
         How far the fields of named parameters reach.
     workers : int
@@ -206,4 +211,4 @@ def study(
     )  # fmt: skip
     run = Run.of(copy_of(hull.state), design)
     rows, interrupted = run_study(run, range(design.count), workers=count, tell=progress)
-    return Study(design, rows, interrupted, run)
+    return Study(run, rows, interrupted)

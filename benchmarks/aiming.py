@@ -18,20 +18,11 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import UnreachableError
-from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aim import solve
 from assoc_hull.variation.aim_report import Aimed
 from assoc_hull.variation.aim_walk import Rule
-from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.ask_reach import AskReach
-from assoc_hull.variation.hull_maps import HullMaps
-from assoc_hull.variation.hull_problem import HullProblem
-from assoc_hull.variation.limits import hull_box, present
-from assoc_hull.variation.outputs import Outputs
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.reaching import freedoms
-from assoc_hull.variation.room import Room
+from assoc_hull.variation.reaching import problem_of
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["free_of", "targets_of"]
@@ -78,29 +69,17 @@ def _broader(
     return {"name": name, "fields": [{"stack": stack}]}
 
 
-def problem_of(hull: ah.Hull, reach: AskReach, ask: Ask) -> tuple[HullProblem, FloatArray]:
-    """Give the problem that `ah.vary` solves, and usual changes of what is free."""
-    state, before = hull.state, measure_all(hull.state)
-    room = Room(
-        state, parent_of(state, before), present(before, ask.layout), ask.layout,
-        hull_box(state, ask.tolerance),
-    )  # fmt: skip
-    free = freedoms(room, ask, reach)
-    problem = HullProblem(HullMaps(room, ask, {}, free), Outputs.of(state, tuple(reach.targets)))
-    return problem, np.array([each.usual for each in free])
-
-
 def aim(hull: ah.Hull, names: Sequence[str], count: int, rule: Rule) -> tuple[Aimed, float]:
     """Aim from a hull; give what was found, and the seconds of the processor that it took."""
     targets = targets_of(hull)
     ask = Ask.of(reach={name: targets[name] for name in names}, free=free_of(hull, count))
-    assert ask.reach is not None
     start = time.process_time()
-    problem, usual = problem_of(hull, ask.reach, ask)
+    problem = problem_of(hull.state, ask)
     before = problem.at(np.zeros(count)).values
     found = solve(
-        problem, list(ask.reach.targets.values()), start=np.zeros(count), scales_free=usual,
-        scales_out=np.abs(before), rule=rule,
+        problem, [targets[name] for name in names], start=np.zeros(count),
+        scales_free=[each.usual for each in problem.maps.free], scales_out=np.abs(before),
+        rule=rule,
     )  # fmt: skip
     return found, time.process_time() - start
 
@@ -123,10 +102,11 @@ def table(hull: ah.Hull) -> None:
         found, seconds = aim(hull, names, count, Rule(least=least))
         residuals = ", ".join(f"{each.residual:.1e}" for each in found.steps)
         what = f"{len(names)}, {count}" + ("" if least else ", shortest steps")
-        kkt = f"{found.kkt:.1e}" if count > len(names) else ""
+        square = count == len(names)
+        by, kkt = (f"{ratio(found):.2g}", "") if square else ("", f"{found.kkt:.1e}")
         print(
-            f"| {what} | {residuals} | {ratio(found):.2g} | {found.condition:.3g} | "
-            f"{found.change:.7g} | {kkt} | {seconds:.0f} |",
+            f"| {what} | {residuals} | {by} | {found.condition:.3g} | {found.change:.6f} | "
+            f"{kkt} | {seconds:.0f} |",
             flush=True,
         )
 

@@ -55,7 +55,7 @@ def _add_design(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--reach", metavar="NAME=VALUE", action="append", default=[],
-        help=f"a target of hydrostatics: {value}{several}",
+        help=f"a target, of hydrostatics or form parameters: {value}{several}",
     )  # fmt: skip
     parser.add_argument(
         "--free", metavar="NAME[=LOW:HIGH]", action="append", default=[],
@@ -87,7 +87,7 @@ def _study(arguments: argparse.Namespace) -> int:
     with progress_bar("study", hidden=False) as tell:
         found = study(hull, workers=arguments.workers, progress=tell, **asked)
     saved = _saved(arguments.out, found)
-    document = dict(study_document(found.design, found.rows)) | {
+    document = dict(study_document(found.run, found.rows)) | {
         "interrupted": found.interrupted, "saved": saved,
     }  # fmt: skip
     emit(arguments, document, "\n".join(_words(found, saved)))

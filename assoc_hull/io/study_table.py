@@ -14,20 +14,15 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.study.design import Design
-from assoc_hull.study.run import Row
+from assoc_hull.study.run import Row, Run
 from assoc_hull.study.table import columns_of
-from assoc_hull.variation.catalogue import CATALOGUE
 
 __all__ = ["FORMAT", "study_csv", "study_document", "study_json"]
 
 FORMAT, _VERSION = "assoc-hull study", 1
-_UNITS = {"shift": "m"}
-_ASKED = "asked "
 
 
-def study_csv(design: Design, rows: Sequence[Row]) -> str:
+def study_csv(run: Run, rows: Sequence[Row]) -> str:
     """Lay out a study as comma-separated text.
 
     Examples
@@ -38,19 +33,19 @@ def study_csv(design: Design, rows: Sequence[Row]) -> str:
     ...     print(",".join(line.split(",")[:3]))
     number,breadth,volume
     ,m,m3
-    0,10.5,2916.19...
+    0,10.5,2916.3...
     """
-    columns = columns_of(design, rows)
+    columns = columns_of(run.design, rows)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerow([_unit(name) for name in columns])
+    writer.writerow([run.units.get(name, "") for name in columns])
     for row in zip(*(column.tolist() for column in columns.values()), strict=True):
         writer.writerow([_cell(value) for value in row])
     return out.getvalue()
 
 
-def study_json(design: Design, rows: Sequence[Row]) -> str:
+def study_json(run: Run, rows: Sequence[Row]) -> str:
     """Lay out a study as JSON.
 
     Examples
@@ -61,12 +56,12 @@ def study_json(design: Design, rows: Sequence[Row]) -> str:
     >>> json.loads(found.to_json())["columns"]["breadth"]
     [10.5]
     """
-    return json.dumps(study_document(design, rows), indent=1, allow_nan=False) + "\n"
+    return json.dumps(study_document(run, rows), indent=1, allow_nan=False) + "\n"
 
 
-def study_document(design: Design, rows: Sequence[Row]) -> Mapping[str, Any]:
+def study_document(run: Run, rows: Sequence[Row]) -> Mapping[str, Any]:
     """Give a study as data."""
-    columns = columns_of(design, rows)
+    design, units, columns = run.design, run.units, columns_of(run.design, rows)
     bounds = {
         name: [_plain(each) for each in ends]
         for name, ends in zip(design.free, design.bounds.tolist(), strict=True)
@@ -79,19 +74,11 @@ def study_document(design: Design, rows: Sequence[Row]) -> Mapping[str, Any]:
         "free": list(design.free),
         "bounds": bounds,
         "reach": list(design.aims),
-        "units": {name: _unit(name) for name in columns},
+        "units": {name: units.get(name, "") for name in columns},
         "columns": {
             name: [_plain(value) for value in column.tolist()] for name, column in columns.items()
         },
     }
-
-
-def _unit(name: str) -> str:
-    """Give the unit of a column; empty for plain numbers and words."""
-    known = name.removeprefix(_ASKED)
-    if known in FIELDS:
-        return FIELDS[known].unit
-    return CATALOGUE[known].unit if known in CATALOGUE else _UNITS.get(known, "")
 
 
 def _plain(value: object) -> object:

@@ -89,6 +89,8 @@ def comparison_sheets(
 ) -> list[Sheet]:
     """Give a comparison as pages; arguments and errors as for `comparison_pdf`."""
     require_matplotlib()
+    for name, hull in (("parent", parent), ("variant", variant)):
+        instance(hull, Hull, name, "in a picture")
     if found is None:
         found = compare(parent, variant)
     instance(found, HullComparison, "found", "in a picture")

@@ -8,8 +8,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.arguments import numbers, shown, shown_name
+from assoc_hull.arguments import numbers, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.ask import Ask
@@ -104,7 +103,7 @@ class Design:
         """
         ask = _ask(layers, layout)
         raw = {each.name: each for each in ask.layers}
-        aims, targets = _columns(_by_name(reach), "reach", tuple(FIELDS), "output")
+        aims, targets = _columns(_by_name(reach), "reach")
         sought = _sought(free, bounds, aims, raw)
         raw |= {each.name: each for each in sought.free if not isinstance(each, str)}
         given, values = _columns(set, "set", (*NAMES, *raw))
@@ -167,7 +166,7 @@ def _by_name(given: object) -> object:
 
 
 def _columns(
-    given: object, argument: str, known: tuple[str, ...], kind: str = "parameter"
+    given: object, argument: str, known: tuple[str, ...] | None = None
 ) -> tuple[tuple[str, ...], list[FloatArray]]:
     """Take one number or one per variant, by name."""
     if given is None:
@@ -175,8 +174,9 @@ def _columns(
     if not isinstance(given, Mapping):
         raise WrongTypeError(f"{argument} is {shown(given)}", _WHERE, "give values by name")
     for name in given:
-        if name not in known:
-            raise UnknownNameError(kind, shown_name(name), known)
+        if known is not None and name not in known:
+            raise UnknownNameError("parameter", shown_name(name), known)
+        text(name, f"a name in {argument}", _WHERE)
     columns = [np.atleast_1d(numbers(each, str(name), _WHERE)) for name, each in given.items()]
     for name, column in zip(given, columns, strict=True):
         if not 1 <= len(column) <= _MOST:
@@ -223,9 +223,8 @@ def _table(columns: Sequence[FloatArray], count: int) -> FloatArray:
 
 
 def _outputs(given: Sequence[str], aims: tuple[str, ...]) -> tuple[str, ...]:
+    """Take names of outputs: those that are aimed at come first."""
     if isinstance(given, str) or not isinstance(given, Sequence):
         raise WrongTypeError(f"outputs is {shown(given)}", _WHERE, "give a list of names")
-    for name in given:
-        if name not in FIELDS:
-            raise UnknownNameError("output", shown_name(name), tuple(FIELDS))
-    return tuple(dict.fromkeys((*aims, *given)))
+    names = [text(name, "a name in outputs", _WHERE) for name in given]
+    return tuple(dict.fromkeys((*aims, *names)))

@@ -7,18 +7,9 @@ any edit is checked for is checked. So it is an edit of a copy of the parent, an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.compute import values_at
-from assoc_hull.analysis.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatic_header import SALT
-from assoc_hull.analysis.measured_hull import header_of
-from assoc_hull.analysis.moved import moved_to
 from assoc_hull.edit.carry_net import NetMap, carry_net
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.mapping import SpaceMap
@@ -35,6 +26,7 @@ from assoc_hull.variation.certify import certify
 from assoc_hull.variation.freedom import Freedom
 from assoc_hull.variation.hull_maps import HullMaps
 from assoc_hull.variation.limits import hull_box, present
+from assoc_hull.variation.outputs import Outputs
 from assoc_hull.variation.parent_of import parent_of
 from assoc_hull.variation.room import Room
 
@@ -75,14 +67,15 @@ class Ground:
         The lines that drive, whatever the amplitudes.
     follow : bool
         Whether planes of waterlines and buttocks go along.
-    body : Flotation
-        The parent, as it is measured.
+    aims, outputs : Outputs
+        What is aimed at, and all that is told.
     """
 
     maps: HullMaps
     lines: IntArray
     follow: bool
-    body: Flotation
+    aims: Outputs
+    outputs: Outputs
 
     @classmethod
     def of(cls, state: HullState, design: Design) -> Ground:
@@ -90,8 +83,10 @@ class Ground:
 
         Raises
         ------
+        UnknownNameError
+            No such output.
         BadInputError
-            The parent has not what a parameter changes; no line can drive.
+            The parent has not what a parameter changes, or an output; no line can drive.
         """
         measures = measure_all(state)
         was = present(measures, design.layout)
@@ -110,7 +105,8 @@ class Ground:
         )  # fmt: skip
         maps = HullMaps(room, Ask({}, layout=design.layout), {}, free)
         lines, follow = _driving(maps)
-        return cls(maps, lines, follow, flotation(state))
+        aims, outputs = (Outputs.of(state, names) for names in (design.aims, design.outputs))
+        return cls(maps, lines, follow, aims, outputs)
 
     @property
     def usual(self) -> FloatArray:
@@ -152,30 +148,27 @@ class Ground:
         step = document.state.rows.xyz.data[live] - state.rows.xyz.data[live]
         return Variant(document, certificate, float(np.sqrt((step * step).sum(axis=1).max())))
 
-    def measured(self, variant: Variant) -> Mapping[str, float]:
-        """Give the record of hydrostatics at the design draught, by the parent's layout.
+    def measured(self, variant: Variant) -> FloatArray:
+        """Give the outputs that are aimed at, (m,), by the layout of the parent's surface.
 
         Where the net has another structure all is laid out anew, as in `fully`.
-        """
-        state = variant.document.state
-        body = moved_to(self.body, state)
-        return _record(variant.document, flotation(state) if body is None else body)
-
-    def fully(self, variant: Variant) -> Mapping[str, float]:
-        """Give the record as `hydrostatics` does of a hull that it has never seen.
 
         Raises
         ------
-        BadInputError
-            The hull is doubtful.
+        BadInputError, OutOfRangeError
+            It lacks one of them, or does not float at its draught.
         """
-        state = variant.document.state
-        body = flotation(state)
-        draught = state.particulars.draught
-        planes = planes_of([FloatingPosition(draught, draught)], state.particulars.length)
-        for doubt in body.doubts(planes, False):
-            raise BadInputError(doubt, "in study", "look at the variant with check()")
-        return _record(variant.document, body)
+        return self.aims.values(variant.document.state, like=self.maps.state)
+
+    def fully(self, variant: Variant) -> FloatArray:
+        """Give all outputs, (o,), as of a hull that has never been seen; raises if it is doubtful.
+
+        Raises
+        ------
+        BadInputError, OutOfRangeError
+            As `measured`; or the hull is doubtful.
+        """
+        return self.outputs.values(variant.document.state)
 
 
 def _driving(maps: HullMaps) -> tuple[IntArray, bool]:
@@ -187,11 +180,3 @@ def _driving(maps: HullMaps) -> tuple[IntArray, bool]:
         except AssocHullError:
             continue
     return maps.driving(_PROBES[-1] * usual)
-
-
-def _record(document: Document, body: Flotation) -> dict[str, float]:
-    ship = document.state.particulars
-    terms: dict[str, Any] = {"rho": SALT, "shell_factor": 1.0, "appendages": (), "fingerprint": ""}
-    planes = planes_of([FloatingPosition(ship.draught, ship.draught)], ship.length)
-    found = values_at(body, planes, header_of(document, body, terms))
-    return {name: float(value[0]) for name, value in found.items()}

@@ -46,15 +46,13 @@ class Model:
         freeze(self.value, self.slope, self.bend, self.size)
 
     @classmethod
-    def of(cls, ground: Ground, names: tuple[str, ...]) -> Model:
+    def of(cls, ground: Ground) -> Model:
         """Take differences.
 
         Parameters
         ----------
         ground : Ground
-            The parent.
-        names : tuple of m str
-            Outputs.
+            The parent, with what is aimed at.
 
         Raises
         ------
@@ -63,22 +61,21 @@ class Model:
         """
         for part in _PARTS:
             try:
-                return cls._of(ground, names, part)
+                return cls._of(ground, part)
             except AssocHullError:
                 if part == _PARTS[-1]:
                     raise
         raise AssertionError
 
     @classmethod
-    def _of(cls, ground: Ground, names: tuple[str, ...], part: float) -> Model:
-        count = len(ground.usual)
+    def _of(cls, ground: Ground, part: float) -> Model:
+        names, count = ground.aims.names, len(ground.usual)
 
         def at(*moves: tuple[int, float]) -> FloatArray:
             mu = np.zeros(count)
             for i, sign in moves:
                 mu[i] += sign * part
-            found = ground.measured(ground.variant(ground.present + mu * ground.usual))
-            return np.array([found[name] for name in names])
+            return ground.measured(ground.variant(ground.present + mu * ground.usual))
 
         middle = at()
         slope, bend = np.zeros((len(names), count)), np.zeros((len(names), count, count))

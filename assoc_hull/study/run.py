@@ -94,7 +94,15 @@ class Run:
             It has not what the design changes, or cannot be changed so at all.
         """
         ground = Ground.of(state, design)
-        return cls(design, ground, Model.of(ground, design.aims) if design.aims else None)
+        return cls(design, ground, Model.of(ground) if design.aims else None)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of all columns of the table that have one."""
+        ground = self.ground
+        told = dict(zip(ground.outputs.names, ground.outputs.units, strict=True))
+        asked = {f"asked {name}": told[name] for name in ground.aims.names}
+        return {each.name: each.unit for each in ground.maps.free} | told | asked | {"shift": "m"}
 
 
 def row_of(run: Run, number: int) -> Row:
@@ -110,7 +118,7 @@ def row_of(run: Run, number: int) -> Row:
             kind_of(error), " ".join(str(error).split()),
         )  # fmt: skip
     return Row(
-        number, found.values, np.array([found.record[name] for name in design.outputs]),
+        number, found.values, found.outputs,
         found.variant.certificate.least, found.variant.shift, found.residual, found.trials,
     )  # fmt: skip
 

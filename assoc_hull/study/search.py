@@ -8,7 +8,7 @@ steps on the hull itself, with the slopes of the model, which each step corrects
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -36,8 +36,6 @@ _SINGULAR = 1e-10
 _SLACK = 1e-9
 """A bound is kept if it is passed by no more usual changes than this."""
 
-Record = Mapping[str, float]
-
 
 @attrs.frozen(eq=False)
 class Found:
@@ -48,7 +46,7 @@ class Found:
     values : (p,)
         Of all parameters.
     variant : Variant
-    record : mapping of str to float
+    outputs : (o,)
         What is measured of it.
     residual : float
         The largest part of a target that is lacking; 0 without targets.
@@ -58,7 +56,7 @@ class Found:
 
     values: FloatArray
     variant: Variant
-    record: Record
+    outputs: FloatArray
     residual: float
     trials: int
 
@@ -83,16 +81,18 @@ class _Search:
             variant = found.variant
         return found
 
-    def _settled(self, variant: Variant, measure: Callable[[Variant], Record], most: int) -> Found:
+    def _settled(
+        self, variant: Variant, measure: Callable[[Variant], FloatArray], most: int
+    ) -> Found:
         """Step until what is measured is what is asked."""
         before: tuple[FloatArray, FloatArray] | None = None
         for _ in range(most):
-            record = measure(variant)
-            values = np.array([record[name] for name in self.design.aims])
+            outputs = measure(variant)
+            values = outputs[: len(self.target)]
             lacking = self.target - values
             residual = float((np.abs(lacking) / self.model.size).max(initial=0.0))
             if residual <= EXACT:
-                return Found(self._parameters(), variant, record, residual, self.trials)
+                return Found(self._parameters(), variant, outputs, residual, self.trials)
             if before is not None:
                 self._learn(self.mu - before[0], values - before[1])
             before = self.mu.copy(), values

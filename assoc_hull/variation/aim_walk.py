@@ -247,14 +247,13 @@ def _nearer(place: Place, curvature: FloatArray, low: FloatArray, high: FloatArr
     J, misses = place.jacobian, place.misses
     H = J.T @ J + np.einsum("i,ijk->jk", misses, curvature)
     g = J.T @ misses
-    step = None
+    enough = -_FLAT * place.size**2
     if _firm(H, _FIRM):
         step = Quadratic(H, g, np.zeros((0, len(g))), np.zeros(0), low, high).step()
-    if step is None:
-        step = least_squares_step(J, -misses, low, high)
-    if -(g @ step) <= _FLAT * place.size**2:
-        return None
-    return _Wish(step, "nearest")
+        if step is not None and g @ step < enough:
+            return _Wish(step, "nearest")
+    step = least_squares_step(J, -misses, low, high)
+    return _Wish(step, "nearest") if g @ step < enough else None
 
 
 def _multipliers(place: Place) -> FloatArray:

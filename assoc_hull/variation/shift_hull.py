@@ -68,7 +68,7 @@ class ShiftReport:
         """What was reached, by which movement, and how, in lines."""
         at = self.shift.terms.terminals
         return (
-            *(str(each) for each in self.targets),
+            *(str(each).removesuffix(" -") for each in self.targets),
             f"shape {self.shift.terms.shape}, terminals {at.aft:.6g}, {at.start:.6g}, "
             f"{at.end:.6g}, {at.fore:.6g} m; c_f {self.fore:+.6g} m, c_a {self.aft:+.6g} m",
             f"largest movement {self.shift.largest:.4g} m, least 1+delta' {self.shift.least:.4f}",

@@ -214,4 +214,12 @@ def _end(works: Callable[[float], bool], far: float) -> float:
     while abs(far - near) > _FINE * abs(far):
         half = 0.5 * (near + far)
         near, far = (half, far) if works(half) else (near, half)
-    return near
+    return _inward(near)
+
+
+def _inward(value: float) -> float:
+    """Round toward nil to six digits: what is told can be had."""
+    if value == 0.0:
+        return 0.0
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - 5)
+    return math.copysign(math.floor(abs(value) / unit) * unit, value)

@@ -216,6 +216,9 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "sensitivities": {
+        "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
+    },
     "study": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.analysis.record import Hydrostatics
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
 from assoc_hull.geometry.evaluation import sample
 from assoc_hull.shifts import Shifted
 from assoc_hull.variants import vary_by
 from assoc_hull.variation.fairness_of import compare_fairness, measure_fairness
+from assoc_hull.variation.swing import swung
 from tests.conftest import Shipped
 
 
@@ -34,9 +36,14 @@ def wigley(shipped: Shipped) -> ah.Hull:
     return shipped("wigley")
 
 
+def _measured(hull: ah.Hull) -> Hydrostatics:
+    """The record, without the estimate of its errors."""
+    return ah.hydrostatics(hull, estimate=False)
+
+
 def test_volume_and_centre_are_met_together(parent: ah.Hull, fuller: Shifted) -> None:
     """To 1e-10, by the hydrostatics of the net as anyone measures them."""
-    before, after = ah.hydrostatics(parent), ah.hydrostatics(fuller.hull)
+    before, after = _measured(parent), _measured(fuller.hull)
     assert after.cb - before.cb == pytest.approx(0.02, abs=1e-10)
     assert after.lcb_percent - before.lcb_percent == pytest.approx(0.5, abs=1e-10)
     assert [each.asked for each in fuller.report.targets] == pytest.approx(
@@ -125,17 +132,18 @@ def test_bodies_on_their_own(wigley: ah.Hull) -> None:
     assert gained == pytest.approx([0.01, 0.0], abs=1e-10)
 
 
-def test_the_parallel_body_is_lengthened_alone(parent: ah.Hull) -> None:
-    """Both its ends move as asked, while volume and centre stay to 1e-10."""
+def test_the_parallel_body_is_lengthened_alone(wigley: ah.Hull) -> None:
+    """What stands for it: both its ends move as asked, volume and centre stay to 1e-10."""
     found = ah.shift_sections(
-        parent, by={"parallel_body_start": -1.0, "parallel_body_end": 2.0}, shape="lackenby"
-    )
-    before, after = ah.hydrostatics(parent), ah.hydrostatics(found.hull)
+        wigley, by={"parallel_body_start": -0.5}, to={"parallel_body_end": 57.0},
+        terminals=[0.0, 45.0, 55.0, 100.0],
+    )  # fmt: skip
+    before, after = _measured(wigley), _measured(found.hull)
     assert after.volume == pytest.approx(before.volume, rel=1e-10)
     assert after.lcb == pytest.approx(before.lcb, abs=1e-8)
     ends = found.report.targets[2:]
-    assert [(each.before, each.reached) for each in ends] == [(60.96, 59.96), (67.056, 69.056)]
-    assert found.hull.lines["ST 10"].position == 59.96
+    assert [(each.before, each.reached) for each in ends] == [(45.0, 44.5), (55.0, 57.0)]
+    assert found.hull.lines["ST 9"].position == 44.5
 
 
 def test_a_hull_without_parallel_body_says_what_stands_for_it(wigley: ah.Hull) -> None:
@@ -193,27 +201,35 @@ def test_the_range_that_is_told_can_be_had(wigley: ah.Hull) -> None:
     assert found.report.shift.least == pytest.approx(0.05, abs=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("asked", "others"),
-    [
-        ({"breadth": 12.5}, {"length": 100.0, "draught": 5.0}),
-        ({"length": 121.0}, {"breadth": 10.0 / 1.1, "draught": 6.25 / 1.1}),
-    ],
-    ids=["breadth against draught", "length against both"],
-)
-def test_a_hull_that_is_swung_keeps_volume_and_coefficients(
-    wigley: ah.Hull, asked: dict[str, Any], others: dict[str, float]
-) -> None:
+def test_a_hull_that_is_swung_keeps_volume_and_coefficients(wigley: ah.Hull) -> None:
     """CB, volume and LCB / Lpp to 1e-10; what was not asked for gives way."""
-    found = ah.swing(wigley, **asked)
-    before, after = ah.hydrostatics(wigley), ah.hydrostatics(found.hull)
+    found = ah.swing(wigley, length=121.0)
+    before, after = _measured(wigley), _measured(found.hull)
     assert after.volume == pytest.approx(before.volume, rel=1e-10)
     assert after.cb == pytest.approx(before.cb, abs=1e-10)
     assert after.lcb_percent == pytest.approx(before.lcb_percent, abs=1e-8)
-    ship = found.hull.state.particulars
-    for name, value in {**asked, **others}.items():
-        assert getattr(ship, name) == pytest.approx(value, rel=1e-12)
     assert after.cw == pytest.approx(before.cw, abs=1e-5)
+    ship = found.hull.state.particulars
+    assert ship.length == 121.0
+    assert (ship.breadth, ship.draught) == pytest.approx((10.0 / 1.1, 6.25 / 1.1), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("asked", "gives"),
+    [
+        ({"breadth": 12.5}, {"breadth": 12.5, "draught": 5.0, "depth": 7.5}),
+        ({"draught": 5.0}, {"breadth": 12.5, "draught": 5.0, "depth": 7.5}),
+        ({"length": 121.0}, {"length": 121.0, "breadth": 10 / 1.1, "draught": 6.25 / 1.1,
+                             "depth": 9.375 / 1.1}),
+        ({"length": 125.0, "draught": 5.0}, {"length": 125.0, "breadth": 10.0, "draught": 5.0,
+                                             "depth": 7.5}),
+    ],
+    ids=["breadth", "draught", "length", "length and draught"],
+)  # fmt: skip
+def test_what_gives_way(asked: dict[str, float], gives: dict[str, float]) -> None:
+    """The product of length, breadth and draught is held; the depth goes with the draught."""
+    now = {"length": 100.0, "breadth": 10.0, "draught": 6.25, "depth": 9.375}
+    assert swung(now, asked) == pytest.approx(gives, rel=1e-14)
 
 
 @pytest.mark.parametrize(

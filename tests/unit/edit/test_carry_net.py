@@ -138,5 +138,5 @@ def test_a_bent_driver_and_a_second_modification_are_refused() -> None:
 
 def _both(hull: ah.Hull, row: object, by: NetMap) -> None:
     with Transaction(hull.document, "both") as edit:
-        edit.write(row, hull.state.rows.xyz.data[row], "a test")  # type: ignore[arg-type,index]
+        edit.write(row, hull.state.rows.xyz.data[row], "a test")  # type: ignore[arg-type]
         carry_net(edit, by)

@@ -49,8 +49,6 @@ def test_a_layer_is_set_free_or_acts_as_it_is() -> None:
 WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "nothing asked": ({}, "nothing is asked for"),
     "no such parameter": ({"set": {"bredth": 3.0}}, "'breadth'"),
-    "no such output": ({"reach": {"volum": 3.0}, "free": ["breadth"]}, "'volume'"),
-    "no such output told": ({"set": {"breadth": 3.0}, "outputs": ["vol"]}, "no output named"),
     "set and free": (
         {"set": {"breadth": 3.0}, "reach": {"volume": 3.0}, "free": ["breadth"]}, "set as well",
     ),
@@ -85,3 +83,12 @@ def test_a_parameter_that_the_parent_lacks_is_refused() -> None:
     """With what it lacks."""
     with pytest.raises(ah.BadInputError, match="cannot vary 'bulb_length'"):
         ah.study(ah.examples.wigley(stations=9, waterlines=6), set={"bulb_length": 3.0})
+
+
+@pytest.mark.parametrize("asked", [{"set": {"breadth": 10.0}, "outputs": ["volum"]},
+                                   {"reach": {"volum": 3.0}, "free": ["breadth"]}],
+                         ids=["told", "aimed at"])  # fmt: skip
+def test_an_output_that_is_none_is_refused(asked: dict[str, Any]) -> None:
+    """With the nearest names."""
+    with pytest.raises(ah.UnknownNameError, match="'volume'"):
+        ah.study(ah.examples.wigley(stations=9, waterlines=6), **asked)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize
 
+import assoc_hull as ah
 from assoc_hull.errors import (
     BadInputError,
     DependentTargetsError,
@@ -18,6 +19,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aim import solve
 from assoc_hull.variation.aim_report import Aimed
 from assoc_hull.variation.aim_walk import Rule
+from tests.aims import FULLER, SHIFTED, problem, small
 from tests.formula_ships import OUTPUTS, PARENT, UNITS, FormulaShip
 
 ALL = tuple(PARENT)
@@ -110,6 +112,28 @@ def test_more_freedom_gives_the_least_change() -> None:
     assert found.change < plain.change
     known = least_change(ship, targets, np.full((7, 2), np.inf) * [-1.0, 1.0])
     assert found.amplitudes / ship.usual == pytest.approx(known, abs=1e-5)
+
+
+def test_a_hull_of_the_kernel_gets_the_least_change_that_meets_its_targets() -> None:
+    """Two targets, four freedoms: 12 steps to 1e-10 and KKT 1e-6, below plain shortest steps."""
+    hull = small()
+    now = ah.hydrostatics(hull)
+    targets = [1.03 * now.volume, now.lcb + 0.4]
+    free = ["breadth", "draught", SHIFTED, FULLER]
+    found, plain = (
+        solve(
+            ship, targets, start=np.zeros(4), scales_free=[each.usual for each in ship.maps.free],
+            scales_out=targets, rule=rule,
+        )
+        for ship, rule in (
+            (problem(hull, ["volume", "lcb"], free), rule) for rule in (Rule(), Rule(least=False))
+        )
+    )  # fmt: skip
+    assert len(found.steps) - 1 <= 12
+    assert found.residual <= 1e-10
+    assert found.kkt <= 1e-6
+    assert plain.residual <= 1e-10
+    assert found.change < plain.change
 
 
 def test_more_freedom_within_bounds_gives_the_least_change_within_them() -> None:
