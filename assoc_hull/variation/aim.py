@@ -20,8 +20,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aim_problem import Problem
 from assoc_hull.variation.aim_quadratic import RANK
 from assoc_hull.variation.aim_report import Aimed, aimed
+from assoc_hull.variation.aim_rule import Rule
 from assoc_hull.variation.aim_scaled import Scaled
-from assoc_hull.variation.aim_walk import Rule, Walk, walk
+from assoc_hull.variation.aim_walk import Walk, walk
 
 __all__ = ["solve"]
 

@@ -18,7 +18,7 @@ from assoc_hull.errors import (
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.aim import solve
 from assoc_hull.variation.aim_report import Aimed
-from assoc_hull.variation.aim_walk import Rule
+from assoc_hull.variation.aim_rule import Rule
 from tests.aims import FULLER, SHIFTED, problem, small
 from tests.formula_ships import OUTPUTS, PARENT, UNITS, FormulaShip
 
