@@ -110,9 +110,11 @@ class Aimed:
     def _verdict(self) -> str:
         count = len(self.steps) - 1
         what = "met" if self.reached else "best compromise"
+        # of targets that are met the residual is rounding
+        rest = "" if self.reached else f", residual {self.residual:.1e}"
         return (
-            f"aim: {what} after {count} step{'s' * (count != 1)}, residual {self.residual:.1e}, "
-            f"condition {self.condition:.3g}, total change {self.change:.4g}"
+            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}, condition "
+            f"{self.condition:.3g}, total change {self.change:.4g}"
         )
 
     def _reached(self) -> list[str]:
