@@ -70,12 +70,13 @@ def vary(
     name: str | None = None,
     in_place: bool = False,
 ) -> Variation:
-    """Vary a hull so that named parameters have asked values; all its lines follow.
+    """Vary a hull so that named parameters, and outputs, have asked values; all lines follow.
 
     The map is certified not to fold, the lines that drive are carried exactly, all others are
     cut again from them, and the asked values are measured on the lines of the result to 1e-6.
     Values that the hull has already change nothing, and make no step in the history; beside others
-    they say that these values are to stay.
+    they say that these values are to stay. Outputs are reached by what is free for it, on the
+    hydrostatics of the result, to 1e-10 of their size.
 
     Parameters
     ----------
@@ -84,6 +85,21 @@ def vary(
     set : mapping of str to float
         Values by name, m, or degrees where the name ends in ``_deg``; x from AP forward, z from
         the base line up. `measure` gives the names and the present values.
+    reach : mapping of str to float
+        Values of outputs by name, in their units, at the design draught: fields of
+        `hydrostatics`, form parameters, sectional areas; see
+        `assoc_hull.variation.outputs.Outputs`.
+    free : sequence of str, layer or mapping
+        What may change so that they are reached: named parameters that are not `set`, and
+        layers, of which the strength is found: 1 is the layer as given, 0 none of it. Layers as
+        for `layers`, or as data ``{"name": ..., "fields": [...]}``. Where there is more
+        freedom than targets the change is the least.
+    bounds : mapping of str to (float or None, float or None)
+        Least and greatest values by the names of what is free, m, degrees, or strengths of layers;
+        None leaves an end open.
+    exact : bool
+        Whether targets must all be met; otherwise the best compromise is taken where they
+        cannot be.
     layers : sequence
         Raw layers that act after those of the named parameters: a `FieldLayer`, `AdditiveLayer`,
         `CornerLayer` or `DeadriseLayer`, or a list of fields as data (see
@@ -120,7 +136,9 @@ def vary(
     Raises
     ------
     UnknownNameError
-        No such parameter.
+        No such parameter or output.
+    UnreachableError, DependentTargetsError, TooFewFreeError
+        Targets that cannot be reached by what is free: how near one comes, and what is in the way.
     FoldError
         The map folds, or nearly; where, and between which values one may ask.
     OutOfRangeError
@@ -137,6 +155,9 @@ def vary(
     >>> variant = ah.vary(ah.examples.wigley(), set={"breadth": 11.0, "draught": 7.0})
     >>> [target.reached for target in variant.report.targets]
     [11.0, 7.0]
+    >>> variant = ah.vary(ah.examples.wigley(), reach={"volume": 2800.0}, free=["breadth"])
+    >>> round(ah.hydrostatics(variant.hull).volume, 7), round(variant.hull.particulars.breadth, 4)
+    (2800.0, 10.0812)
     """
     ask = Ask.of(
         set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,

@@ -20,7 +20,7 @@ import assoc_hull as ah
 from assoc_hull.errors import UnreachableError
 from assoc_hull.variation.aim import solve
 from assoc_hull.variation.aim_report import Aimed
-from assoc_hull.variation.aim_walk import Rule
+from assoc_hull.variation.aim_rule import Rule
 from assoc_hull.variation.ask import Ask
 from assoc_hull.variation.reaching import problem_of
 from benchmarks.ships import duisburg_test_case

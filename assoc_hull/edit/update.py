@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 
+import attrs
 import numpy as np
 
 from assoc_hull.edit.carry_features import CarriedFeatures
@@ -24,7 +25,7 @@ from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
 from assoc_hull.edit.mend import mend
-from assoc_hull.edit.nudge import write_nudge
+from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
@@ -81,11 +82,13 @@ def update(
             _settle(work)
             _relink(work)
             _follow_up(work)
-            _run_nudge(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
         findings = _check(work)
+        if pending.nudge is not None and not findings:
+            _run_nudge(work, pending.nudge)  # gaps have been mended: points are all there
+            findings = _check(work)
     except RingError:
         raise
     except (AssocHullError, ArithmeticError) as error:
@@ -223,15 +226,13 @@ def _follow_up(work: Work) -> None:
     _settle(work)
 
 
-def _run_nudge(work: Work) -> None:
+def _run_nudge(work: Work, by: Nudge) -> None:
     """Move the hull as it has become by a little, and let what is computed follow."""
     pending, state = work.pending, work.state
-    if pending.nudge is None:
-        return
     curves = state.live("curves")
-    features = state.features if pending.features is None else pending.features.features
-    rows, moved = write_nudge(state, work.journal, pending.nudge, features)
-    pending.features = CarriedFeatures(moved, frozenset(), pending.nudge.within)
+    carried = pending.features or CarriedFeatures(state.features, frozenset(), by.within)
+    rows, moved = write_nudge(state, work.journal, by, carried.features)
+    pending.features = attrs.evolve(carried, features=moved)
     adopted = state.live("rows")
     pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
     pending.relink |= set(curves.tolist())

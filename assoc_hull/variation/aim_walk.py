@@ -16,73 +16,19 @@ from __future__ import annotations
 from typing import Literal
 
 import attrs
-import numpy as np
 
-from assoc_hull.errors import AssocHullError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.aim_balance import steep, unbalanced
 from assoc_hull.variation.aim_curvature import learnt, no_curvature
-from assoc_hull.variation.aim_quadratic import Quadratic, least_squares_step, split
+from assoc_hull.variation.aim_rule import Rule
 from assoc_hull.variation.aim_scaled import Place
+from assoc_hull.variation.aim_step import Way, taken, wished
 
-__all__ = ["AimStep", "End", "Rule", "Walk", "steep", "unbalanced", "walk"]
+__all__ = ["AimStep", "End", "Walk", "walk"]
 
-Way = Literal["start", "exact", "nearest"]
 End = Literal["met", "nearest", "blocked", "spent"]
-
-_HALVINGS = 8
-_SPARE = 0.1
-"""Rules are kept with this part of what they allow, unless rounding is in the way."""
-
-_LESS = 1e-4
-"""A step must bring this part of what it promises."""
-
-_PENALTY = 1.5
-"""How much a miss weighs against a change, in multipliers."""
 
 _CUTS = 3
 """Where refusals have cut so many steps in a row, no certified hull is much nearer."""
-
-_FLAT = 1e-12
-"""Where a step promises less than this part of the squared misses, there is no better place."""
-
-_FIRM = 1e-6
-"""The least curvature of misses that is trusted, as a part of the largest,"""
-
-_STAYS = 0.1
-"""and that of the change itself, which is 1 without targets."""
-
-
-@attrs.frozen
-class Rule:
-    """When a walk ends.
-
-    Attributes
-    ----------
-    residual : float
-        Targets are met where no scaled miss is larger.
-    kkt : float
-        The change is the least where it is out of balance by no more, times itself where
-        that is below 1.
-    steps : int
-        So many at most.
-    least : bool
-        Whether the change is to be the least; else steps are as short as they can be.
-    """
-
-    residual: float = 1e-10
-    kkt: float = 1e-6
-    steps: int = 40
-    least: bool = True
-
-    def met(self, place: Place) -> bool:
-        """Tell whether targets are met."""
-        return place.worst <= self.residual
-
-    def left(self, place: Place) -> tuple[bool, bool]:
-        """Tell what is left to do: targets, which are met with something to spare; the change."""
-        limit = max(self.kkt * min(1.0, place.change), _SPARE * self.kkt)
-        far = place.worst > _SPARE * self.residual
-        return far, self.least and (far or unbalanced(place) > limit)
 
 
 @attrs.frozen
@@ -101,7 +47,7 @@ class AimStep:
     change : float
         The size of the scaled change after it.
     part : float
-        How much of the whole step was taken.
+        How much of the whole step was after.
     """
 
     way: Way
@@ -142,19 +88,19 @@ def walk(place: Place, rule: Rule) -> Walk:
             break  # rounding is all that is left
         if len(steps) > rule.steps:
             return _ended(steps, place, rule, "spent")
-        wish = _wished(place, curvature, rule)
+        wish = wished(place, curvature, rule)
         if wish is None:
             return _ended(steps, place, rule, "nearest")
-        taken = _taken(place, wish, rule)
-        if isinstance(taken, str):
-            return _ended(steps, place, rule, "blocked", taken)
-        moved = taken.place.changes - place.changes
-        curvature = learnt(curvature, moved, taken.place.jacobian - place.jacobian)
-        place = taken.place
-        steps.append(_step(wish.way, place, taken.part))
-        cuts = cuts + 1 if taken.why else 0
+        after = taken(place, wish, rule)
+        if isinstance(after, str):
+            return _ended(steps, place, rule, "blocked", after)
+        moved = after.place.changes - place.changes
+        curvature = learnt(curvature, moved, after.place.jacobian - place.jacobian)
+        place = after.place
+        steps.append(_step(wish.way, place, after.part))
+        cuts = cuts + 1 if after.why else 0
         if cuts == _CUTS:
-            return _ended(steps, place, rule, "blocked", taken.why)
+            return _ended(steps, place, rule, "blocked", after.why)
     return Walk(tuple(steps), place, "met")
 
 
@@ -176,119 +122,3 @@ def _step(way: Way, place: Place, part: float) -> AimStep:
 def _ended(steps: list[AimStep], place: Place, rule: Rule, end: End, why: str = "") -> Walk:
     """End a walk; where targets are met, a change that might be a little smaller is none."""
     return Walk(tuple(steps), place, "met" if rule.met(place) else end, why)
-
-
-def unbalanced(place: Place) -> float:
-    """Tell by how much a change is not the least one with these misses.
-
-    It is the size of what is left of mu beside the gradients of misses and of bounds that hold it:
-    the residual of the conditions of Karush, Kuhn and Tucker.
-    """
-    _, null = split(place.jacobian)
-    return float(np.linalg.norm(null.T @ _pull(place)))
-
-
-def steep(place: Place) -> float:
-    """Give the slope of half the squared misses along which bounds let go."""
-    slope = place.jacobian.T @ place.misses
-    return float(np.linalg.norm(np.where(place.outward * slope < 0.0, 0.0, slope)))
-
-
-def _pull(place: Place) -> FloatArray:
-    """Give mu without what bounds take up of it best: they push inward only, (k,)."""
-    from scipy.optimize import nnls
-
-    _, null = split(place.jacobian)
-    at = place.outward != 0.0
-    found = place.changes.copy()
-    if at.any() and null.shape[1]:
-        walls = null.T[:, at] * place.outward[at]
-        found[at] += place.outward[at] * nnls(walls, -(null.T @ place.changes))[0]
-    return found
-
-
-@attrs.frozen(eq=False)
-class _Wish:
-    """A whole step, which way it goes, and how much a miss weighs against a change."""
-
-    step: FloatArray
-    way: Way
-    penalty: float = 0.0
-
-
-@attrs.frozen(eq=False)
-class _Taken:
-    """A step that was taken: where it led, how much of it, what cut it short."""
-
-    place: Place
-    part: float
-    why: str
-
-
-def _wished(place: Place, curvature: FloatArray, rule: Rule) -> _Wish | None:
-    """Give the whole step from a place; None where no step brings targets nearer."""
-    weights = _multipliers(place) if rule.least else np.zeros_like(place.misses)
-    unit, (_, null) = np.eye(len(place.changes)), split(place.jacobian)
-    H = unit + np.einsum("i,ijk->jk", weights, curvature)
-    if not _firm(null.T @ H @ null, _STAYS):
-        H = unit
-    g = place.changes if rule.least else np.zeros_like(place.changes)
-    scaled = place.scaled
-    low, high = scaled.least - place.changes, scaled.most - place.changes
-    low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
-    step = Quadratic(H, g, place.jacobian, -place.misses, low, high).step()
-    if step is not None:
-        return _Wish(step, "exact", _PENALTY * float(np.linalg.norm(weights)))
-    return _nearer(place, curvature, low, high)
-
-
-def _nearer(place: Place, curvature: FloatArray, low: FloatArray, high: FloatArray) -> _Wish | None:
-    """Give the step that makes misses least within bounds; None where they are."""
-    J, misses = place.jacobian, place.misses
-    H = J.T @ J + np.einsum("i,ijk->jk", misses, curvature)
-    g = J.T @ misses
-    enough = -_FLAT * place.size**2
-    if _firm(H, _FIRM):
-        step = Quadratic(H, g, np.zeros((0, len(g))), np.zeros(0), low, high).step()
-        if step is not None and g @ step < enough:
-            return _Wish(step, "nearest")
-    step = least_squares_step(J, -misses, low, high)
-    return _Wish(step, "nearest") if g @ step < enough else None
-
-
-def _multipliers(place: Place) -> FloatArray:
-    """Give the multipliers of the equations that balance mu best, (m,)."""
-    inverse, _ = split(place.jacobian)
-    found: FloatArray = -inverse.T @ _pull(place)
-    return found
-
-
-def _firm(H: FloatArray, least: float) -> bool:
-    """Tell whether a symmetric matrix is positive, the least by a part of the largest."""
-    values = np.linalg.eigvalsh(H) if len(H) else np.ones(1)
-    return bool(values[0] > least * values[-1])
-
-
-def _taken(place: Place, wish: _Wish, rule: Rule) -> _Taken | str:
-    """Take the whole step, or halves of it until it serves; else say why none did."""
-    part, why = 1.0, ""
-    for _ in range(_HALVINGS):
-        try:
-            after = place.scaled.at(place.changes + part * wish.step)
-            if _serves(place, after, wish, part, rule):
-                return _Taken(after, part, why)
-        except AssocHullError as error:
-            why = str(error)
-        part *= 0.5
-    return why
-
-
-def _serves(place: Place, after: Place, wish: _Wish, part: float, rule: Rule) -> bool:
-    """Tell whether a step has brought what it should."""
-    if wish.way == "nearest":
-        promised = _LESS * part * 2.0 * float(place.jacobian.T @ place.misses @ wish.step)
-        return after.size**2 <= (1.0 + 0.1 * _FLAT) * place.size**2 + promised
-    if after.size <= (1.0 - _LESS * part) * place.size or rule.met(after):
-        return True
-    before, now = (0.5 * each.change**2 + wish.penalty * each.size for each in (place, after))
-    return rule.least and now < before

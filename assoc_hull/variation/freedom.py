@@ -17,9 +17,6 @@ __all__ = ["Freedom", "scaled_layer"]
 _SHIFT, _SIZE, _ANGLE = 0.01, 0.05, 2.0
 """Usual changes: of shifts in parts of Lpp, of lengths in parts of themselves, of angles."""
 
-_NIL = 1e-9
-"""An amplitude (in usual changes) that stands for nil beside others: it pins its place."""
-
 
 @attrs.frozen(eq=False)
 class Freedom:
@@ -57,13 +54,6 @@ class Freedom:
     def raw(cls, layer: Layer) -> Freedom:
         """Take a layer: at amplitude 1 it acts as it was given."""
         return cls(layer.name, "", 0.0, 1.0, layer)
-
-    def value(self, amplitude: float) -> float:
-        """Give the value that is asked for of a named parameter.
-
-        Exactly the present value would be no request; a hair beside it is one that holds it.
-        """
-        return self.present + (amplitude if amplitude != 0.0 else _NIL * self.usual)
 
     def scaled(self, amplitude: float) -> Layer | None:
         """Give the layer times the amplitude; None for nothing."""

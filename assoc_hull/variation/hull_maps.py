@@ -99,9 +99,9 @@ class HullMaps:
         return [(each, by) for each, by in pairs if each.layer is None]
 
     def _asked(self, amplitudes: FloatArray) -> dict[str, float]:
-        """Give what is asked of the map."""
-        named = self._named(amplitudes)
-        return dict(self.aim) | {each.name: each.value(by) for each, by in named}
+        """Give what is asked of the map; of what does not change, nothing."""
+        named = [(each, by) for each, by in self._named(amplitudes) if by != 0.0]
+        return dict(self.aim) | {each.name: each.present + by for each, by in named}
 
     def map(self, amplitudes: FloatArray) -> VMap:
         """Lay out the map, uncertified.

@@ -94,12 +94,17 @@ class Reached:
     amplitudes : (k,)
     base : Base
         What it was nudged from.
+    outputs : Outputs
+        What is measured.
+    like : HullState or None
+        A hull whose layout serves to measure this one; None to lay it out by itself.
     """
 
     state: HullState
     amplitudes: FloatArray
     base: Base
     outputs: Outputs
+    like: HullState | None = None
     _values: FloatArray | None = None
     _jacobian: FloatArray | None = None
 
@@ -116,14 +121,16 @@ class Reached:
     def values(self) -> FloatArray:
         """Outputs in their own units, (m,)."""
         if self._values is None:
-            self._values = self.outputs.values(self.state)
+            self._values = self.outputs.values(self.state, like=self.like)
         return self._values
 
     @property
     def jacobian(self) -> FloatArray:
         """Derivatives of outputs by amplitudes, (m, k)."""
         if self._jacobian is None:
-            self._values, self._jacobian = self.outputs.derivatives(self.state, self.moves())
+            self._values, self._jacobian = self.outputs.derivatives(
+                self.state, self.moves(), like=self.like
+            )
         return self._jacobian
 
 
@@ -139,6 +146,9 @@ class HullProblem:
         What is aimed at.
     base : Base or None
         The hull that was last carried in full.
+    quick : bool
+        Whether nudged hulls are measured by the layout of what they were nudged from. What a
+        layout of their own would decide otherwise is below rounding, or nearly.
     carries, nudges : int
         How many hulls were carried and nudged.
     """
@@ -146,6 +156,7 @@ class HullProblem:
     maps: HullMaps
     measured: Outputs
     base: Base | None = None
+    quick: bool = True
     carries: int = 0
     nudges: int = 0
     _known: dict[bytes, Reached] = attrs.field(factory=dict)
@@ -216,8 +227,10 @@ class HullProblem:
         except RefusedEditError:
             return None
         self.nudges += 1
-        same = _same_structure(base.state, document.state)
-        return Reached(document.state, at, base, self.measured) if same else None
+        if not _same_structure(base.state, document.state):
+            return None
+        like = base.state if self.quick else None
+        return Reached(document.state, at, base, self.measured, like)
 
 
 def _same_structure(one: HullState, other: HullState) -> bool:

@@ -25,6 +25,9 @@ from assoc_hull.variation.settled import Settled, changes, measured, settle
 
 __all__ = ["freedoms", "problem_of", "settle_reach"]
 
+_RESIDUAL = 1e-10
+"""Targets are met where they are missed by no more than this part of their size."""
+
 
 def settle_reach(state: HullState, room: Room, ask: Ask, reach: AskReach) -> Settled:
     """Find the map at which targets are reached and values are as they are set.
@@ -116,21 +119,34 @@ def _aimed(
     """Aim at the targets, with the values that are set as a map gives them."""
     targets = np.array(list(reach.targets.values()))
     sizes = np.maximum(np.abs(before), np.abs(targets))
-    aimed = solve(
-        HullProblem(maps, outputs), targets,
-        start=np.zeros(len(maps.free)),
-        scales_free=[each.usual for each in maps.free],
-        scales_out=np.where(sizes > 0.0, sizes, 1.0),
-        bounds=reach.limits([each.present for each in maps.free]),
-        exact=reach.exact, units=outputs.units, before=before,
-    )  # fmt: skip
+    scales = np.where(sizes > 0.0, sizes, 1.0)
+    for quick in (True, False):
+        aimed = solve(
+            HullProblem(maps, outputs, quick=quick), targets,
+            start=np.zeros(len(maps.free)),
+            scales_free=[each.usual for each in maps.free], scales_out=scales,
+            bounds=reach.limits([each.present for each in maps.free]),
+            exact=reach.exact, units=outputs.units, before=before,
+        )  # fmt: skip
+        if not aimed.reached or _holds(aimed, outputs, scales):
+            break
     return _settled(maps, aimed, rounds)
+
+
+def _holds(aimed: Aimed, outputs: Outputs, scales: FloatArray) -> bool:
+    """Tell whether targets are met as well on a hull that is laid out by itself."""
+    off = outputs.values(_hull(aimed).state) - aimed.targets
+    return bool((np.abs(off) <= _RESIDUAL * scales).all())
+
+
+def _hull(aimed: Aimed) -> Reached:
+    assert isinstance(aimed.hull, Reached), "the problem gives no other"
+    return aimed.hull
 
 
 def _settled(maps: HullMaps, aimed: Aimed, rounds: int) -> Settled:
     """Say how the hull that was found is made of the parent."""
-    hull = aimed.hull
-    assert isinstance(hull, Reached), "the problem gives no other"
+    hull = _hull(aimed)
     whole, certificate = maps.certified(hull.amplitudes)
     got = measured(hull.state, maps.ask)
     miss = {name: value - got[name] for name, value in maps.ask.values.items()}

@@ -15,13 +15,13 @@ from collections.abc import Mapping, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.carry_planes import flat_borders
 from assoc_hull.edit.nudge import Nudge, nudged
-from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
-from assoc_hull.model.state import Ends, HullState, Particulars
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.variation.hull_maps import HullMaps, Laid
 from assoc_hull.variation.slide import Ground, bending
+from assoc_hull.variation.turns import turns
 
 __all__ = ["SIZES", "Velocities", "velocities"]
 
@@ -89,7 +89,7 @@ class Velocities:
         within : float, m
             How far points of features may come to lie off them.
         """
-        rates = _sum(by, self.sizes)
+        rates = _sum(by, self.sizes).tolist()
         sizes = {name: getattr(size, name) + rates[i] for i, name in enumerate(SIZES)}
         features = dict[str, dict[str, FloatArray]]()
         for amount, each in zip(by.tolist(), self.features, strict=True):
@@ -158,16 +158,40 @@ def velocities(
     ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
     features = list[dict[str, dict[str, FloatArray]]]()
     for j, each in enumerate(maps.free):
-        step = np.zeros(len(amplitudes))
-        step[j] = _STEP * each.usual
-        pair = [maps.laid(amplitudes + by, lines, follow=follow) for by in (step, -step)]
-        found.append(_rates(state, ground, here, pair, source, 2.0 * float(step[j])))
-        features.append(_feature_rates(pair, 2.0 * float(step[j])))
+        beside = list[Laid | AssocHullError]()
+        for by in (_STEP * each.usual, -_STEP * each.usual):
+            there = amplitudes.copy()
+            there[j] += by
+            beside.append(_laid(maps, there, lines, follow=follow))
+        pair, span = _spanned(beside, here, _STEP * each.usual)
+        found.append(_rates(state, ground, here, pair, source, span))
+        features.append(_feature_rates(pair, span))
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
     rows = nudged(state)
     return Velocities(
         move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows]
     )
+
+
+def _laid(
+    maps: HullMaps, amplitudes: FloatArray, lines: IntArray, *, follow: bool
+) -> Laid | AssocHullError:
+    """Lay out a map beside, or give why there is none."""
+    try:
+        return maps.laid(amplitudes, lines, follow=follow)
+    except AssocHullError as error:
+        return error
+
+
+def _spanned(
+    beside: Sequence[Laid | AssocHullError], here: Laid, step: float
+) -> tuple[list[Laid], float]:
+    """Give the maps of a difference, and its span: at the end of a range it is to one side."""
+    pair = [each if isinstance(each, Laid) else here for each in beside]
+    missing = [each for each in beside if not isinstance(each, Laid)]
+    if len(missing) == len(beside):
+        raise missing[0]
+    return pair, step * (len(beside) - len(missing))
 
 
 def _rates(
@@ -181,7 +205,7 @@ def _rates(
     level = _levels(state, pair, carried, ground, span)
     move = ground.kept(carried, level)
     move[~state.rows.alive.data] = 0.0
-    turn = _turns(state, ground, here, pair, source, span)
+    turn = turns(state, ground, here, pair, source, span)
     size = [np.array([getattr(each.particulars, name) for name in SIZES]) for each in pair]
     return move, carried, turn, level, (size[0] - size[1]) / span
 
@@ -241,60 +265,6 @@ def _levels(
     for line in np.flatnonzero(table.alive.data & table.planar.data & ~parallel).tolist():
         mine = carried[(ground.line == line).any(axis=1)]
         found[line] = np.median((mine * table.normal.data[line]).sum(axis=1))
-    return found
-
-
-def _turns(
-    state: HullState, ground: Ground, here: Laid, pair: Sequence[Laid], source: FloatArray,
-    span: float,
-) -> FloatArray:  # fmt: skip
-    """Give how given directions turn with the map, (rows, 3, 3): their lengths and planes stay."""
-    table, found = state.rows, np.zeros((state.rows.count, 3, 3))
-    ends = _given_ends(state)
-    given = table.alive.data & table.direction.data.any(axis=(1, 2))
-    rows = np.union1d(np.flatnonzero(given), [row for row, *_ in ends]).astype(np.int64)
-    if not len(rows):
-        return found
-    slopes = [each.map.jacobian(source[rows]) for each in pair]
-    rate = (slopes[0] - slopes[1]) / span @ np.linalg.inv(here.map.jacobian(source[rows]))
-    moving = rate.any(axis=(1, 2))
-    flats = flat_borders(state, pair[0].planes)
-    beside: dict[int, list[tuple[FloatArray, int]]] = {}
-    for row, side, vector in ends:
-        beside.setdefault(row, []).append((vector, side))
-    for row, each in zip(rows[moving].tolist(), rate[moving], strict=True):
-        vectors = [(table.direction.data[row, side], side) for side in (0, 1)]
-        vectors += beside.get(row, [])
-        some = [(vector, side) for vector, side in vectors if vector.any()]
-        new = [_turned(ground, flats, row, side, vector, each) for vector, side in some]
-        given_here = np.array([vector for vector, _ in some])
-        found[row] = np.array(new).T @ np.linalg.pinv(given_here.T, rcond=1e-6)
-    return found
-
-
-def _turned(
-    ground: Ground, flats: IntArray, row: int, side: int, vector: FloatArray, rate: FloatArray
-) -> FloatArray:
-    """Give how one direction changes: across itself, in its plane and in the flat it borders."""
-    new: FloatArray = rate @ vector
-    new = new - vector * ((vector * new).sum() / (vector * vector).sum())
-    own, other = ground.plane[row, side], ground.plane[row, 1 - side]
-    new = new - own * (own * new).sum()
-    if ground.line[row, 1 - side] in flats:
-        new = new - other * (other * new).sum()
-    return new
-
-
-def _given_ends(state: HullState) -> list[tuple[int, int, FloatArray]]:
-    """Give the tangents that are given at ends of curves: the point, its side, the vector."""
-    found = list[tuple[int, int, FloatArray]]()
-    for curve in state.live("curves").tolist():
-        ends: Ends = state.curves.ends.data[curve]
-        for at in (0, 1):
-            if ends.kind[at] == EndKind.TANGENT:
-                row = int(state.curves.rows.data[curve][-at])
-                side = int(state.rows.curve.data[row, 0] != curve)
-                found.append((row, side, np.array(ends.vector[at])))
     return found
 
 
