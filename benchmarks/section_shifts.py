@@ -1,9 +1,10 @@
 """Section shifts on three ships: how well they are met, by how much sections move, fairness.
 
-``python -m benchmarks.section_shifts [--ship series60|carrier|dtc]`` prints a row a shape: what the
-closed form leaves, the residual of each Newton step, sizes, largest movement, least 1 + delta',
-changes of the sign of curvature of the waterlines before and after, comb ratios, seconds. The DTC
-is there if ASSOC_HULL_DATA names the folder of hulls.
+``python -m benchmarks.section_shifts [--ship series60|carrier|dtc] [--limits]`` prints a row a
+shape: what the closed form leaves, the residual of each Newton step, sizes, largest movement, least
+1 + delta', changes of the sign of curvature of the waterlines before and after, comb ratios,
+seconds. With ``--limits`` it asks for too much, and then for 50 and 98 % of what the refusal says
+can be had. The DTC is there if ASSOC_HULL_DATA names the folder of hulls.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
+from itertools import product
 from time import perf_counter
 
 import assoc_hull as ah
-from assoc_hull.errors import AssocHullError
+from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.variation.fairness_of import (
     FairnessTable,
     LineFairness,
@@ -82,14 +84,45 @@ def _rows(name: str) -> Iterator[str]:
         yield _row(hull, shape, asked)
 
 
+def _limit_rows(name: str) -> Iterator[str]:
+    """Ask for parts of the largest changes, which refusals tell."""
+    hull = _SHIPS[name]()
+    if hull is None:
+        return
+    yield hull.state.particulars.name
+    yield "| shape | change | residuals | least 1+delta' | adopted points |"
+    yield "| --- " * 5 + "|"
+    shapes: tuple[ShiftShape, ...] = ("c2", "lackenby", "1-cp")
+    for shape, key, sign in product(shapes, ("cb", "lcb_percent"), (1.0, -1.0)):
+        try:
+            ah.shift_sections(hull, by={key: 20.0 * sign}, shape=shape)
+        except OutOfRangeError as error:
+            limit = error.most if sign > 0.0 else error.least
+            for part in (0.5, 0.98):
+                yield _limit_row(hull, shape, key, part * limit)
+
+
+def _limit_row(hull: ah.Hull, shape: ShiftShape, key: str, change: float) -> str:
+    try:
+        report = ah.shift_sections(hull, by={key: change}, shape=shape).report
+    except AssocHullError as error:
+        return f"| {shape} | {key} {change:+.4f} | refused: {error} |"
+    residuals = ", ".join(f"{step.residual:.1e}" for step in report.steps)
+    return (
+        f"| {shape} | {key} {change:+.4f} | {residuals} | {report.shift.least:.3f} "
+        f"| {report.variation.added} |"
+    )
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.section_shifts")
     parser.add_argument("--ship", choices=tuple(_SHIPS), help="one ship only")
-    chosen = parser.parse_args(arguments).ship
+    parser.add_argument("--limits", action="store_true", help="parts of the largest changes")
+    given = parser.parse_args(arguments)
     print(datetime.now(UTC).date().isoformat())
-    for name in [chosen] if chosen else _SHIPS:
-        for row in _rows(name):
+    for name in [given.ship] if given.ship else _SHIPS:
+        for row in _limit_rows(name) if given.limits else _rows(name):
             print(row, flush=True)
         print()
     return 0

@@ -153,14 +153,24 @@ def _largest(stations: StationAreas, middle: float) -> IntArray:
 
 
 def _section(stations: StationAreas, x: float) -> FloatArray:
-    """Give the area of a section at x, (d,), m2, by Lagrange's cubic where no station is."""
+    """Give the area of a section at x, (d,), m2, by Lagrange's cubic where no station is.
+
+    A station at x may move away from it, to either side: then it is one of four stations or one
+    of another four, and the derivative is the mean of both.
+    """
     known, count, place = real(stations.x), min(4, len(stations.x)), float(real(x))
     near = int(np.argmin(np.abs(known - place)))
-    plain = is_plain(stations.x) and is_plain(x)
-    if plain and abs(known[near] - place) <= 1e-9 * max(abs(place), 1.0):
+    there = abs(known[near] - place) <= 1e-9 * max(abs(place), 1.0)
+    if there and is_plain(stations.x) and is_plain(x):
         found: FloatArray = stations.area[:, near]
         return found
-    first = int(np.clip(np.searchsorted(known, place) - 2, 0, len(known) - count))
+    after = (near, near + 1) if there else (int(np.searchsorted(known, place)),)
+    begin = [int(np.clip(each - 2, 0, len(known) - count)) for each in after]
+    areas = [_cubic(stations, x, first, count) for first in begin]
+    return sum(areas[1:], areas[0]) / len(areas)
+
+
+def _cubic(stations: StationAreas, x: float, first: int, count: int) -> FloatArray:
     knots = [stations.x[i] for i in range(first, first + count)]
     areas = [stations.area[:, i] for i in range(first, first + count)]
     return lagrange(knots, areas, x)

@@ -44,6 +44,8 @@ class NetMap:
         With the numbers that they get.
     particulars : Particulars
         Those of the hull afterwards.
+    within : float, m
+        How far points of features may come to lie off them; farther, and a feature dissolves.
     """
 
     space: SpaceMap
@@ -51,6 +53,7 @@ class NetMap:
     planes: Planes
     features: tuple[Feature, ...]
     particulars: Particulars
+    within: float = 2e-3
 
 
 def carry_net(edit: Transaction, by: NetMap) -> Carried:
@@ -90,7 +93,7 @@ def carry_net(edit: Transaction, by: NetMap) -> Carried:
         edit.journal.set(state.settings.particulars, [0], [by.particulars])
     rows = _given(state)
     edit.write(rows, work.value[rows], "carrying a net")
-    pending.features = _features(work, by.features)
+    pending.features = _features(work, by)
     adopted = state.live("rows")
     pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
     curves = set(state.live("curves").tolist())
@@ -107,11 +110,11 @@ def _given(state: HullState) -> IntArray:
     return rows
 
 
-def _features(work: Carried, features: tuple[Feature, ...]) -> CarriedFeatures:
-    """Let features keep their points, wherever these have gone."""
-    rows = {row for each in features for row in each.points}
+def _features(work: Carried, by: NetMap) -> CarriedFeatures:
+    """Let features keep their points, as long as these lie on them."""
+    rows = {row for each in by.features for row in each.points}
     places = {row: work.image[row] for row in sorted(rows)}
-    return CarriedFeatures(features, frozenset(), np.inf, places)
+    return CarriedFeatures(by.features, frozenset(), by.within, places)
 
 
 def _refuse_bent(state: HullState, planes: Planes) -> None:

@@ -64,3 +64,8 @@ __all__ = [
     "UnreachableError",
     "WrongTypeError",
 ]
+
+# A program meets an error by the path from which it is imported, also in tracebacks and logs.
+for _name in __all__:
+    globals()[_name].__module__ = __name__
+del _name

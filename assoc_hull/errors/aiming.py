@@ -55,7 +55,8 @@ class UnreachableError(AssocHullError, ValueError):
     Attributes
     ----------
     target, unit : str
-        The one that is farthest from what was asked, in the scale of its usual size.
+        The one that is farthest from what was asked, in the scale of its usual size; "-" and
+        nothing stand for no unit.
     asked, best, before : float
         Asked for, of the nearest hull, and of the parent.
     bounds : tuple of str
@@ -78,7 +79,7 @@ class UnreachableError(AssocHullError, ValueError):
         return 100.0 * (self.best - self.asked) / abs(self.before) if self.before else float("inf")
 
     def __str__(self) -> str:
-        unit = f" {self.unit}" if self.unit else ""
+        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         digits = next(
             (n for n in (6, 8, 10, 12) if f"{self.asked:.{n}g}" != f"{self.best:.{n}g}"), 17
         )

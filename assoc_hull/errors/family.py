@@ -103,10 +103,8 @@ class OutOfRangeError(AssocHullError, ValueError):
     unit: str
 
     def __str__(self) -> str:
-        return (
-            f"{self.name} of {self.value:.8g} {self.unit} {self.why}, {self.where}; give one "
-            f"{_span(self.least, self.most, self.unit)}"
-        )
+        what = f"{self.name} of {self.value:.8g} {self.unit} {self.why}".rstrip()
+        return f"{what}, {self.where}; give one {_span(self.least, self.most, self.unit)}"
 
 
 @attrs.define(slots=False, eq=False)

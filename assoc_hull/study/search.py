@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import OutOfRangeError
-from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.study.design import Design
 from assoc_hull.study.failure import NotReachedError
 from assoc_hull.study.ground import Ground, Variant
@@ -63,15 +63,22 @@ class Found:
 
 @attrs.define(eq=False)
 class _Search:
-    """One search under way: `mu` are scaled changes of all parameters."""
+    """One search under way: `mu` are scaled changes of all parameters, `free` those that step."""
 
     ground: Ground
     design: Design
     model: Model
-    target: FloatArray
+    number: int
     mu: FloatArray
+    free: IntArray
     slope: FloatArray
     trials: int = 0
+
+    @property
+    def target(self) -> FloatArray:
+        """What is aimed at, (m,)."""
+        found: FloatArray = self.design.targets[self.number]
+        return found
 
     def run(self) -> Found:
         """Go on until the targets are met, first by the parent's layout, then in full."""
@@ -96,7 +103,7 @@ class _Search:
             if before is not None:
                 self._learn(self.mu - before[0], values - before[1])
             before = self.mu.copy(), values
-            self.mu[self._free] += _least(self.slope[:, self._free], lacking, self.model.size)
+            self.mu[self.free] += _least(self.slope[:, self.free], lacking, self.model.size)
             self._require_bounds()
             variant = self._made()
         raise NotReachedError(self.design.aims, self.target, values, self.trials)
@@ -112,16 +119,12 @@ class _Search:
             self.slope = self.slope + np.outer(change - self.slope @ step, step) / size
 
     def _parameters(self) -> FloatArray:
-        found: FloatArray = self.ground.present + self.mu * self.ground.usual
-        return found
-
-    @property
-    def _free(self) -> slice:
-        return slice(len(self.design.given), None)
+        return _values(self.ground, self.design, self.number, self.mu)
 
     def _require_bounds(self) -> None:
-        values, usual = self._parameters()[self._free], self.ground.usual[self._free]
-        _require_within(self.design, values, _SLACK * usual)
+        given = len(self.design.given)
+        usual = self.ground.usual[given:]
+        _require_within(self.design, self._parameters()[given:], _SLACK * usual)
 
 
 def searched(ground: Ground, model: Model | None, design: Design, number: int) -> Found:
@@ -147,20 +150,24 @@ def searched(ground: Ground, model: Model | None, design: Design, number: int) -
     given = len(design.given)
     mu[:given] = (design.values[number] - ground.present[:given]) / ground.usual[:given]
     if model is None:
-        values = ground.present + mu * ground.usual
-        values[:given] = design.values[number]  # as it was given, to the bit
+        values = _values(ground, design, number, mu)
         variant = ground.variant(values)
         return Found(values, variant, ground.fully(variant), 0.0, 1)
-    target = design.targets[number]
-    start = _on_model(ground, model, design, mu, target)
-    search = _Search(ground, design, model, target, start, model.jacobian(start))
-    return search.run()
+    start, free = _on_model(ground, model, design, mu, design.targets[number])
+    return _Search(ground, design, model, number, start, free, model.jacobian(start)).run()
+
+
+def _values(ground: Ground, design: Design, number: int, mu: FloatArray) -> FloatArray:
+    """Give the values of all parameters; those that are given as they were, to the bit."""
+    found: FloatArray = ground.present + mu * ground.usual
+    found[: len(design.given)] = design.values[number]
+    return found
 
 
 def _on_model(
     ground: Ground, model: Model, design: Design, mu: FloatArray, target: FloatArray
-) -> FloatArray:
-    """Give the least change that meets the targets on the model, within the bounds.
+) -> tuple[FloatArray, IntArray]:
+    """Give the least change that meets the targets on the model, and what is free within bounds.
 
     The rule is mu <- J^T (J J^T)^-1 (J mu + lacking), which settles where the change is least.
     A parameter that would leave its bounds is held there, and the others are sought again.
@@ -174,8 +181,8 @@ def _on_model(
         mu = _settle_model(model, mu.copy(), free, target)
         within = np.clip(mu[given:], low, high)
         over = np.abs(mu[given:] - within)
-        if not over.max(initial=0.0) > 0.0:
-            return mu
+        if not over.max(initial=0.0) > _SLACK:
+            return mu, free
         worst = given + int(over.argmax())
         if len(free) - 1 < len(target):
             values = (ground.present + mu * usual)[given:]
@@ -183,9 +190,7 @@ def _on_model(
         held[worst], mu[worst] = True, within[worst - given]
 
 
-def _settle_model(
-    model: Model, mu: FloatArray, free: np.typing.NDArray[np.int64], target: FloatArray
-) -> FloatArray:
+def _settle_model(model: Model, mu: FloatArray, free: IntArray, target: FloatArray) -> FloatArray:
     for _ in range(_ROUNDS):
         slope = model.jacobian(mu)[:, free]
         lacking = target - model.at(mu) + slope @ mu[free]

@@ -31,6 +31,10 @@ _WHERE = "in aiming"
 _TOGETHER = 1e6
 """Targets that were missed with a larger condition than this cannot be told apart."""
 
+_UNMOVED = 1e-5
+"""A target that was missed, and that usual changes move by less than this part of its size, is
+moved by the loft only."""
+
 
 def solve(
     problem: Problem,
@@ -187,9 +191,11 @@ def _dependent(found: Aimed) -> DependentTargetsError:
 
 def _refusal(found: Aimed, scaled: Scaled, end: Walk) -> AssocHullError:
     """Say why not all targets are met."""
+    worst = int(np.abs(found.misses / scaled.sizes).argmax())
+    if not found.active and np.abs(end.place.jacobian[worst]).max() < _UNMOVED:
+        return DependentTargetsError((found.outputs[worst],), found.condition)
     if not found.active and found.condition > _TOGETHER:
         return _dependent(found)
-    worst = int(np.abs(found.misses / scaled.sizes).argmax())
     return UnreachableError(
         found.outputs[worst], found.units[worst], float(found.targets[worst]),
         float(found.values[worst]), float(found.before[worst]), found.active, _why(end),

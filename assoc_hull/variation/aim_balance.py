@@ -24,7 +24,7 @@ def unbalanced(place: Place) -> float:
 def steep(place: Place) -> float:
     """Give the slope of half the squared misses along which bounds let go."""
     slope = place.jacobian.T @ place.misses
-    return float(np.linalg.norm(np.where(place.outward * slope < 0.0, 0.0, slope)))
+    return float(np.linalg.norm(np.where(place.shut, 0.0, slope)))
 
 
 def _pull(place: Place) -> FloatArray:
@@ -32,11 +32,12 @@ def _pull(place: Place) -> FloatArray:
     from scipy.optimize import nnls
 
     _, null = split(place.jacobian)
-    at = place.outward != 0.0
-    found = place.changes.copy()
-    if at.any() and null.shape[1]:
-        walls = null.T[:, at] * place.outward[at]
-        found[at] += place.outward[at] * nnls(walls, -(null.T @ place.changes))[0]
+    unit = np.eye(len(place.changes))
+    walls = np.concatenate([unit[place.at_high], -unit[place.at_low]])
+    if not len(walls) or not null.shape[1]:
+        return place.changes
+    forces, _ = nnls(null.T @ walls.T, -(null.T @ place.changes))
+    found: FloatArray = place.changes + forces @ walls
     return found
 
 

@@ -110,9 +110,11 @@ class Aimed:
     def _verdict(self) -> str:
         count = len(self.steps) - 1
         what = "met" if self.reached else "best compromise"
+        # of targets that are met the residual is rounding
+        rest = "" if self.reached else f", residual {self.residual:.1e}"
         return (
-            f"aim: {what} after {count} step{'s' * (count != 1)}, residual {self.residual:.1e}, "
-            f"condition {self.condition:.3g}, total change {self.change:.4g}"
+            f"aim: {what} after {count} step{'s' * (count != 1)}{rest}, condition "
+            f"{self.condition:.3g}, total change {self.change:.4g}"
         )
 
     def _reached(self) -> list[str]:
@@ -121,7 +123,7 @@ class Aimed:
             strict=True,
         )  # fmt: skip
         return [
-            f"{name} {before:.6g} -> {value:.9g}{' ' * bool(unit)}{unit}"
+            f"{name} {before:.6g} -> {value:.9g}{'' if unit in ('', '-') else f' {unit}'}"
             + ("" if self.reached else f", asked {asked:.9g}, {miss:+.3g} off")
             for name, unit, before, value, asked, miss in rows
         ]
@@ -175,7 +177,5 @@ def _singular(place: Place) -> tuple[FloatArray, FloatArray]:
 def _active(found: Walk) -> tuple[str, ...]:
     """Name the free parameters at bounds; of a compromise, those that would go on beyond."""
     place = found.place
-    at = place.outward != 0.0
-    if found.end != "met":
-        at &= place.outward * (place.jacobian.T @ place.misses) < 0.0
+    at = place.at_low | place.at_high if found.end == "met" else place.shut
     return tuple(name for name, is_at in zip(place.scaled.problem.free, at, strict=True) if is_at)

@@ -16,6 +16,9 @@ __all__ = ["Place", "Scaled"]
 _AT = 1e-12
 """A change so near to a bound (times 1 + |bound|) lies at it."""
 
+_NIL = 1e-9
+"""What usual changes move by less than this part of its size they do not move."""
+
 
 @attrs.frozen(eq=False)
 class Scaled:
@@ -119,15 +122,25 @@ class Place:
 
     @cached_property
     def jacobian(self) -> FloatArray:
-        """Derivatives of the misses by scaled changes, (m, k)."""
+        """Derivatives of the misses by scaled changes, (m, k); rows of rounding are nil."""
         scaled = self.scaled
-        return self.hull.jacobian * scaled.usual / scaled.sizes[:, None]
+        found: FloatArray = self.hull.jacobian * scaled.usual / scaled.sizes[:, None]
+        found[np.abs(found).max(axis=1) < _NIL] = 0.0
+        return found
 
     @cached_property
-    def outward(self) -> FloatArray:
-        """Which way out of the bounds each change lies that is at one: -1, 0 or 1, (k,)."""
-        scaled = self.scaled
-        low = scaled.near(self.changes, scaled.least)
-        high = scaled.near(self.changes, scaled.most)
-        found: FloatArray = high.astype(np.float64) - low
+    def at_low(self) -> NDArray[np.bool_]:
+        """Which changes lie at their least, (k,)."""
+        return self.scaled.near(self.changes, self.scaled.least)
+
+    @cached_property
+    def at_high(self) -> NDArray[np.bool_]:
+        """Which changes lie at their greatest, (k,); at both where they are held."""
+        return self.scaled.near(self.changes, self.scaled.most)
+
+    @property
+    def shut(self) -> NDArray[np.bool_]:
+        """Which changes cannot go where misses would get less, as far as slopes tell, (k,)."""
+        slope = self.jacobian.T @ self.misses
+        found: NDArray[np.bool_] = (self.at_low & (slope > 0.0)) | (self.at_high & (slope < 0.0))
         return found

@@ -45,21 +45,21 @@ class Blend:
 
     def value(self, s: FloatArray) -> FloatArray:
         """Give b(s); exactly 0 below s = 0 and exactly 1 above s = 1."""
-        s = np.clip(s, 0.0, 1.0)
+        s = _within(s)
         if self.name == "cubic":
             return np.asarray(s * s * (3.0 - 2.0 * s))
         return np.asarray(s * s * s * (10.0 + s * (6.0 * s - 15.0)))
 
     def slope(self, s: FloatArray) -> FloatArray:
         """Give b'(s), nil outside 0 <= s <= 1."""
-        s = np.clip(s, 0.0, 1.0)
+        s = _within(s)
         part = s * (1.0 - s)
         return np.asarray(6.0 * part if self.name == "cubic" else 30.0 * part * part)
 
     def second(self, s: FloatArray) -> FloatArray:
         """Give b''(s), nil outside 0 <= s <= 1; the cubic's jumps there, its inner value counts."""
         inside = (s >= 0.0) & (s <= 1.0)
-        s = np.clip(s, 0.0, 1.0)
+        s = _within(s)
         bend = 6.0 - 12.0 * s
         if self.name == "quintic":
             bend = 10.0 * s * (1.0 - s) * bend
@@ -67,7 +67,7 @@ class Blend:
 
     def ramp(self, t: FloatArray) -> FloatArray:
         """Give the integral of b from 0 to t: nil below 0, t - 1/2 above 1."""
-        s = np.clip(t, 0.0, 1.0)
+        s = _within(t)
         if self.name == "cubic":
             rise = s * s * s * (1.0 - 0.5 * s)
         else:
@@ -84,6 +84,11 @@ class Blend:
         peak = (np.asarray(low) <= 0.5) & (np.asarray(high) >= 0.5)
         most = np.where(peak, self.steepest, np.maximum(first, last))
         return np.minimum(first, last), most
+
+
+def _within(s: FloatArray) -> FloatArray:
+    """Bring numbers into 0 to 1; `np.clip` is slow where arrays are short, as most are here."""
+    return np.asarray(np.minimum(np.maximum(s, 0.0), 1.0))
 
 
 CUBIC = Blend("cubic", 1.5)

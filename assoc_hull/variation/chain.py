@@ -137,9 +137,9 @@ class Chain:
         """Where pieces join, rising."""
         return self.x
 
-    @property
+    @cached_property
     def level(self) -> bool:
-        """Whether it is the same everywhere."""
+        """Whether it is the same everywhere; most are, and those are evaluated at once."""
         return bool((self.v == self.v[0]).all())
 
     @property
@@ -153,27 +153,35 @@ class Chain:
 
     def _piece(self, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Give place within, width, first value and rise of the pieces that x lie in."""
-        nodes, values = self.x, self.v
-        if len(nodes) == 1:
-            none = np.zeros(np.shape(x))
-            return none, none + 1.0, none + values[0], none
-        i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
-        width = nodes[i + 1] - nodes[i]
-        return (x - nodes[i]) / width, width, values[i], values[i + 1] - values[i]
+        inner, widths, rises = self._pieces
+        i = np.searchsorted(inner, x, side="right")
+        width = widths[i]
+        return (x - self.x[i]) / width, width, self.v[i], rises[i]
+
+    @cached_property
+    def _pieces(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Inner nodes; width and rise of each piece."""
+        return self.x[1:-1], np.diff(self.x), np.diff(self.v)
 
     def at(self, x: FloatArray) -> FloatArray:
         """Give values; a node's own value at the node and outside, to the last bit."""
+        if self.level:
+            return np.full(np.shape(x), self.v[0])
         s, _, first, rise = self._piece(x)
         inner = first + rise * self.blend.value(s)
         return np.asarray(np.where(x >= self.x[-1], self.v[-1], inner))
 
     def slope(self, x: FloatArray) -> FloatArray:
         """Give first derivatives."""
+        if self.level:
+            return np.zeros(np.shape(x))
         s, width, _, rise = self._piece(x)
         return np.asarray(rise * self.blend.slope(s) / width)
 
     def second(self, x: FloatArray) -> FloatArray:
         """Give second derivatives."""
+        if self.level:
+            return np.zeros(np.shape(x))
         s, width, _, rise = self._piece(x)
         return np.asarray(rise * self.blend.second(s) / (width * width))
 

@@ -55,7 +55,8 @@ class Polyline:
     def at(self, x: FloatArray) -> FloatArray:
         """Give values; those of the ends outside, to the last bit."""
         i = self._piece(x)
-        inner = self.v[i] + (x - self.x[i]) * self._slopes[i]
+        within = np.clip(x, self.x[0], self.x[-1])
+        inner = self.v[i] + (within - self.x[i]) * self._slopes[i]
         below = np.where(x <= self.x[0], self.v[0], inner)
         return np.where(x >= self.x[-1], self.v[-1], below)
 

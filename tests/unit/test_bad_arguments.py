@@ -290,12 +290,12 @@ def check(error: ah.AssocHullError) -> None:
 @pytest.mark.parametrize(("method", "given", "name"), cases(HULL))
 def test_a_hull_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
     for trial in spoilt(given, name):
-        before = hull.fingerprint
         with trial as bad:
             call(getattr(hull, method), bad)
             assert hull.history == ()
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(EDIT))
@@ -326,11 +326,11 @@ def assert_no_trace(hull: ah.Hull, method: str, given: Given) -> None:
 @pytest.mark.parametrize(("method", "given", "name"), cases(CURVES))
 def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, name: str) -> None:
     """Parameters and places that are none are refused."""
+    curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
     for trial in spoilt(given, name):
-        curve, before = hull.find(f"{CURVE} [1]"), hull.fingerprint
         with trial as bad:
             call(getattr(curve, method), bad)
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(LINES))
@@ -369,11 +369,11 @@ def test_a_hull_is_measured_by_good_values(
     hull: ah.Hull, method: str, given: Given, name: str
 ) -> None:
     """An error of the family or a result; the hull is the same, to the bit."""
+    before = hull.fingerprint
     for trial in spoilt(given, name):
-        before = hull.fingerprint
         with trial as bad:
             call(partial(getattr(ah, method), hull), bad)
-            assert hull.fingerprint == before
+    assert hull.fingerprint == before
 
 
 @pytest.mark.parametrize("method", FLOATING)

@@ -181,6 +181,12 @@ def test_an_error_has_a_docstring_of_its_own(error: AssocHullError) -> None:
 
 
 @each_error
+def test_an_error_is_told_by_the_path_of_its_import(error: AssocHullError) -> None:
+    """In tracebacks too, whichever module of the package it is written in."""
+    assert type(error).__module__ == errors.__name__
+
+
+@each_error
 def test_an_error_survives_pickling(error: AssocHullError) -> None:
     """An error raised in a worker process arrives with its facts."""
     twin = pickle.loads(pickle.dumps(error))

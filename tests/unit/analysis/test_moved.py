@@ -46,14 +46,13 @@ def header(hull: Hull) -> HydrostaticHeader:
     return header_of(hull, flotation(hull.state), terms)
 
 
-@pytest.mark.parametrize("step", [1e-6, 1e-2])
 def test_the_old_layout_gives_the_numbers_of_a_new_one(
-    step: float, hull: Hull, header: HydrostaticHeader
+    hull: Hull, header: HydrostaticHeader
 ) -> None:
     """Every field to 1e-12 after an edit that moves over a hundred points, by up to 10 mm."""
     before = flotation(hull.state)
     with hull.edit("a move") as edit:
-        edit.move(POINT, y=hull.points[POINT].y + step)
+        edit.move(POINT, y=hull.points[POINT].y + 1e-2)
     found, anew = moved_to(before, hull.state), flotation(hull.state)
     hull.undo()
     assert found is not None

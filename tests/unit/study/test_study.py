@@ -87,6 +87,15 @@ def test_the_change_is_nearly_the_least(small: ah.Hull) -> None:
     assert np.sqrt((change**2).sum()) == pytest.approx(alone.change, rel=1e-4)
 
 
+def test_a_parameter_at_its_bound_stays_there(small: ah.Hull) -> None:
+    """What else is free does the rest; where nothing is, the bound in the way is named."""
+    reach, bounds = {"volume": [2820.0, 2900.0]}, {"breadth": (9.9, 10.02), "fuller": (-9.0, 9.0)}
+    found = ah.study(small, reach=reach, free=["breadth", fuller()], bounds=bounds)
+    assert found.rows[0].values[0] == pytest.approx(10.02, abs=1e-9)
+    assert found.rows[0].residual <= 1e-10
+    assert found.rows[1].reason.startswith("fuller of ")
+
+
 def test_an_interrupt_leaves_what_is_done(small: ah.Hull) -> None:
     """Rows that were finished are there, and told to be not all."""
 

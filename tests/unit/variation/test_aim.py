@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
+import attrs
 import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize
@@ -20,7 +21,7 @@ from assoc_hull.variation.aim import solve
 from assoc_hull.variation.aim_report import Aimed
 from assoc_hull.variation.aim_rule import Rule
 from tests.aims import FULLER, SHIFTED, problem, small
-from tests.formula_ships import OUTPUTS, PARENT, UNITS, FormulaShip
+from tests.formula_ships import OUTPUTS, PARENT, UNITS, Formula, FormulaShip
 
 ALL = tuple(PARENT)
 FIVE = ("breadth", "draught", "fore", "aft", "flare")
@@ -179,6 +180,18 @@ def test_what_bounds_forbid_is_refused_with_their_names_and_the_shortfall() -> N
     )
 
 
+def test_what_is_held_at_one_value_is_a_bound() -> None:
+    """A parameter whose bounds are one value is named where it is in the way, and in the report."""
+    ship = FormulaShip(("breadth", "fore"), ("volume",))
+    held = [[0.1, 0.1], [-0.1, 0.1]]
+    with pytest.raises(UnreachableError) as caught:
+        aim(ship, 1.1 * ship.parent, bounds=held)
+    assert caught.value.bounds == ("breadth", "fore")
+    found = aim(ship, 1.005 * ship.parent, bounds=held)
+    assert found.active == ("breadth",)
+    assert found.kkt <= 1e-6
+
+
 def test_the_best_within_bounds_is_that_of_least_squares() -> None:
     """Several targets out of reach: the compromise has the least sum of squares, to rounding."""
     ship = FormulaShip(FIVE)
@@ -225,6 +238,11 @@ def test_fewer_free_parameters_than_targets_need_leave_for_a_compromise() -> Non
             id="one that nothing moves",
         ),
         pytest.param(
+            ("breadth",), ("cw",), ("cw",),
+            "aim: no free parameter moves cw; drop it or free another one",
+            id="the only one",
+        ),
+        pytest.param(
             ("breadth", "draught"), ("volume", "a_m"), ("volume", "a_m"),
             "aim: targets volume and a_m move together (condition inf); drop one or free another "
             "parameter",
@@ -244,6 +262,23 @@ def test_targets_that_cannot_be_told_apart_are_named(
     assert ship.looks == 1
     loose = aim(ship, changed(ship), exact=False)
     assert set(loose.together) == set(together)
+
+
+def test_a_target_that_hardly_moves_is_one_that_nothing_moves() -> None:
+    """A coefficient that only the loft changes is not chased until the hull folds."""
+
+    @attrs.frozen
+    class Faint:
+        free, outputs = ("breadth",), ("cb",)
+
+        def at(self, amplitudes: FloatArray) -> Formula:
+            if abs(amplitudes[0]) > 5.0:
+                raise BadInputError("the map folds", "in the ship", "ask for less")
+            return Formula(0.7 + 1e-7 * amplitudes, np.full((1, 1), 1e-7))
+
+    with pytest.raises(DependentTargetsError) as caught:
+        solve(Faint(), [0.71], start=[0.0], scales_free=[1.0], scales_out=[0.7])
+    assert caught.value.targets == ("cb",)
 
 
 def test_targets_that_agree_may_move_together() -> None:
@@ -309,12 +344,11 @@ def test_the_same_question_has_the_same_answer_to_the_bit() -> None:
 
 
 def test_a_report_says_what_was_reached_and_by_what() -> None:
-    """Values with units, changes, residual, condition: one line each."""
+    """Steps, condition and total change; values with units; changes: one line each."""
     ship = FormulaShip(("breadth", "fore", "aft"), OUTPUTS[:3])
     found = aim(ship, changed(ship))
     lines = str(found).splitlines()
-    assert lines[0].startswith("aim: met after 4 steps, residual ")
-    assert "condition 7.91, total change 2.585" in lines[0]
+    assert lines[0] == "aim: met after 4 steps, condition 7.91, total change 2.585"
     assert lines[1:4] == [
         "volume 10536.7 -> 10642.0333 m3", "lcb 1.56189 -> 1.92189271 m",
         "kmt 8.50667 -> 8.70667299 m",

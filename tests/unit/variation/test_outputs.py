@@ -70,18 +70,37 @@ def differences(hull: Hull, outputs: Outputs, way: Moves, step: float) -> FloatA
     return (8.0 * one - two) / (12.0 * step)
 
 
+def together(moves: list[Moves], part: FloatArray) -> Moves:
+    """All of them at once, each by its part."""
+    rates = part @ [attrs.astuple(each.rates) for each in moves]
+    whole = np.einsum("k,knj->nj", part, [each.displacement for each in moves])
+    return Moves("together", whole, rates=Rates(*rates.tolist()))
+
+
 @pytest.mark.parametrize("name", MORE)
 def test_derivatives_are_those_of_central_differences(name: str, hulls: dict[str, Hull]) -> None:
-    """Each to 1e-7 of itself, or of its value (0.1 for one of nil) over Lpp if that is more."""
-    hull = hulls[name]
+    """Each to 1e-7 of itself, or of its value (0.1 for one of nil) over Lpp if that is more.
+
+    Along a mixture of all parameters, which takes a part of the time.
+    """
+    hull, part = hulls[name], np.array([0.7, -0.9, 1.1, 1.3])
     outputs, moves = Outputs.of(hull.state, (*NAMES, *MORE[name])), smooth_moves(hull)
     values, jacobian = outputs.derivatives(hull.state, moves)
     assert np.array_equal(values, outputs.values(hull.state))
-    for k, way in enumerate(moves):
-        wanted = differences(hull, outputs, way, 4e-3)
-        size = np.maximum(np.abs(wanted), np.maximum(np.abs(values), 0.1) / hull.particulars.length)
-        off = np.abs(jacobian[:, k] - wanted) / size
-        assert off.max() <= 1e-7, (way.name, outputs.names[int(off.argmax())])
+    wanted = differences(hull, outputs, together(moves, part), 4e-3)
+    sizes = np.abs(jacobian).max(axis=1), np.maximum(np.abs(values), 0.1) / hull.particulars.length
+    off = np.abs(jacobian @ part - wanted) / np.maximum(*sizes)
+    assert off.max() <= 1e-7, outputs.names[int(off.argmax())]
+
+
+def test_the_section_amidships_changes_as_stations_pass(hulls: dict[str, Hull]) -> None:
+    """A station there leaves it to either side, by other neighbours: the mean of both counts."""
+    state = hulls["series60_70"].state
+    forward = Moves("forward", np.ones((state.rows.count, 3)) * [1.0, 0.0, 0.0])
+    outputs = Outputs.of(state, ["a_midship", "cm", "lcb", "volume"])
+    jacobian = outputs.derivatives(state, [forward])[1][:, 0]
+    wanted = differences(hulls["series60_70"], outputs, forward, 4e-3)
+    assert_allclose(jacobian, wanted, rtol=1e-7, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", MORE)

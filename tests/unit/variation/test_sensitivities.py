@@ -55,13 +55,11 @@ def test_what_the_hull_has_not_is_told(every: Sensitivities) -> None:
     assert "bulb_length: " in str(every)
 
 
-@pytest.mark.parametrize(("name", "change"), [("fore_shift", 0.05), ("breadth", 0.02)])
-def test_the_table_tells_what_a_variation_does(name: str, change: float, series: Hull) -> None:
+def test_the_table_tells_what_a_variation_does(series: Hull) -> None:
     """Central differences of varied hulls, whose lines are all carried, cut and lofted anew."""
-    now = ah.measure(series, only=[name])[name]
-    outputs = ["volume", "lcb", "cb", "kmt"]
-    found = ah.sensitivities(series, outputs, [name])
-    ends = [ah.vary(series, set={name: now + sign * change}).hull for sign in (1.0, -1.0)]
+    outputs, change = ["volume", "lcb", "cb", "kmt"], 0.05
+    found = ah.sensitivities(series, outputs, ["fore_shift"])
+    ends = [ah.vary(series, set={"fore_shift": sign * change}).hull for sign in (1.0, -1.0)]
     plus, minus = (ah.hydrostatics(each, estimate=False) for each in ends)
     for i, field in enumerate(outputs):
         wanted = (getattr(plus, field) - getattr(minus, field)) / (2.0 * change)

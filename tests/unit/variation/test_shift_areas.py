@@ -14,6 +14,7 @@ from scipy.interpolate import PchipInterpolator
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.examples.series60_table import todd_table
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.polyline import Polyline
 from assoc_hull.variation.shift_classic import half_bodies, lackenby_changes
 from assoc_hull.variation.shift_elements import Elements
 from assoc_hull.variation.shift_solve import Shift, closed_form
@@ -270,3 +271,15 @@ def test_terminals_that_are_none(places: list[float], says: str) -> None:
     """Refused in one line, with what is wrong."""
     with pytest.raises(BadInputError, match=says):
         Terminals.of(places)
+
+
+def test_straight_lines_are_level_outside() -> None:
+    """Also infinitely far, where regions are asked for; bounds hold the nodes between."""
+    line = Polyline(np.array([0.0, 10.0, 30.0]), np.array([0.0, 2.0, 0.5]))
+    x = np.array([-np.inf, -1.0, 0.0, 5.0, 10.0, 20.0, 30.0, np.inf])
+    assert line.at(x).tolist() == [0.0, 0.0, 0.0, 1.0, 2.0, 1.25, 0.5, 0.5]
+    assert line.slope(x).tolist() == [0.0, 0.0, 0.2, 0.2, -0.075, -0.075, 0.0, 0.0]
+    low, high = np.array([-np.inf, 5.0, 12.0]), np.array([np.inf, 20.0, 14.0])
+    assert [each.tolist() for each in line.bounds(low, high)] == [[0.0, 1.0, 1.7], [2.0, 2.0, 1.85]]
+    slopes = line.slope_bounds(low, high)
+    assert [each.tolist() for each in slopes] == [[-0.075, -0.075, -0.075], [0.2, 0.2, -0.075]]
