@@ -65,11 +65,11 @@ class AskReach:
         BadInputError
             Targets without anything free, or the other way round; a name twice; no numbers.
         """
-        targets = _numbers(reach)
+        targets, limits = _numbers(reach), _mapping(bounds)
         made = _free(free)
         whole = flag(exact, "exact", _WHERE)
         if not targets:
-            if made or bounds:
+            if made or limits:
                 raise BadInputError(
                     f"{'free' if made else 'bounds'} is given, but nothing to reach", _WHERE,
                     "give reach={name: value}",
@@ -81,7 +81,7 @@ class AskReach:
             )
         given = list(free) if isinstance(free, Sequence) and not isinstance(free, str) else [free]
         return cls(
-            MappingProxyType(targets), made, MappingProxyType(_bounds(bounds, made)), whole,
+            MappingProxyType(targets), made, MappingProxyType(_bounds(limits, made)), whole,
             None if any(acts(each) for each in given) else tuple(given),
         )  # fmt: skip
 
@@ -127,10 +127,20 @@ def _numbers(given: object) -> dict[str, float]:
 
 def _target(given: object, name: str) -> float:
     """Take a finite number: a moment of inertia may be larger than any length."""
-    real = isinstance(given, Real) and not isinstance(given, bool)
-    if not real or not math.isfinite(given):  # type: ignore[arg-type]
+    found = _real(given)
+    if not math.isfinite(found):
         raise BadInputError(f"{name} is {shown(given)}", _WHERE, "give a finite number")
-    return float(given)  # type: ignore[arg-type]
+    return found
+
+
+def _real(given: object) -> float:
+    """Give a number, infinite ones as well; nan where it is none."""
+    if not isinstance(given, Real) or isinstance(given, bool):
+        return math.nan
+    try:
+        return float(given)
+    except OverflowError:
+        return math.inf
 
 
 def _free(given: object) -> tuple[str | Layer, ...]:
@@ -177,15 +187,22 @@ def _name(free: str | Layer) -> str:
     return free if isinstance(free, str) else free.name
 
 
-def _bounds(given: object, free: Sequence[str | Layer]) -> dict[str, tuple[float, float]]:
-    """Take bounds of what is free."""
+def _mapping(given: object) -> Mapping[str, object]:
+    """Take bounds as they are given, by name."""
     if given is None:
         return {}
-    names = [_name(each) for each in free]
     if not isinstance(given, Mapping):
         raise WrongTypeError(
             f"bounds is {type(given).__name__}", _WHERE, "give (low, high) by what is free"
         )
+    return given
+
+
+def _bounds(
+    given: Mapping[str, object], free: Sequence[str | Layer]
+) -> dict[str, tuple[float, float]]:
+    """Take bounds of what is free."""
+    names = [_name(each) for each in free]
     for name in given:
         if name not in names:
             raise UnknownNameError("free parameter", shown_name(name), tuple(names))
@@ -199,7 +216,9 @@ def _pair(given: object, name: str) -> tuple[float, float]:
             f"bounds of '{name}' are {shown(given)}", _WHERE, "give (low, high); None leaves open"
         )
     ends = [
-        limit if each is None or each == limit else number(each, f"a bound of '{name}'", _WHERE)
+        limit
+        if each is None or _real(each) == limit
+        else number(each, f"a bound of '{name}'", _WHERE)
         for each, limit in zip(given, (-math.inf, math.inf), strict=True)
     ]
     if not ends[0] <= ends[1]:

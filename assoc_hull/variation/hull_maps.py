@@ -155,6 +155,11 @@ class HullMaps:
         asked = self.values(amplitudes)
         return asked_radii(self.state, self.room.parent, asked, self.room.present)
 
+    def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
+        """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
+        found = regenerated(self.state, self.map(amplitudes), self._radii(amplitudes)).map(source)
+        return np.asarray(found)
+
     def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> Laid:
         """Give a map, and what it does with lines, features and dimensions of the parent.
 

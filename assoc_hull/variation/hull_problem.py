@@ -29,11 +29,11 @@ from assoc_hull.variation.velocities import Velocities, velocities
 
 __all__ = ["HullProblem", "Reached"]
 
-_FAR = 0.25
-"""m: a hull of which no point moves farther is nudged, and not carried in full."""
-
 _OFF = 0.25
-"""In a nudge points leave the hull by no more than this part of the drivers' tolerance."""
+"""In a nudge points stray from their images by no more than this part of the tolerance."""
+
+_KEPT = 4
+"""So many hulls that were carried in full are kept, to be nudged from."""
 
 _HAIR = 1e-3
 """Usual changes by which it is found which lines of a parent will drive."""
@@ -72,8 +72,9 @@ class Base:
         by = amplitudes - self.amplitudes
         if self.still:
             return not by.any()
-        far, off = self.rates.reach(by)
-        return far <= _FAR and off <= _OFF * self.maps.ask.tolerance
+        most = _OFF * self.maps.ask.tolerance
+        slides = self.rates.slides_off(by) <= most
+        return slides and self.rates.strays(by, self.maps, amplitudes) <= most
 
     def nudge_to(self, amplitudes: FloatArray) -> Nudge | None:
         """Give the nudge that leads to amplitudes; None if nothing moves."""
@@ -144,8 +145,8 @@ class HullProblem:
         The maps of the parent.
     measured : Outputs
         What is aimed at.
-    base : Base or None
-        The hull that was last carried in full.
+    bases : list of Base
+        The hulls that were last carried in full, the oldest first.
     quick : bool
         Whether nudged hulls are measured by the layout of what they were nudged from. What a
         layout of their own would decide otherwise is below rounding, or nearly.
@@ -155,7 +156,7 @@ class HullProblem:
 
     maps: HullMaps
     measured: Outputs
-    base: Base | None = None
+    bases: list[Base] = attrs.field(factory=list)
     quick: bool = True
     carries: int = 0
     nudges: int = 0
@@ -188,16 +189,15 @@ class HullProblem:
 
     def _reached(self, at: FloatArray) -> Reached:
         if self.maps.still(at):
-            if self.base is None or not self.base.still:
-                self.base = self._parent(at)
-            return Reached(self.maps.state, at, self.base, self.measured)
+            return Reached(self.maps.state, at, self._parent(at), self.measured)
         self.maps.certified(at)
-        if self.base is not None and self.base.near(at):
-            found = self._nudged(self.base, at)
+        for base in self.bases:  # the oldest first: a step that is halved leads back to it
+            found = self._nudged(base, at) if base.near(at) else None
             if found is not None:
                 return found
-        self.base = self._carried(at)
-        return Reached(self.base.state, at, self.base, self.measured)
+        base = self._carried(at)
+        self.bases = [*self.bases[-_KEPT + 1 :], base]
+        return Reached(base.state, at, base, self.measured)
 
     def _parent(self, at: FloatArray) -> Base:
         """Take the parent as it is: lines will drive as they do when all parameters move a hair."""

@@ -63,6 +63,8 @@ class Velocities:
         The points that move by themselves; the others are computed.
     bend : (n,), 1/m
         How much the curves through these bend.
+    source, place : (n, 3), m
+        Where they come from in the parent, and where they are.
     """
 
     move: FloatArray
@@ -73,6 +75,8 @@ class Velocities:
     features: tuple[Mapping[str, Mapping[str, FloatArray]], ...]
     rows: IntArray
     bend: FloatArray
+    source: FloatArray
+    place: FloatArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.move, self.carried, self.turn, self.level, self.sizes, self.rows, self.bend)
@@ -102,16 +106,19 @@ class Velocities:
             attrs.evolve(size, **sizes), within,
         )  # fmt: skip
 
-    def reach(self, by: FloatArray) -> tuple[float, float]:
-        """Give how far the map moves points, and how far sliding ones leave the hull, m.
+    def slides_off(self, by: FloatArray) -> float:
+        """Give how far points that slide leave the hull at most, m.
 
         A point that slides by s along a curve of curvature k leaves it by k s^2 / 2.
         """
-        carried = _sum(by, self.carried[:, self.rows])
-        slid = _sum(by, self.move[:, self.rows]) - carried
-        off = 0.5 * self.bend * (slid * slid).sum(axis=1)
-        far = np.sqrt((carried * carried).sum(axis=1))
-        return float(far.max(initial=0.0)), float(off.max(initial=0.0))
+        slid = _sum(by, self.move[:, self.rows] - self.carried[:, self.rows])
+        return float((0.5 * self.bend * (slid * slid).sum(axis=1)).max(initial=0.0))
+
+    def strays(self, by: FloatArray, maps: HullMaps, amplitudes: FloatArray) -> float:
+        """Give how far points come to lie at most from where the map itself sends them, m."""
+        gone = self.place + _sum(by, self.carried[:, self.rows])
+        away = gone - maps.places(amplitudes, self.source)
+        return float(np.sqrt((away * away).sum(axis=1)).max(initial=0.0))
 
     def turning(self, by: FloatArray) -> FloatArray:
         """Give how directions turn that were turned already by a nudge, (k, rows, 3, 3)."""
@@ -169,8 +176,9 @@ def velocities(
     move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
     rows = nudged(state)
     return Velocities(
-        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows]
-    )
+        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows],
+        source[rows], state.rows.xyz.data[rows].copy(),
+    )  # fmt: skip
 
 
 def _laid(
