@@ -32,6 +32,10 @@ _ENOUGH = 8000
 
 _MOST = 60_000
 _DEPTH = 14
+_TIE = 1e-12
+"""Values this close are taken for equal, and the last of them is told: where a minor is the same
+all along the ship, rounding, which is not the same on every machine, would choose the place."""
+
 _INWARD = 1e-10
 """The witness is taken so far inside its box, as a part of it: where slopes jump, they are those
 of the box."""
@@ -157,7 +161,7 @@ def search(minor: Minor, enough: float) -> Found:
         ratios = boxes.ratios()
         low = boxes.bounds(ratios)
         value, place, row = _lowest_corner(minor, boxes, ratios)
-        if value < least:
+        if value < least - _TIE:
             least, where, home = value, place, int(boxes.home[row])
         open_ = low < least - (_NEAR if count < _SHARP else _NEARLY)
         if count > _ENOUGH:
@@ -199,7 +203,8 @@ def _lowest_corner(
     if minor.within is not None:
         counts = minor.within(places.reshape(-1, k)).reshape(count, -1)
         values = np.where(counts, values, np.inf)
-    row, column = np.unravel_index(int(np.argmin(values)), values.shape)
+    last = int(np.flatnonzero(values <= values.min() + _TIE)[-1])
+    row, column = np.unravel_index(last, values.shape)
     return float(values[row, column]), places[row, column], int(row)
 
 

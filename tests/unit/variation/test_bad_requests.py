@@ -82,6 +82,19 @@ WORDS: dict[str, tuple[Given, type[AssocHullError], tuple[str, ...]]] = {
     "a contour or not": (
         raw(along={"x": [6, 66], "v": [1, 0], "smooth": "no"}), WrongTypeError, ("smooth is 'no'",),
     ),
+    "both a contour and straight": (
+        raw(along={"x": [6, 66], "v": [1, 0], "smooth": True, "straight": True}), BadInputError,
+        ("both smooth and straight",),
+    ),
+    "a bump of no length": (
+        raw(along={"begin": 6, "end": 6, "shape": "c2"}), BadInputError, ("from 6 to 6 m",),
+    ),
+    "a bump of an unknown shape": (
+        raw(along={"begin": 6, "end": 66, "shape": "c3"}), BadInputError, ("shape is 'c3'",),
+    ),
+    "a bump without an end": (
+        raw(along={"begin": 6, "shape": "c2"}), BadInputError, ("has no 'end'",),
+    ),
     "an unknown kind of field": (
         {"layers": [[{"hut": HAT}]]}, UnknownNameError, ("'hat'", "part of a field"),
     ),
