@@ -82,7 +82,8 @@ def shown_name(value: object) -> str:
 def _array(values: object) -> Floats:
     """Give numbers as an array; one nan where they are none: True is no 1 here."""
     each = values if isinstance(values, list | tuple) else [values]
-    if any(isinstance(value, _TRUTH) or getattr(value, "dtype", None) == bool for value in each):
+    kinds = (getattr(getattr(value, "dtype", None), "kind", "") for value in each)
+    if any(isinstance(value, bool) for value in each) or "b" in kinds:
         return np.full(1, np.nan)
     try:
         return np.array(values, np.float64)
@@ -160,8 +161,8 @@ def integer(value: object, name: str, where: str = _CALL, *, least: int, most: i
     return int(value)
 
 
-def numbers(values: object, name: str, where: str = _CALL) -> Floats:
-    """Take one number or some, (k,): finite, of at most 1e6 m.
+def numbers(values: object, name: str, where: str = _CALL, *, most: float = _LARGEST) -> Floats:
+    """Take one number or some, (k,): finite, of at most 1e6 m unless it is said.
 
     Raises
     ------
@@ -169,11 +170,10 @@ def numbers(values: object, name: str, where: str = _CALL) -> Floats:
         Anything else.
     """
     found = _array(values)
-    if found.ndim > 1 or not (np.abs(found) <= _LARGEST).all():
+    if found.ndim > 1 or not (np.isfinite(found) & (np.abs(found) <= most)).all():
+        limit = f" up to {most:g}" if np.isfinite(most) else ""
         raise BadInputError(
-            f"{name} is {shown(values)}",
-            where,
-            f"give one finite number up to {_LARGEST:g}, or a list of such",
+            f"{name} is {shown(values)}", where, f"give one finite number{limit}, or a list of such"
         )
     return found
 

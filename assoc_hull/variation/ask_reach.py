@@ -134,13 +134,13 @@ def _target(given: object, name: str) -> float:
 
 
 def _real(given: object) -> float:
-    """Give a number, infinite ones as well; nan where it is none."""
+    """Give a number, infinite ones as well; nan where it is none, or one beyond all floats."""
     if not isinstance(given, Real) or isinstance(given, bool):
         return math.nan
     try:
         return float(given)
     except OverflowError:
-        return math.inf
+        return math.nan
 
 
 def _free(given: object) -> tuple[str | Layer, ...]:
@@ -163,7 +163,7 @@ def _one(given: object) -> str | Layer:
     """Take one thing that is free."""
     if isinstance(given, str):
         if given not in NAMES:
-            raise UnknownNameError("named parameter", given, NAMES)
+            raise UnknownNameError("named parameter", shown_name(given), NAMES)
         return given
     layer = given if acts(given) else _layer(given)
     name = text(layer.name, "the name of a free layer", _WHERE)  # type: ignore[attr-defined]

@@ -22,7 +22,7 @@ from assoc_hull.analysis.moved import flotation_like
 from assoc_hull.analysis.parameters import Parameter, Position
 from assoc_hull.analysis.record_fields import FIELDS
 from assoc_hull.analysis.tangents import tangents_by
-from assoc_hull.arguments import all_of, number, shown
+from assoc_hull.arguments import all_of, number, shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.state import HullState, Particulars
@@ -263,4 +263,4 @@ def _key(name: str, state: HullState) -> tuple[str, str]:
     if name.startswith(_AREA):
         return "station", name.removeprefix(_AREA)
     stations = (_AREA + each for each in flotation(state).sections.names)
-    raise UnknownNameError("output", name, (*FIELDS, *CATALOGUE, *stations))
+    raise UnknownNameError("output", shown_name(name), (*FIELDS, *CATALOGUE, *stations))

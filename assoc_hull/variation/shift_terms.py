@@ -65,9 +65,9 @@ class Terminals:
             Not four numbers; or they do not rise (`start` and `end` may be one place).
         """
         four = numbers(given, "terminals", _WHERE)
-        if len(four) != 4:
+        if four.shape != (4,):
             raise BadInputError(
-                f"terminals are {len(four)} numbers", _WHERE,
+                f"terminals are {four.size} numbers", _WHERE,
                 "give after terminal, start and end of the parallel body, fore terminal, m from AP",
             )  # fmt: skip
         aft, start, end, fore = four.tolist()

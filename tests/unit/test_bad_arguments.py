@@ -223,10 +223,17 @@ FLOATING: dict[str, Given] = {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,
     },
+    "shift_sections": {
+        "to": None, "by": {"cb": 0.005}, "shape": "c2", "terminals": None, "fade": "b5",
+        "tolerance": 2e-3, "name": None, "in_place": False,
+    },
+    "swing": {
+        "length": None, "breadth": 10.0, "draught": None, "name": None, "in_place": False,
+    },
     "vary": {
-        "set": {"breadth": 11.0}, "layers": (), "layout": None, "drivers": None,
-        "stations": "number", "planes": "follow", "tolerance": 2e-3, "name": None,
-        "in_place": False,
+        "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "exact": True,
+        "layers": (), "layout": None, "drivers": None, "stations": "number", "planes": "follow",
+        "tolerance": 2e-3, "name": None, "in_place": False,
     },
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip
@@ -387,6 +394,18 @@ def test_what_is_measured_is_a_hull(hull: ah.Hull, method: str) -> None:
         assert isinstance(caught.value, ah.BadInputError)
 
 
+@pytest.mark.parametrize("name", ["parent", "variant", "draught", "screw"])
+def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None:
+    """An error of the family or a comparison; neither hull changes."""
+    before = hull.fingerprint
+    given = {"parent": hull, "variant": hull, "draught": None, "screw": None}
+    for trial in spoilt(given, name):
+        with trial as bad:
+            call(ah.compare, bad)
+    assert hull.fingerprint == before
+    assert set(inspect.signature(ah.compare).parameters) == set(given)
+
+
 @pytest.mark.parametrize("method", FLOATING)
 def test_every_argument_of_hydrostatics_is_tried(method: str) -> None:
     """As those of the methods."""
@@ -436,6 +455,7 @@ def test_every_public_name_is_tried() -> None:
         and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
     }
     tried = tried - {"wigley", "series60"} | set(FLOATING)  # the carrier takes nothing
+    tried |= {"compare", "Study"}  # a study is made by `study`; see test_bad_targets
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     assert made == {"wigley", "series60", "bulk_carrier_207k"}
