@@ -58,6 +58,7 @@ _LONGEST = 200
 
 _CALL = "in the call"
 _FAILS = (TypeError, ValueError, OverflowError)
+_TRUTH = (bool, np.bool_)
 
 
 def shown(value: object) -> str:
@@ -79,7 +80,10 @@ def shown_name(value: object) -> str:
 
 
 def _array(values: object) -> Floats:
-    """Give numbers as an array; one nan where they are none."""
+    """Give numbers as an array; one nan where they are none: True is no 1 here."""
+    each = values if isinstance(values, list | tuple) else [values]
+    if any(isinstance(value, _TRUTH) or getattr(value, "dtype", None) == bool for value in each):
+        return np.full(1, np.nan)
     try:
         return np.array(values, np.float64)
     except _FAILS:
@@ -104,7 +108,7 @@ def number(value: object, name: str, where: str = _CALL) -> float:
         found = float(value) if np.ndim(value) == 0 else float("nan")  # type: ignore[arg-type]
     except _FAILS:
         found = float("nan")
-    if isinstance(value, bool | np.bool_) or not abs(found) <= _LARGEST:
+    if isinstance(value, _TRUTH) or not abs(found) <= _LARGEST:
         raise BadInputError(
             f"{name} is {shown(value)}", where, f"give a finite number up to {_LARGEST:g} m"
         )
@@ -278,7 +282,7 @@ def flag(value: object, name: str, where: str = _CALL) -> bool:
     WrongTypeError
         Anything else: what merely counts as true may be a mistake.
     """
-    if not isinstance(value, bool | np.bool_):
+    if not isinstance(value, _TRUTH):
         raise WrongTypeError(f"{name} is {shown(value)}", where, "give True or False")
     return bool(value)
 
@@ -360,7 +364,7 @@ def plain(value: float) -> float:
     >>> plain("3.5")
     3.5
     """
-    if isinstance(value, bool | np.bool_):
+    if isinstance(value, _TRUTH):
         return value
     try:
         return value if np.ndim(value) else float(value)

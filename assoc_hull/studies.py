@@ -22,7 +22,7 @@ import attrs
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.measured_hull import state_of
-from assoc_hull.arguments import integer, shown
+from assoc_hull.arguments import file_path, integer, shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.hull import Hull
 from assoc_hull.io.study_table import study_csv, study_json
@@ -122,7 +122,7 @@ class Study:
 
 def _put(text: str, path: str | PathLike[str] | None) -> str:
     if path is not None:
-        write_whole(path, text.encode())
+        write_whole(file_path(path, _WHERE), text.encode())
     return text
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.parameters import HELD, Rates, Shape
+from assoc_hull.analysis.parameters import HELD, Named, Rates, Shape
 from assoc_hull.arguments import checked, instance, shown, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -39,7 +39,7 @@ def _gradient(values: object) -> FloatArray:
 
 
 @attrs.frozen(eq=False)
-class Moves(Shape):
+class Moves(Named, Shape):
     """A parameter by which all defining points move as given.
 
     Points that are computed from curves follow these exactly, whatever stands in their rows;
@@ -92,16 +92,6 @@ class Moves(Shape):
         if self.gradient is not None and len(self.gradient) != len(self.displacement):
             what = f"gradient has {len(self.gradient)} rows, displacement {len(self.displacement)}"
             raise BadInputError(what, _WHERE, "give a row per point in both")
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        return self.name
-
-    @property
-    def per(self) -> str:
-        """Its unit."""
-        return self.unit
 
     @property
     def follows(self) -> bool:

@@ -22,8 +22,8 @@ from assoc_hull.model.place import free_axes
 from assoc_hull.model.state import HullState
 
 __all__ = [
-    "DRAUGHT", "DRAUGHT_AFT", "DRAUGHT_FORE", "HEEL", "HELD", "TRIM", "Deformation", "Parameter",
-    "PointMove", "Position", "Rates", "Shape",
+    "DRAUGHT", "DRAUGHT_AFT", "DRAUGHT_FORE", "HEEL", "HELD", "TRIM", "Deformation", "Named",
+    "Parameter", "PointMove", "Position", "Rates", "Shape",
 ]  # fmt: skip
 
 _WHERE = "in hydrostatic_derivatives"
@@ -51,8 +51,25 @@ class Parameter(ABC):
         return "m"
 
 
+class Named(Parameter):
+    """A parameter with a name and a unit of its own."""
+
+    name: str
+    unit: str
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return self.name
+
+    @property
+    def per(self) -> str:
+        """Its unit."""
+        return self.unit
+
+
 @attrs.frozen
-class Position(Parameter):
+class Position(Named):
     """A parameter of the floating position: `DRAUGHT` and so on, or one of your own.
 
     Attributes
@@ -68,16 +85,6 @@ class Position(Parameter):
     name: str = attrs.field(validator=checked(text, _WHERE))
     rates: tuple[float, float, float] = attrs.field(converter=_three)
     unit: str = "m"
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        return self.name
-
-    @property
-    def per(self) -> str:
-        """Its unit."""
-        return self.unit
 
 
 DRAUGHT = Position("draught", (1.0, 1.0, 0.0))
@@ -225,7 +232,7 @@ Field = Callable[[FloatArray], FloatArray]
 
 
 @attrs.frozen
-class Deformation(Shape):
+class Deformation(Named, Shape):
     """A smooth field by which all defining points move.
 
     Planes of sections and waterlines may move along; the curves are lofted anew.
@@ -248,16 +255,6 @@ class Deformation(Shape):
     field: Field
     gradient: Field | None = None
     unit: str = "-"
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        return self.name
-
-    @property
-    def per(self) -> str:
-        """Its unit."""
-        return self.unit
 
     def moves(self, state: HullState) -> tuple[FloatArray, FloatArray | None]:
         """Give how all points move, (n, 3), and the gradient there, (n, 3, 3), by row.

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from assoc_hull.cli.arguments import (
-    HULL_ENDINGS,
     Commands,
     add_command,
     add_hull,
@@ -19,9 +18,10 @@ from assoc_hull.cli.arguments import (
     add_replace,
     add_wait,
 )
+from assoc_hull.cli.changed import open_to_change
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.preview_words import preview_words
-from assoc_hull.cli.problems import InFileError, check_hull_target, check_target, is_apart
+from assoc_hull.cli.problems import InFileError
 from assoc_hull.cli.why import why_words
 from assoc_hull.cli.words import edit_words
 from assoc_hull.edit.cause import Why
@@ -82,24 +82,17 @@ def _edit(arguments: argparse.Namespace) -> int:
 
 def _carry_out(arguments: argparse.Namespace, name: str, changes: Changes) -> int:
     """Edit the hull and write it."""
-    target: Path = arguments.out or arguments.hull
-    apart = is_apart(arguments.out, arguments.hull)
-    check_target(target, HULL_ENDINGS)
-    if apart:
-        check_hull_target(target, replace=arguments.replace)
-    hull = open_hull(arguments.hull, wait=arguments.wait)
-    if apart:
-        hull.detach()
+    changed = open_to_change(arguments)
+    hull = changed.hull
     for each in arguments.why:
         hull.find(each)  # before anything is edited
     with progress("updating"), _values_of(str(arguments.edits)), hull.edit(name) as edit:
         _modify_all(edit, changes, arguments.edits)
     assert edit.report is not None, "an edit without an error has a report"
     causes = {each: hull.why(each) for each in arguments.why}
-    facts = _facts(edit.report, causes, hull.fingerprint, target)
-    told = [edit_words(hull, edit.report), *why_words(causes), f"written: {target}"]
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)  # last: what cannot be told leaves no file
+    facts = _facts(edit.report, causes, hull.fingerprint, changed.target)
+    told = [edit_words(hull, edit.report), *why_words(causes), f"written: {changed.target}"]
+    changed.save()  # last: what cannot be told leaves no file
     emit(arguments, facts, "\n".join([name, *told]))
     return 0
 

@@ -6,17 +6,15 @@ import argparse
 from pathlib import Path
 
 from assoc_hull.cli.arguments import (
-    HULL_ENDINGS,
     Commands,
     add_command,
     add_json,
     add_replace,
     add_wait,
 )
+from assoc_hull.cli.changed import open_to_change
 from assoc_hull.cli.history import open_with_history
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
-from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
 
@@ -43,25 +41,18 @@ def add(commands: Commands) -> None:
 
 
 def _replay(arguments: argparse.Namespace) -> int:
-    target: Path = arguments.out or arguments.hull
-    apart = is_apart(arguments.out, arguments.hull)
-    check_target(target, HULL_ENDINGS)
-    if apart:
-        check_hull_target(target, replace=arguments.replace)
+    changed = open_to_change(arguments)
     source = open_with_history(arguments.source)
-    hull = open_hull(arguments.hull, wait=arguments.wait)
-    if apart:
-        hull.detach()
+    hull = changed.hull
     with progress("replaying"):
         found = hull.replay(source, skip=arguments.skip)
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)
+    changed.save()
     failed = [each for each in found if each.report is None]
     left = len(source.history) - len(found)
     facts = {
         "edits": [{"name": e.name, "made": e.report is not None, "why": e.why} for e in found],
-        "left": left, "fingerprint": hull.fingerprint, "saved": target,
+        "left": left, "fingerprint": hull.fingerprint, "saved": changed.target,
     }  # fmt: skip
     told = [*map(str, found), *([f"{left} more were not tried"] if left else [])]
-    emit(arguments, facts, "\n".join([*told, f"written: {target}"]))
+    emit(arguments, facts, "\n".join([*told, f"written: {changed.target}"]))
     return 1 if failed else 0

@@ -8,12 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from assoc_hull.cli.arguments import HULL_ENDINGS, add_json, add_replace, add_wait
+from assoc_hull.cli.arguments import add_json, add_replace, add_wait
+from assoc_hull.cli.changed import open_to_change
 from assoc_hull.cli.output import emit, progress
-from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.hull import Hull
-from assoc_hull.sources import open as open_hull
 
 __all__ = ["add_out", "told_if_refused", "varied_into"]
 
@@ -45,18 +44,11 @@ def varied_into(
     act : callable
         Varies the hull in place.
     """
-    target: Path = arguments.out or arguments.hull
-    apart = is_apart(arguments.out, arguments.hull)
-    check_target(target, HULL_ENDINGS)
-    if apart:
-        check_hull_target(target, replace=arguments.replace)
-    hull = open_hull(arguments.hull, wait=arguments.wait)
-    if apart:
-        hull.detach()
+    changed = open_to_change(arguments)
+    hull = changed.hull
     with progress(doing):
         found = act(hull)
-    if apart or hull.path is None:
-        hull.save(target, replace=arguments.replace)
+    changed.save()
     return hull, found
 
 

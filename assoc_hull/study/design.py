@@ -177,13 +177,25 @@ def _columns(
         if known is not None and name not in known:
             raise UnknownNameError("parameter", shown_name(name), known)
         text(name, f"a name in {argument}", _WHERE)
-    columns = [np.atleast_1d(numbers(each, str(name), _WHERE)) for name, each in given.items()]
+    take = numbers if known is not None else _amounts
+    columns = [np.atleast_1d(take(each, str(name), _WHERE)) for name, each in given.items()]
     for name, column in zip(given, columns, strict=True):
         if not 1 <= len(column) <= _MOST:
             raise BadInputError(
                 f"{name} has {len(column)} values", _WHERE, f"give from 1 to {_MOST:,}"
             )
     return tuple(map(str, given)), columns
+
+
+def _amounts(values: object, name: str, where: str) -> FloatArray:
+    """Take finite numbers, (k,), that may be larger than any length."""
+    try:
+        found = np.array(values, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        found = np.full(1, np.nan)
+    if found.ndim > 1 or not np.isfinite(found).all():
+        raise BadInputError(f"{name} is {shown(values)}", where, "give finite numbers")
+    return found
 
 
 def _check(given: tuple[str, ...], free: tuple[str, ...], aims: tuple[str, ...]) -> None:

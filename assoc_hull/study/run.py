@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import pickle
 import signal
+import tempfile
 from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from multiprocessing import get_context
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
+from multiprocessing import get_context, parent_process
+from pathlib import Path
 
 import attrs
 import numpy as np
 
-from assoc_hull.errors import AssocHullError
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
@@ -145,6 +153,11 @@ def run_study(
         In the order of `numbers`.
     bool
         Whether it was interrupted: then rows are missing.
+
+    Raises
+    ------
+    BadInputError
+        A process came to an end, as it does where a program begins a study whenever it is imported.
     """
     rows = dict[int, Row]()
     made = _one_by_one(run, numbers) if workers == 1 else _side_by_side(run, numbers, workers)
@@ -170,8 +183,18 @@ def _side_by_side(run: Run, numbers: Sequence[int], workers: int) -> Generator[R
 
     Each process prepares the hull for itself, of the same tables: so it has the same bits.
     """
+    if parent_process() is not None:
+        raise _unguarded()
     given = pickle.dumps((copy_of(run.ground.maps.state), run.design, run.model))
-    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (given,))
+    # in a file: a process that ends before it has read a long message would block this one
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "study.pickle"
+        file.write_bytes(given)
+        yield from _handed_out(numbers, workers, str(file))
+
+
+def _handed_out(numbers: Sequence[int], workers: int, file: str) -> Generator[Row]:
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (file,))
     waiting, running = iter(numbers), set[Future[Row]]()
     try:
         while True:
@@ -183,20 +206,29 @@ def _side_by_side(run: Run, numbers: Sequence[int], workers: int) -> Generator[R
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
             for each in done:
-                yield each.result()
+                yield attrs.evolve(each.result())  # frozen again
+    except BrokenExecutor as error:
+        raise _unguarded() from error
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def _unguarded() -> BadInputError:
+    return BadInputError(
+        "a process of the study began another study, or came to an end", "in study",
+        "begin the program under if __name__ == '__main__':, or give workers=1",
+    )  # fmt: skip
 
 
 _own: Run | None = None
 """What a process of a study works on."""
 
 
-def _begin(given: bytes) -> None:
+def _begin(file: str) -> None:
     """Prepare a process; an interrupt is for the one that began it."""
     global _own
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    state, design, model = pickle.loads(given)
+    state, design, model = pickle.loads(Path(file).read_bytes())
     _own = Run(design, Ground.of(state, design), model)
 
 

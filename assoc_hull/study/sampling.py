@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from assoc_hull.arguments import choice, integer, pair, shown_name
+from assoc_hull.arguments import choice, integer, pair, text
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 
@@ -63,7 +63,7 @@ def sample(
         raise WrongTypeError(f"ranges is {type(ranges).__name__}", _WHERE, "give them by name")
     if not ranges:
         raise BadInputError("there are no ranges", _WHERE, "give (low, high) by name")
-    names = [shown_name(name) for name in ranges]
+    names = [text(name, "a name of the ranges", _WHERE) for name in ranges]
     ends = np.array([pair(each, f"the range of {name}", _WHERE, positive=False)
                      for name, each in zip(names, ranges.values(), strict=True)])  # fmt: skip
     number = integer(count, "count", _WHERE, least=1)
