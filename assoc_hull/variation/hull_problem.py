@@ -29,6 +29,9 @@ from assoc_hull.variation.velocities import Velocities, velocities
 
 __all__ = ["HullProblem", "Reached"]
 
+_FAR = 0.2
+"""m: drivers have points that hold them to their images; farther on, they need others."""
+
 _OFF = 0.25
 """In a nudge points stray from their images by no more than this part of the tolerance."""
 
@@ -72,9 +75,10 @@ class Base:
         by = amplitudes - self.amplitudes
         if self.still:
             return not by.any()
-        most = _OFF * self.maps.ask.tolerance
-        slides = self.rates.slides_off(by) <= most
-        return slides and self.rates.strays(by, self.maps, amplitudes) <= most
+        rates, most = self.rates, _OFF * self.maps.ask.tolerance
+        if rates.farthest(by) > _FAR or rates.slides_off(by) > most:
+            return False
+        return self.rates.strays(by, self.maps, amplitudes) <= most
 
     def nudge_to(self, amplitudes: FloatArray) -> Nudge | None:
         """Give the nudge that leads to amplitudes; None if nothing moves."""

@@ -106,6 +106,11 @@ class Velocities:
             attrs.evolve(size, **sizes), within,
         )  # fmt: skip
 
+    def farthest(self, by: FloatArray) -> float:
+        """Give how far the map moves points at most, m."""
+        gone = _sum(by, self.carried[:, self.rows])
+        return float(np.sqrt((gone * gone).sum(axis=1)).max(initial=0.0))
+
     def slides_off(self, by: FloatArray) -> float:
         """Give how far points that slide leave the hull at most, m.
 

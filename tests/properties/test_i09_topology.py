@@ -184,7 +184,7 @@ def test_births_and_deaths_are_reported_and_ids_never_come_back(
 BENDS = ("insert", "insert", "insert", "move", "set_end", "reshape", "pull")
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(hulls(), tasks((*SHAPES, *BENDS), largest=1.5, most=4, acts=1))
 def test_a_crossing_is_passed_in_one_sense_all_its_life(hull: ah.Hull, edits: list[Task]) -> None:
     """By both of its curves, over rough edits of every kind: the sense is part of its id."""

@@ -1,6 +1,7 @@
 """From slices of hulls with a formula to smooth lines and a net."""
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -15,6 +16,8 @@ from assoc_hull.io.mesh import slice_mesh
 from assoc_hull.io.mesh_file import Triangles
 from assoc_hull.io.slice_net import net_from_slices, sources_from_slices
 from assoc_hull.io.slice_report import SliceReport
+from assoc_hull.io.slice_types import Slices
+from assoc_hull.model.state import HullState
 from assoc_hull.model.verify import verify
 from tests import meshes
 
@@ -28,13 +31,24 @@ HULLS = [
 ]
 
 
+@cache
+def slices_of(mesh: Triangles) -> Slices:
+    """Slices of a mesh, which several tests look at."""
+    return slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
+
+
+@cache
+def net_of(mesh: Triangles) -> tuple[HullState, SliceReport]:
+    """The net made of them; no test changes it."""
+    return net_from_slices(slices_of(mesh))
+
+
 @pytest.mark.parametrize(("mesh", "off"), HULLS)
 def test_smooth_lines_are_the_hull_within_their_band(
     mesh: Triangles, off: Callable[[FloatArray], FloatArray]
 ) -> None:
     """Each smooth line lies on the hull within its stated band and has no inflection."""
-    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
-    sources, reports, knuckles, _, borders = sources_from_slices(slices)
+    sources, reports, knuckles, _, borders = sources_from_slices(slices_of(mesh))
     assert (knuckles, borders) == ([], [])
     for source, report in zip(sources, reports, strict=True):
         if source.group == "boundary":
@@ -51,7 +65,7 @@ def test_the_net_is_the_hull(mesh: Triangles, off: Callable[[FloatArray], FloatA
 
     Sections, waterlines and buttocks of both hulls have no inflection (see below).
     """
-    state, report = net_from_slices(slice_mesh(mesh, stations=9, waterlines=5, buttocks=3))
+    state, report = net_of(mesh)
     seen = []
     for line, band in zip(report.adoption.lines, report.bands, strict=True):
         curve = state.curves.key.data.index(line.curve)
@@ -75,9 +89,8 @@ def test_adopted_curves_end_where_the_hull_ends(
     mesh: Triangles, off: Callable[[FloatArray], FloatArray]
 ) -> None:
     """Sections at keel and deck, waterlines on stem and stern, buttocks on the deck twice."""
-    slices = slice_mesh(mesh, stations=9, waterlines=5, buttocks=3)
-    state, report = net_from_slices(slices)
-    deck = float(slices.high[2])
+    state, report = net_of(mesh)
+    deck = float(slices_of(mesh).high[2])
     for line in report.adoption.lines:
         first, last = state.spline(state.curves.key.data.index(line.curve)).xyz[[0, -1]]
         if line.group == "sections":
