@@ -41,8 +41,9 @@ class Aimed:
         Whether all targets are met; else this is the best compromise.
     why : str
         What the last hull beyond was refused for; empty where nothing was in the way.
-    hull : Evaluated
-        The hull that was found, as the problem gave it.
+    hull : Evaluated or None
+        The hull that was found, as the problem gave it; None in the report of a variation, which
+        holds the hull itself.
     """
 
     free: tuple[str, ...]
@@ -58,7 +59,7 @@ class Aimed:
     steps: tuple[AimStep, ...]
     reached: bool
     why: str
-    hull: Evaluated = attrs.field(repr=False)
+    hull: Evaluated | None = attrs.field(repr=False)
 
     @property
     def misses(self) -> FloatArray:

@@ -146,7 +146,8 @@ def vary_document(document: Document, ask: Ask) -> tuple[VMap, VariationReport]:
     )  # fmt: skip
     return found.whole, VariationReport(
         targets, found.rounds, regions, applied.drivers, applied.added, found.certificate, report,
-        notes, script_of(ask), found.aimed,
+        notes, script_of(ask),
+        None if found.aimed is None else attrs.evolve(found.aimed, hull=None),  # a hull is large
     )  # fmt: skip
 
 
