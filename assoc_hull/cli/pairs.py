@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import Any
 
 from assoc_hull.cli.problems import UsageError
@@ -28,10 +29,14 @@ def pairs(given: list[str], option: str) -> dict[str, Any]:
         name, equals, value = each.partition("=")
         if not equals or not name or not value:
             raise UsageError(f"--{option} {each}: give NAME=VALUE")
-        if name in found:
-            raise UsageError(f"--{option} {name} is given twice")
+        _once(name, found, option)
         found[name] = _value(value)
     return found
+
+
+def _once(name: str, found: Container[str], option: str) -> None:
+    if name in found:
+        raise UsageError(f"--{option} {name} is given twice")
 
 
 def _value(text: str) -> float | bool | str:
@@ -63,8 +68,7 @@ def limits(given: list[str], option: str) -> dict[str, list[float | None] | None
         low, colon, high = span.partition(":")
         if not name or (equals and not colon):
             raise UsageError(f"--{option} {each}: give NAME or NAME=LOW:HIGH")
-        if name in found:
-            raise UsageError(f"--{option} {name} is given twice")
+        _once(name, found, option)
         try:
             ends = [float(end) if end else None for end in (low, high)]
         except ValueError:
