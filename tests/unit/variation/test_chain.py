@@ -156,3 +156,16 @@ def test_level_boundaries_that_touch_are_refused(heights: list[float]) -> None:
     """The message names both, and the gap."""
     with pytest.raises(BadInputError, match=r"'shaft\+r' and 'T' touch \(gap -?0"):
         stack(["base", "shaft+r", "T"], heights)
+
+
+@pytest.mark.parametrize("nodes", [[3.0], [-1.0, 4.0, 9.0]], ids=["one node", "three"])
+def test_a_level_chain_is_its_value_everywhere(nodes: list[float]) -> None:
+    """To the last bit, infinitely far off as well, in the shape that is asked; slopes are nil."""
+    chain = Chain.through(nodes, [0.1] * len(nodes))
+    x = np.array([[-np.inf, -2.0, -1.0], [3.7, 9.0, np.inf]])
+    assert chain.level
+    assert (chain.at(x) == 0.1).all()
+    assert (chain.slope(x) == 0.0).all()
+    assert (chain.second(x) == 0.0).all()
+    assert chain.at(x).shape == chain.slope(x).shape == x.shape
+    assert chain.at(np.array(2.0)).shape == ()
