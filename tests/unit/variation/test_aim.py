@@ -354,6 +354,7 @@ def test_a_report_says_what_was_reached_and_by_what() -> None:
         "kmt 8.50667 -> 8.70667299 m",
     ]  # fmt: skip
     assert lines[4] == "breadth by +0.66462"
+    assert found.hull is not None
     left, values, _ = np.linalg.svd(found.hull.jacobian * ship.usual / ship.sizes[:, None])
     assert found.singular == pytest.approx(values)
     assert abs(found.combination @ left[:, -1]) == pytest.approx(1.0)
