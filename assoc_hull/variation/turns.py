@@ -10,7 +10,7 @@ from assoc_hull.edit.carry_planes import flat_borders
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray
 from assoc_hull.model.state import Ends, HullState
 from assoc_hull.variation.hull_maps import Laid
-from assoc_hull.variation.slide import Ground
+from assoc_hull.variation.slide_rates import Ground
 
 __all__ = ["turns"]
 

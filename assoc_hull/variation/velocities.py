@@ -5,7 +5,7 @@ move as the map does at what they come from,
 
     v_j(Q) = d M(P) / d lambda_j        P = M^-1(Q)
 
-Planes of lines go as a transformation sends them, and points stay in these (`slide`).
+Planes of lines go as a transformation sends them, and points stay in these (`slide_rates`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.variation.hull_maps import HullMaps, Laid
-from assoc_hull.variation.slide import Ground, bending
+from assoc_hull.variation.slide_rates import Ground, bending
 from assoc_hull.variation.turns import turns
 
 __all__ = ["SIZES", "Velocities", "velocities"]
