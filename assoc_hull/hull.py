@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.feature_handle import FeatureHandle
     from assoc_hull.model.verify import Difference
 
-__all__ = ["Hull"]
+__all__ = ["Hull", "to_change"]
 
 
 class Hull:
@@ -367,3 +367,21 @@ class Hull:
         from assoc_hull.io.saving import close
 
         close(self.document)
+
+
+def to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
+    """Give the hull that an act changes: the given one, or a copy of it in memory.
+
+    Raises
+    ------
+    WrongTypeError
+        What is given is no hull, or `in_place` neither True nor False.
+    BadInputError
+        An edit of the hull is open.
+    """
+    from assoc_hull.analysis.measured_hull import state_of
+    from assoc_hull.model.copy import copy_of
+
+    state = state_of(hull, f"in {act}")
+    hull.document.require_ended(act)
+    return hull if flag(in_place, "in_place", f"in {act}") else Hull(copy_of(state))

@@ -17,10 +17,7 @@ from collections.abc import Mapping
 import attrs
 from numpy.typing import ArrayLike
 
-from assoc_hull.analysis.measured_hull import state_of
-from assoc_hull.arguments import flag
-from assoc_hull.hull import Hull
-from assoc_hull.model.copy import copy_of
+from assoc_hull.hull import Hull, to_change
 from assoc_hull.variation.ask import TOLERANCE
 from assoc_hull.variation.shift_ask import ShiftAsk
 from assoc_hull.variation.shift_hull import ShiftReport, shift_document
@@ -127,7 +124,7 @@ def shift_sections(
     ask = ShiftAsk.of(
         to, by, shape=shape, terminals=terminals, fade=fade, tolerance=tolerance, name=name
     )
-    varied = _copy(hull, "shift_sections", in_place=in_place)
+    varied = to_change(hull, "shift_sections", in_place=in_place)
     vmap, report = shift_document(varied.document, ask)
     return Shifted(varied, report, vmap)
 
@@ -181,14 +178,6 @@ def swing(
     (5.0, 0.444)
     """
     asked = {"length": length, "breadth": breadth, "draught": draught}
-    varied = _copy(hull, "swing", in_place=in_place)
+    varied = to_change(hull, "swing", in_place=in_place)
     vmap, report = swing_document(varied.document, asked, name)
     return Shifted(varied, report, vmap)
-
-
-def _copy(hull: Hull, what: str, *, in_place: bool) -> Hull:
-    """Give the hull that is to be changed."""
-    where = f"in {what}"
-    state_of(hull, where)
-    hull.document.require_ended(what)
-    return hull if flag(in_place, "in_place", where) else Hull(copy_of(hull.state))

@@ -17,10 +17,7 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.analysis.measured_hull import state_of
-from assoc_hull.arguments import flag
-from assoc_hull.hull import Hull
-from assoc_hull.model.copy import copy_of
+from assoc_hull.hull import Hull, to_change
 from assoc_hull.model.handles import Group, Line
 from assoc_hull.variation.ask import TOLERANCE, Ask, Planes, Stations, ask_from
 from assoc_hull.variation.layout import Layout
@@ -163,7 +160,7 @@ def vary(
         set, reach=reach, free=free, bounds=bounds, exact=exact, layers=layers, layout=layout,
         drivers=drivers, stations=stations, planes=planes, tolerance=tolerance, name=name,
     )  # fmt: skip
-    return _carry_out(hull, ask, in_place=flag(in_place, "in_place", "in vary"))
+    return _carry_out(to_change(hull, "vary", in_place=in_place), ask)
 
 
 def vary_by(
@@ -195,12 +192,10 @@ def vary_by(
     'breadth 10 -> 11 m'
     """
     data = script if isinstance(script, Mapping) else read_script(script)
-    return _carry_out(hull, ask_from(data), in_place=flag(in_place, "in_place", "in vary"))
+    ask = ask_from(data)
+    return _carry_out(to_change(hull, "vary", in_place=in_place), ask)
 
 
-def _carry_out(hull: Hull, ask: Ask, *, in_place: bool) -> Variation:
-    state_of(hull, "in vary")
-    hull.document.require_ended("vary")
-    varied = hull if in_place else Hull(copy_of(hull.state))
-    vmap, report = vary_document(varied.document, ask)
-    return Variation(varied, report, vmap)
+def _carry_out(hull: Hull, ask: Ask) -> Variation:
+    vmap, report = vary_document(hull.document, ask)
+    return Variation(hull, report, vmap)
