@@ -1,0 +1,1 @@
+"""Definitions by form parameters, and the lines whose points they generate."""
