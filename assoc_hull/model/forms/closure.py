@@ -33,8 +33,9 @@ import attrs
 
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.form_curve import form_integrals
 from assoc_hull.model.forms.definition import FormDefinition
-from assoc_hull.model.forms.halves import half_number, half_sums
+from assoc_hull.model.forms.halves import half_number, half_vertices
 
 if TYPE_CHECKING:
     from assoc_hull.model.state import Particulars
@@ -156,7 +157,7 @@ def coefficients(definition: FormDefinition, particulars: Particulars) -> Coeffi
     -------
     Coefficients
     """
-    run, entrance = (half_sums(definition, half) for half in ("run", "entrance"))
+    run, entrance = (_half_sums(definition, half) for half in ("run", "entrance"))
     first, last, top = (
         half_number(definition, name) for name in ("run_end", "entrance_start", "top")
     )
@@ -211,7 +212,8 @@ def close_halves(
     Examples
     --------
     >>> from assoc_hull.model.forms.closure import close_halves, coefficients
-    >>> from assoc_hull.model.forms.definition import FormDefinition
+    >>> from assoc_hull.geometry.form_curve import form_integrals
+    from assoc_hull.model.forms.definition import FormDefinition
     >>> from assoc_hull.model.state import Particulars
     >>> ship = Particulars("ship", 100.0, 16.0, 9.0, 6.0)
     >>> areas = FormDefinition("areas", "sectional_area", "halves", {
@@ -240,7 +242,7 @@ def close_halves(
         now = coefficients(definition, particulars)
     fullness = given[names[0]] / scale if names else now.fullness
     centroid = (given[places[0]] if places else now.centroid) / ship
-    run = half_sums(definition, "run")
+    run = _half_sums(definition, "run")
     try:
         area, at = close_sac(
             fullness, centroid, run_area=run[0], run_centroid=run[1], where=where,
@@ -282,3 +284,13 @@ def _told(error: OutOfRangeError, name: str, scale: float) -> OutOfRangeError:
         name, error.value * scale, error.where, error.why, error.least * scale,
         error.most * scale, unit,
     )  # fmt: skip
+
+
+def _half_sums(definition: FormDefinition, half: str) -> tuple[float, float]:
+    """Give area and centroid of a half: those given, or else as they come out fairest."""
+    given = [definition.value(f"{half}_{name}") for name in ("area", "centroid")]
+    if given[0] is not None and given[1] is not None:
+        return given[0], given[1]
+    found = form_integrals(half_vertices(definition, half)[None])
+    area = float(found.area[0])
+    return area, float(found.moment[0]) / area
