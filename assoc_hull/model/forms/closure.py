@@ -212,8 +212,7 @@ def close_halves(
     Examples
     --------
     >>> from assoc_hull.model.forms.closure import close_halves, coefficients
-    >>> from assoc_hull.geometry.form_curve import form_integrals
-    from assoc_hull.model.forms.definition import FormDefinition
+    >>> from assoc_hull.model.forms.definition import FormDefinition
     >>> from assoc_hull.model.state import Particulars
     >>> ship = Particulars("ship", 100.0, 16.0, 9.0, 6.0)
     >>> areas = FormDefinition("areas", "sectional_area", "halves", {
