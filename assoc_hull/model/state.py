@@ -34,6 +34,7 @@ __all__ = [
     "Particulars",
     "curve_node",
     "form_node",
+    "form_of",
     "row_node",
 ]
 
@@ -167,6 +168,11 @@ def curve_node(curve: IntArray) -> IntArray:
 def form_node(definition: IntArray) -> IntArray:
     """Give the engine's node of a definition: even numbers below nil."""
     return -2 - 2 * np.asarray(definition, np.int64)
+
+
+def form_of(node: IntArray) -> IntArray:
+    """Give the number of the definition that a node below nil stands for."""
+    return -1 - (np.asarray(node, np.int64) >> 1)
 
 
 def _rows() -> Table:
