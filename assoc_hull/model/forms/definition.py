@@ -51,8 +51,8 @@ HALVES = (
     "entrance_end_curvature", "entrance_end_tangent", "entrance_area", "entrance_centroid",
 )  # fmt: skip
 """The values of a curve of two halves. ``full`` is what the ordinate 1 stands for (m2 of the
-midship section, m of the half-breadth); abscissae run from -1 at AP to 1 at FP. Area, centroid
-and tangent lengths may be None: then they come out fairest."""
+midship section, m of the half-breadth); abscissae run from -1 at AP to 1 at FP. Area and centroid
+may be None: then they come out fairest; a tangent length that is None is an eighth of the chord."""
 
 NODE_FIELDS = (
     "x", "y", "angle_deg", "curvature", "tangent", "leave_angle_deg", "leave_curvature",
