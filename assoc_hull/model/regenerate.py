@@ -12,7 +12,6 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points
 from assoc_hull.model.state import HullState
 
 __all__ = ["ends_of", "forms_of", "forms_with", "part_of", "place_of", "points_given"]
@@ -32,7 +31,7 @@ def forms_with(state: HullState, definitions: Sequence[FormDefinition]) -> Forms
             known.insert(0, known.pop(number))
             made: Forms = found
             return made
-    forms = Forms(wanted[0], wanted[1])
+    forms = Forms.of(wanted[0], wanted[1])
     known.insert(0, (wanted, forms))
     del known[2:]
     return forms
@@ -81,6 +80,8 @@ def points_given(
     AssocHullError
         A curve that cannot be made; the error names where it stands and what is wrong.
     """
+    from assoc_hull.model.forms.generate import generated_points
+
     chosen = tuple(made)
     numbers = [each.curve for each in chosen]
     if not chosen:
