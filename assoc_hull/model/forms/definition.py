@@ -185,6 +185,11 @@ class GeneratedCurve:
     marks: tuple[Mark, ...]
     attached: bool = True
 
+    @property
+    def reads_ends(self) -> bool:
+        """Whether the points depend on where the ends of the curve lie: those of sections do."""
+        return self.what == "section"
+
     def evolve(self, **changes: Any) -> GeneratedCurve:
         """Give the same with other attributes."""
         return attrs.evolve(self, **changes)
