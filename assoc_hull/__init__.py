@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.equilibrium import equilibrium
     from assoc_hull.analysis.stability.flooding import FloodingPoint
     from assoc_hull.analysis.stability.stability import stability
+    from assoc_hull.creation.form_curve import FormCurve
     from assoc_hull.errors import (
         AssocHullError,
         BadInputError,
@@ -71,6 +72,7 @@ __all__ = [
     "FileBusyError",
     "FloodingPoint",
     "ForeignPointError",
+    "FormCurve",
     "FreedomError",
     "Group",
     "Hull",
@@ -131,6 +133,7 @@ _HOMES = {
     "analysis.stability.equilibrium": ("equilibrium",),
     "analysis.stability.flooding": ("FloodingPoint",),
     "analysis.stability.stability": ("stability",),
+    "creation.form_curve": ("FormCurve",),
     "errors": (
         "AssocHullError",
         "BadInputError",
