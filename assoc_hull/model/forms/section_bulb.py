@@ -125,7 +125,7 @@ def bulb_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Pieces], Fo
         _has_area(stand, half, np.full(len(half), np.inf))
         vertices = bulb_vertices(stand.start, stand.finish, half)
         _refuse(stand, vertices, "the bulb", "give another bulb_area or profile")
-        closed = FormEnd.of(*stand.finish.T, -0.5 * math.pi)
+        closed = FormEnd.of(stand.finish[:, 0], stand.finish[:, 1], -0.5 * math.pi)
         return [CurvePieces(vertices, stand.start, stand.finish)], closed
     area = 0.5 * stand.needed("sectional_area")
     _has_area(stand, half, area)
@@ -136,7 +136,7 @@ def bulb_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Pieces], Fo
     _refuse(stand, bulb, "the bulb", "give other values to bulb_area, bulb_neck or bulb_height")
     top = np.stack([stand.draught, stand.needed("design_waterline")], axis=1)
     pace = 0.25 * chord_of(neck, top)
-    start = FormEnd.of(*neck.T, angle, 0.0, _PACE * pace)
+    start = FormEnd.of(neck[:, 0], neck[:, 1], angle, 0.0, _PACE * pace)
     finish = FormEnd.of(
         *top.T, stand.radians("waterline_angle", 0.0), stand.value("waterline_curvature", 0.0),
         pace * stand.value("waterline_tangent", _TANGENT),
@@ -174,11 +174,11 @@ def bulb_vertices(
         pace = area / height - 0.125 * math.pi * breadth
         pace = np.where(pace > 0.0, pace, np.nan)
         bend = math.pi**2 / 64.0 * height * np.maximum(2.0 - share, 0.0) / (pace * pace)
-    begin = FormEnd.of(*start.T, 0.5 * math.pi, -bend, pace)
+    begin = FormEnd.of(start[:, 0], start[:, 1], 0.5 * math.pi, -bend, pace)
     if angle is None:
-        end = FormEnd.of(*neck.T, -0.5 * math.pi, -bend, pace)
+        end = FormEnd.of(neck[:, 0], neck[:, 1], -0.5 * math.pi, -bend, pace)
     else:
-        end = FormEnd.of(*neck.T, angle, 0.0, _PACE * 0.25 * chord_of(start, neck))
+        end = FormEnd.of(neck[:, 0], neck[:, 1], angle, 0.0, _PACE * 0.25 * chord_of(start, neck))
     return form_vertices(begin, end, area)
 
 
@@ -202,7 +202,7 @@ def _above(stand: Stand, neck: FloatArray) -> None:
 
 def _refuse(stand: Stand, vertices: FloatArray, what: str, remedy: str) -> None:
     """Refuse curves that are none, or cross the centre plane."""
-    lost = ~np.isfinite(vertices).all(axis=2).all(axis=1)
+    lost = ~np.isfinite(vertices).all(axis=(1, 2))
     stand.refuse(lost, f"no curve of {what} has this area", remedy)
     lowest = least_coordinate(vertices, 1)
     for number in np.flatnonzero(lowest < _BELOW)[:1].tolist():
