@@ -18,7 +18,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -82,6 +82,10 @@ def _values(given: Mapping[str, float | None]) -> Mapping[str, float | None]:
     )
 
 
+def _labels(given: Iterable[str]) -> tuple[str, ...]:
+    return tuple(given)
+
+
 @attrs.frozen
 class FormDefinition:
     """A curve of form parameters.
@@ -110,13 +114,16 @@ class FormDefinition:
         converter=_values, eq=lambda v: tuple(v.items())
     )
     rule: str = "form"
-    nodes: tuple[str, ...] = attrs.field(default=(), converter=tuple)
+    nodes: tuple[str, ...] = attrs.field(default=(), converter=_labels)
 
     def __attrs_post_init__(self) -> None:
         where = f"in the definition {text(self.name, 'name', 'in a definition')!r}"
         text(self.use, "use", where)
         choice(self.kind, "kind", FORM_KINDS, where)
         choice(self.rule, "rule", RULES, where)
+        for node in self.nodes:
+            if self.nodes.count(text(node, "a node", where)) > 1:
+                raise BadInputError(f"two nodes are labelled {node!r}", where, "rename one")
         known = self.names
         for name in self.values:
             if name not in known:
@@ -177,6 +184,11 @@ class GeneratedCurve:
     rows: tuple[int, ...]
     marks: tuple[Mark, ...]
     attached: bool = True
+
+    @property
+    def reads_ends(self) -> bool:
+        """Whether the points depend on where the ends of the curve lie: those of sections do."""
+        return self.what in ("section", "transom")
 
     def evolve(self, **changes: Any) -> GeneratedCurve:
         """Give the same with other attributes."""

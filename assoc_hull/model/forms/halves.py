@@ -32,7 +32,7 @@ from assoc_hull.geometry.form_curve import FormEnd, end_vertices, form_vertices,
 from assoc_hull.geometry.form_extremes import least_rate
 from assoc_hull.model.forms.definition import FormDefinition
 
-__all__ = ["halves_vertices"]
+__all__ = ["half_number", "half_vertices", "halves_vertices"]
 
 _DEFAULTS = {
     "run_start": -1.0, "run_start_ordinate": 0.0, "run_start_curvature": 0.0,
@@ -93,6 +93,30 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
         return np.stack([run, entrance])
     top = _value(definition, where, "top")
     return np.stack([run, straight_vertices((begin, top), (end, top)), entrance])
+
+
+def half_number(definition: FormDefinition, name: str) -> float:
+    """Give a value of a definition of two halves, or what stands for it where it is None.
+
+    Raises
+    ------
+    BadInputError
+        It is None, and nothing stands for it.
+    """
+    return _value(definition, f"in the definition {definition.name!r}", name)
+
+
+def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
+    """Give the vertices, (7, 2), of the ``"run"`` or the ``"entrance"`` alone.
+
+    Raises
+    ------
+    OutOfRangeError, BadInputError
+        As for `halves_vertices`.
+    """
+    where = f"in the definition {definition.name!r}"
+    ends = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}[name]
+    return _vertices(_half(definition, where, name, ends))
 
 
 def _value(definition: FormDefinition, where: str, name: str) -> float:
