@@ -138,7 +138,8 @@ def bulb_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Pieces], Fo
     pace = 0.25 * chord_of(neck, top)
     start = FormEnd.of(neck[:, 0], neck[:, 1], angle, 0.0, _PACE * pace)
     finish = FormEnd.of(
-        top[:, 0], top[:, 1], stand.radians("waterline_angle", 0.0), stand.value("waterline_curvature", 0.0),
+        top[:, 0], top[:, 1], stand.radians("waterline_angle", 0.0),
+        stand.value("waterline_curvature", 0.0),
         pace * stand.value("waterline_tangent", _TANGENT),
     )  # fmt: skip
     upper = form_vertices(start, finish, area - half)
