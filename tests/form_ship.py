@@ -70,6 +70,4 @@ COURSES = (
 def plain_ship(*others: FormDefinition, without: tuple[str, ...] = ()) -> Forms:
     """Give the definitions; others stand in for those of the same use."""
     chosen = {each.use: each for each in (AREAS, WATERLINE, *COURSES, *others)}
-    return Forms.of(
-        [each for use, each in chosen.items() if use not in without], PARTICULARS
-    )
+    return Forms.of([each for use, each in chosen.items() if use not in without], PARTICULARS)
