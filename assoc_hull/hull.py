@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.saving import Saved
     from assoc_hull.model.feature_handle import FeatureHandle
+    from assoc_hull.model.forms.definition import FormDefinition
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Hull", "to_change"]
@@ -128,14 +129,13 @@ class Hull:
         return features_by_name(self.state)
 
     @property
-    def creation(self) -> CreationReport:
-        """The hull beside its definitions: closure and net, and every section.
+    def definitions(self) -> Mapping[str, FormDefinition]:
+        """Definitions by form parameters by name; `values` of each holds its numbers."""
+        return Named("definition", {each.name: each for each in self.state.definitions})
 
-        Raises
-        ------
-        BadInputError
-            The hull has no definitions.
-        """
+    @property
+    def creation(self) -> CreationReport:
+        """The hull beside its definitions; BadInputError if it has none."""
         from assoc_hull.creation.report import creation_report
 
         return creation_report(self.state)
