@@ -182,10 +182,9 @@ def _curve(stand: Stand, start: FormEnd, finish: FormEnd) -> CurvePieces:
         centroid = np.where(area > 0.0, moment / area, np.nan)
     _check_centroid(stand, start, finish, area, centroid, wall)
     found = form_vertices(start, finish, area, centroid)
-    lost = ~np.isfinite(found).all(axis=2).all(axis=1)
     stand.refuse(
-        lost, "no curve has these ends and this area",
-        "give other angles or tangents",
+        ~(np.isfinite(found[:, 3, 0]) & np.isfinite(found[:, 3, 1])),
+        "no curve has these ends and this area", "give other angles or tangents",
     )  # fmt: skip
     lowest = least_coordinate(found, 1)
     for number in np.flatnonzero(lowest < _BELOW)[:1].tolist():
