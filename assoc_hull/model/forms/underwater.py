@@ -144,7 +144,7 @@ def _curve_ends(
     finish = FormEnd.of(
         top[:, 0], top[:, 1],
         np.zeros(count) if upright else stand.radians("waterline_angle", 0.0),
-        np.zeros(count) if upright else stand.value("waterline_curvature", 0.0),
+        stand.value("waterline_curvature", 0.0),
         0.25 * chord * stand.value("waterline_tangent", _TANGENT),
     )  # fmt: skip
     return start, finish
