@@ -20,6 +20,12 @@ __all__ = ["formed"]
 SHIP = Particulars("Formed", 100.0, 16.0, 10.0, 6.0)
 
 
+CONTOUR = {
+    "top_x": 0.0, "top_y": 10.0, "AP_x": 0.0, "AP_y": 0.0, "FP_x": 100.0, "FP_y": 0.0,
+    "bow_x": 100.0, "bow_y": 10.0,
+}  # fmt: skip
+
+
 def definitions() -> tuple[FormDefinition, ...]:
     """Give the definitions."""
     areas = {
@@ -33,13 +39,17 @@ def definitions() -> tuple[FormDefinition, ...]:
         "entrance_end_tangent": 0.053, "entrance_area": 0.448, "entrance_centroid": 0.584,
     }  # fmt: skip
     bare = {name: None if "area" in name or "centroid" in name else v for name, v in areas.items()}
-    water = {**bare, "full": 8.0, "run_start_angle_deg": 60.0}
+    bare |= {name: None for name in bare if "tangent" in name}
+    water = {**bare, "full": 8.0, "run_start_angle_deg": 70.0, "run_end": -0.4,
+             "entrance_start": 0.5, "entrance_end_angle_deg": -65.0}  # fmt: skip
     return (
         FormDefinition("areas", "sectional_area", "halves", areas),
         FormDefinition("waterline", "design_waterline", "halves", water),
-        _course("deck side", "deck_side", {"AP": (0, 0), "aft": (30, 7.9), "fore": (70, 7.9), "FP": (100, 0)}, "monotone"),
+        FormDefinition("contour", "profile", "course", CONTOUR, "straight", ("top", "AP", "FP", "bow")),
+        _course("deck side", "deck_side", {"AP": (0, 3), "aft": (20, 8), "fore": (80, 8), "FP": (100, 0)}, "monotone"),
         _course("sheer", "deck_height", {"AP": (0, 10), "FP": (100, 10)}, "straight"),
-        _course("flare", "waterline_angle", {"AP": (0, 12), "mid": (50, 0), "FP": (100, 12)}, "straight"),
+        _course("flare", "waterline_angle", {"AP": (0, 25), "aft": (40, 0), "fore": (60, 0), "FP": (100, 15)}, "straight"),
+        _course("rise", "keel_angle", {"AP": (0, 20), "aft": (40, 89), "fore": (60, 89), "FP": (100, 20)}, "straight"),
     )  # fmt: skip
 
 
@@ -72,7 +82,7 @@ def formed(stations: tuple[float, ...] = (15, 25, 35, 45, 55, 65, 75, 85)) -> Hu
     for z in (1.0, 3.0, 6.0, 8.0):
         y = [0.0, *(_at(layouts[f"ST {x:g}"][2], z) for x in stations), 0.0]
         points = np.column_stack([[0.0, *stations, 100.0], y, np.full(len(y), z)])
-        sources.append(LineSource.make("waterlines", f"WL {z:g}", points))
+        sources.append(LineSource.make("waterlines", f"WL {z:g}", points, tolerance=0.3))
     links = [Association("boundary", "sections", False), Association("boundary", "waterlines", False),
              Association("sections", "waterlines", False)]  # fmt: skip
     state = adopt(sources, SHIP, links)[0]
@@ -87,7 +97,7 @@ def _made(forms, what, place, ends):
     return layout, marks, generated_points(forms, [curve], np.array([place]), ends[None])[0]
 
 
-def _at(points, z):
+def _at(points, z):  # noqa
     return float(np.interp(z, points[:, 2], points[:, 1]))
 
 

@@ -24,7 +24,7 @@ from assoc_hull.model.network import bits_differ
 from assoc_hull.model.regenerate import points_given
 from assoc_hull.model.state import HullState
 
-__all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "whole"]
+__all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "tidy", "whole"]
 
 _TOLD = 3
 """So many curves a note names."""

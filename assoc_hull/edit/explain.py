@@ -9,13 +9,15 @@ import numpy as np
 from assoc_hull.arguments import shown
 from assoc_hull.edit.cause import Why
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import told_change
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
-from assoc_hull.model.state import HullState
+from assoc_hull.model.state import HullState, form_of
 
 __all__ = ["Thing", "Why", "node_of", "why", "why_after"]
 
@@ -114,7 +116,7 @@ def node_of(state: HullState, thing: Thing | str) -> int:
 
 
 def _is_watched(state: HullState, node: int) -> bool:
-    if node & 1:
+    if node & 1 or node < 0:
         return False
     row = node >> 1
     crossing = state.rows.sort.data[row] == Sort.CROSSING
@@ -133,11 +135,20 @@ def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: i
 
 
 def _key(state: HullState, node: int) -> str:
+    if node < 0:
+        return str(_form(state, node).key)
     table = state.curves if node & 1 else state.rows
     return str(table.key.data[node >> 1]) if node >> 1 < table.count else _GONE
 
 
+def _form(state: HullState, node: int) -> FormDefinition:
+    found: FormDefinition = state.formed.definition.data[int(form_of(np.int64(node)))]
+    return found
+
+
 def _name(book: AddressBook, node: int) -> str:
+    if node < 0:
+        return f"the definition {_form(book.state, node).name!r}"
     table = book.state.curves if node & 1 else book.state.rows
     if node >> 1 >= table.count:
         return _GONE
@@ -153,6 +164,8 @@ def _still(state: HullState, node: int) -> str:
 
 
 def _state(state: HullState, node: int) -> State:
+    if node < 0:
+        return State.CLEAN
     table = state.curves if node & 1 else state.rows
     return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
 
@@ -178,9 +191,17 @@ class _Teller:
         return self._done[node]
 
     def _what(self, trace: Trace) -> str:
+        if trace.node < 0:
+            return f"{_SET}: {self._values(trace.node)}"
         if trace.seed:
             return _CARRIED if self.step.report.carried else _SET
         if trace.node not in self.tracer.moved:
             halted = {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}
             return halted.get(_state(self.state, trace.node), _CUT_OFF)
         return _FOLLOWED if trace.causes else _RECIPE
+
+    def _values(self, node: int) -> str:
+        """Say which values of a definition the edit set."""
+        name = _form(self.state, node).name
+        told = [told_change(each) for each in self.step.report.definitions if each[0] == name]
+        return ", ".join(told)
