@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.generated import attached_rows
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
 from assoc_hull.model.state import HullState, form_of
 
@@ -142,7 +143,8 @@ def _key(state: HullState, node: int) -> str:
 
 
 def _form(state: HullState, node: int) -> FormDefinition:
-    found: FormDefinition = state.formed.definition.data[int(form_of(np.int64(node)))]
+    number = int(form_of(np.array([node]))[0])
+    found: FormDefinition = state.formed.definition.data[number]
     return found
 
 
@@ -170,6 +172,18 @@ def _state(state: HullState, node: int) -> State:
     return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
 
 
+def _told(causes: Sequence[Trace], made: Collection[int]) -> list[Trace]:
+    """Leave out generated points but the one that moved most: they come of the same definitions."""
+    found, known = list[Trace](), set[tuple[int, ...]]()
+    for each in causes:
+        roots = tuple(sorted(cause.node for cause in each.causes))
+        if each.node not in made or roots not in known:
+            found.append(each)
+        if each.node in made:
+            known.add(roots)
+    return found
+
+
 class _Teller:
     """Puts the traces of one step into names."""
 
@@ -177,6 +191,7 @@ class _Teller:
         self.state, self.book, self.step, self.number = state, book, step, number
         self.tracer = Tracer(step.cause, step.changed, step.moved, step.seeds)
         self._done: dict[int, Why] = {}
+        self._made = frozenset((2 * attached_rows(state)).tolist())
 
     def tell(self, trace: Trace) -> Why:
         """Put a trace into names."""
@@ -185,7 +200,7 @@ class _Teller:
             self._done[node] = Why(
                 _key(self.state, node), _name(self.book, node), self.step.name, self.number,
                 None if np.isnan(trace.moved) else trace.moved, self._what(trace),
-                tuple(self.tell(each) for each in trace.causes),
+                tuple(self.tell(each) for each in _told(trace.causes, self._made)),
                 tuple(_name(self.book, each) for each in self.tracer.cut_off(node)),
             )  # fmt: skip
         return self._done[node]

@@ -79,7 +79,7 @@ def recipe_for(state: HullState, made: GeneratedCurve, layout: str) -> Recipe:
         forms_of(state), made.what, layout, place, ends,
         made.marks if layout == made.layout and made.attached else (),
     )  # fmt: skip
-    vectors = [tuple(each) for each in np.asarray(directions, np.float64).reshape(-1, 3).tolist()]
+    vectors = [(x, y, z) for x, y, z in np.asarray(directions, np.float64).reshape(-1, 3).tolist()]
     chosen = tuple((int(piece), float(t)) for piece, t in marks)
     numbers = tuple(np.asarray(kinds, np.int64).tolist())
     return Recipe(layout, chosen, numbers, tuple(vectors), conditions)

@@ -258,7 +258,7 @@ class Edit:
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
 
     @recorded
-    def set_form(self, definition: FormDefinition | str, **values: float | None) -> None:
+    def set_form(self, /, definition: FormDefinition | str, **values: float | None) -> None:
         """Give a definition other values; all that is generated from it follows.
 
         Parameters
