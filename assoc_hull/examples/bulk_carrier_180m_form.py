@@ -60,8 +60,8 @@ WATERLINE = {
     "run_start_tangent": 0.187,
     "run_end": -0.441,
     "run_end_tangent": 0.151,
-    "run_area": 0.386,
-    "run_centroid": -0.665,
+    "run_area": 0.3868,
+    "run_centroid": -0.6651,
     "entrance_start": 0.52,
     "entrance_start_tangent": 0.081,
     "entrance_end_angle_deg": -80.0,
@@ -77,13 +77,16 @@ _RUN, _ENTRANCE = 71.28, 120.6
 _SIDE_AFT, _SIDE_FORE = 50.31, 136.8
 """Between these x the waterline at the design draught is full."""
 
+_DECK_AFT, _DECK_FORE = 42.0, 142.0
+"""Between these x the deck edge is."""
+
 _POST = -77.29
 """Angle of the stern post, from the arch of the aperture down to the heel."""
 
 PROFILE = {
     "transom": {"x": -5.0, "y": 11.1, "angle_deg": -50.0},
-    "overhang": {"x": -4.41, "y": 10.5, "angle_deg": -33.0},
-    "arch": {"x": 5.22, "y": 5.68, "angle_deg": -30.0, "leave_angle_deg": _POST},
+    "overhang": {"x": -4.41, "y": 10.5, "angle_deg": -32.0},
+    "arch": {"x": 5.22, "y": 5.67, "angle_deg": -30.0, "leave_angle_deg": _POST},
     "heel": {"x": 6.5, "y": 0.0, "angle_deg": _POST, "leave_angle_deg": 0.0},
     "forefoot": {"x": 175.5, "y": 0.0, "angle_deg": 0.0, "tangent": 0.9},
     "FP": {"x": 180.0, "y": 10.5, "angle_deg": 82.0, "tangent": 0.6},
@@ -91,19 +94,19 @@ PROFILE = {
 }
 
 FLAT_OF_SIDE = {
-    "deck aft": {"x": 37.0, "y": 16.2, "angle_deg": -20.0},
-    "draught aft": {"x": _SIDE_AFT, "y": 10.5, "angle_deg": -21.2, "tangent": 0.7},
+    "deck aft": {"x": _DECK_AFT, "y": 15.8, "angle_deg": -40.0},
+    "draught aft": {"x": _SIDE_AFT, "y": 10.5, "angle_deg": -20.9, "tangent": 0.68},
     "bilge aft": {"x": _RUN, "y": BILGE, "angle_deg": 0.0, "tangent": 0.92},
     "bilge fore": {"x": _ENTRANCE, "y": BILGE, "angle_deg": 0.0, "tangent": 1.22},
     "draught fore": {"x": _SIDE_FORE, "y": 10.5, "angle_deg": 21.6, "tangent": 0.54},
-    "deck fore": {"x": 151.0, "y": 16.2, "angle_deg": 20.0},
+    "deck fore": {"x": _DECK_FORE, "y": 15.85, "angle_deg": 50.0},
 }
 """z of its lower border."""
 
 _FLAT = 0.5 * 28.0 - BILGE
 
 FLAT_OF_BOTTOM = {
-    "aft": {"x": 26.0, "y": 0.0, "angle_deg": 4.8, "tangent": 0.61},
+    "aft": {"x": 26.0, "y": 0.0, "angle_deg": 5.0, "tangent": 0.61},
     "bilge aft": {"x": _RUN, "y": _FLAT, "angle_deg": 0.0, "tangent": 1.01},
     "bilge fore": {"x": _ENTRANCE, "y": _FLAT, "angle_deg": 0.0, "tangent": 0.92},
     "fore": {"x": 167.5, "y": 0.0, "angle_deg": -6.4, "tangent": 0.6},
@@ -111,7 +114,7 @@ FLAT_OF_BOTTOM = {
 """Its half-breadth."""
 
 KEEL_ANGLE = {
-    "transom": (-5.0, 30.0), "AP": (0.0, 25.3), "ST 0.5": (5.0, 45.0), "post": (7.0, 16.0),
+    "transom": (-5.0, 42.0), "AP": (0.0, 23.5), "ST 0.5": (5.0, 48.0), "post": (7.0, 16.0),
     "ST 1": (9.0, 25.0), "ST 1.5": (13.5, 50.0), "ST 2": (18.0, 71.0), "bottom aft": (26.0, 90.0),
     "bottom fore": (167.5, 90.0), "ST 19": (172.0, 70.5), "ST 19.5": (176.0, 33.5),
     "FP": (180.0, 0.0),
@@ -119,8 +122,8 @@ KEEL_ANGLE = {
 """0 where the section leaves the contour upright, 90 level."""
 
 WATERLINE_ANGLE = {
-    "overhang": (-4.0, 44.0), "AP": (0.0, 45.5), "ST 0.5": (4.5, 30.5), "ST 1": (9.0, 35.0),
-    "ST 2": (18.0, 24.0), "ST 3": (27.0, 14.5), "ST 4": (36.0, 6.7), "ST 5": (45.0, 0.8),
+    "overhang": (-4.0, 44.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 40.0), "ST 1": (9.0, 36.0),
+    "ST 2": (18.0, 26.0), "ST 3": (27.0, 15.0), "ST 4": (36.0, 6.9), "ST 5": (45.0, 0.8),
     "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 1.0),
     "ST 17": (150.0, 2.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
 }  # fmt: skip
@@ -140,22 +143,22 @@ WATERLINE_CURVATURE = {
 }  # fmt: skip
 
 KEEL_TANGENT = {
-    "transom": (-5.0, 0.36), "AP": (0.0, 0.39), "ST 0.5": (5.0, 0.44), "ST 1": (9.0, 0.35),
+    "transom": (-5.0, 0.36), "AP": (0.0, 0.40), "ST 0.5": (5.0, 0.44), "ST 1": (9.0, 0.35),
     "ST 3": (30.0, 0.36), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
     "ST 17": (150.0, 0.39), "FP": (180.0, 0.3),
 }  # fmt: skip
 
 WATERLINE_TANGENT = {
-    "transom": (-5.0, 0.41), "AP": (0.0, 0.41), "ST 0.5": (5.0, 0.57), "ST 1": (9.0, 0.635),
-    "ST 3": (30.0, 0.955), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
+    "transom": (-5.0, 0.43), "AP": (0.0, 0.43), "ST 0.5": (5.0, 0.66), "ST 1": (9.0, 0.685),
+    "ST 3": (30.0, 0.945), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
     "ST 17": (150.0, 0.595), "FP": (180.0, 0.3),
 }  # fmt: skip
 
 DECK_SIDE = {
-    "transom": (-5.0, 9.0, 24.0),
-    "full aft": (42.0, 14.0, 0.0),
-    "full fore": (146.0, 14.0, 0.0),
-    "head": {"x": 184.5, "y": 0.0, "angle_deg": -75.0, "tangent": 0.6},
+    "transom": {"x": -5.0, "y": 6.0, "angle_deg": 21.5, "tangent": 0.74},
+    "full aft": {"x": _DECK_AFT, "y": 14.0, "angle_deg": 0.0, "tangent": 0.86},
+    "full fore": {"x": _DECK_FORE, "y": 14.0, "angle_deg": 0.0, "tangent": 0.63},
+    "head": {"x": 184.5, "y": 0.0, "angle_deg": -39.5},
 }
 
 DECK_HEIGHT = {
