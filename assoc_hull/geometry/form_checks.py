@@ -35,9 +35,10 @@ from collections.abc import Iterator
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.geometry.form_limits import area_limits, centroid_box, centroid_limits
 from assoc_hull.geometry.form_parameters import FormParameters
-from assoc_hull.geometry.form_shape import bounds_of, crosses_itself, inflections, least_pace
+from assoc_hull.geometry.form_shape import crosses_itself, inflections
 
 __all__ = [
     "SEVERITIES",
@@ -206,7 +207,7 @@ def _tangent_area(up: FormParameters) -> Iterator[FormMessage]:
 def check_shape(vertices: FloatArray) -> tuple[FormMessage, ...]:
     """Look at a curve itself, (7, 2)."""
     found = list[FormMessage]()
-    pace = float(least_pace(vertices[None])[0])
+    pace = float(least_rate(vertices[None], 0)[0])
     size = float(abs(vertices[6] - vertices[0]).max()) * _SAME
     if pace < -size:
         text = f"the abscissa runs back, at a pace of {pace:.6g} at the least; allowed: 0 or more"
@@ -215,7 +216,8 @@ def check_shape(vertices: FloatArray) -> tuple[FormMessage, ...]:
         float((vertices[k, 1] + 4.0 * vertices[k + 1, 1] + vertices[k + 2, 1]) / 6.0)
         for k in (0, 4)
     )
-    (_, low), (_, high) = bounds_of(vertices[None])[0].tolist()
+    low = float(least_coordinate(vertices[None], 1)[0])
+    high = -float(least_coordinate(-vertices[None], 1)[0])
     if low < ends[0] - size or high > ends[1] + size:
         text = (
             f"the ordinate runs from {low:.8g} to {high:.8g}, beyond those of the ends; "

@@ -1,7 +1,7 @@
-"""What a form-parameter curve is like: energies, length, inflections, extremes, loops.
+"""What a form-parameter curve is like: energies, length, inflections, loops.
 
-The extremes and the inflections are exact: between knots the slopes are quadratic, and so is
-x' y'' - y' x''. Length and the energy of bending are integrated by Gauss' rule.
+Inflections are exact: between knots x' y'' - y' x'' is quadratic. Length and the
+energy of bending are integrated by Gauss' rule.
 
 Examples
 --------
@@ -14,6 +14,8 @@ Examples
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
@@ -21,11 +23,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_integrals import power_form
 from assoc_hull.geometry.roots import quadratic_roots
 
-__all__ = [
-    "ENERGIES", "bounds_of", "crosses_itself", "energy", "form_length", "inflections", "least_pace",
-]  # fmt: skip
+__all__ = ["ENERGIES", "crosses_itself", "energy", "form_length", "inflections"]
 
-ENERGIES = ("E2", "E3", "J")
+ENERGIES: tuple[Literal["E2", "E3", "J"], ...] = ("E2", "E3", "J")
 """int |Q''|^2 dt, int |Q'''|^2 dt, and length times int curvature^2 ds."""
 
 _NODES, _WEIGHTS = (0.5 * each for each in leggauss(16))
@@ -92,32 +92,6 @@ def form_length(vertices: FloatArray) -> FloatArray:
     for node, weight in zip((_NODES + 0.5).tolist(), _WEIGHTS.tolist(), strict=True):
         length += weight * _pace(power, node)[0]
     return _total(length)
-
-
-def least_pace(vertices: FloatArray) -> FloatArray:
-    """Give the least dx/dt of curves, (n,): below 0 the abscissa runs back."""
-    power = power_form(vertices)[..., 0]
-    c1, c2, c3 = power[..., 1], 2.0 * power[..., 2], 3.0 * power[..., 3]
-    least = np.minimum(c1, c1 + c2 + c3)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        u = -0.5 * c2 / c3
-        inside = (u > 0.0) & (u < 1.0)
-        least = np.where(inside, np.minimum(least, c1 + 0.5 * u * c2), least)
-    return np.asarray(np.minimum(least[:, :2], least[:, 2:]).min(axis=1))
-
-
-def bounds_of(vertices: FloatArray) -> FloatArray:
-    """Give the least and the largest coordinates of curves, (n, 2, 2): least first."""
-    power = power_form(vertices)
-    c0, c1, c2, c3 = (power[:, :, each] for each in range(4))
-    flat = quadratic_roots(
-        c1.reshape(-1), 2.0 * c2.reshape(-1), 3.0 * c3.reshape(-1)
-    ).reshape(*c1.shape, 2)  # fmt: skip
-    u = np.clip(np.where(np.isfinite(flat), flat, 0.0), 0.0, 1.0)
-    inner = c0[..., None] + u * (c1[..., None] + u * (c2[..., None] + u * c3[..., None]))
-    ends = np.stack([c0, c0 + (c1 + (c2 + c3))], axis=-1)
-    every = np.concatenate([inner, ends], axis=-1)
-    return np.asarray(np.stack([every.min(axis=(1, 3)), every.max(axis=(1, 3))], axis=1))
 
 
 def inflections(vertices: FloatArray) -> tuple[float, ...]:

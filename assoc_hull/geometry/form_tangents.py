@@ -30,7 +30,8 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_shape import energy, least_pace
+from assoc_hull.geometry.form_extremes import least_rate
+from assoc_hull.geometry.form_shape import energy
 
 __all__ = ["FASTEST", "SLOWEST", "FairTangents", "chords", "fairest_tangents", "usual_tangents"]
 
@@ -95,7 +96,7 @@ class _Task:
         vertices = form_vertices(start, finish, *each)
         width = np.abs(finish.x - start.x) / 4.0
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            lack = _LEAST_PACE - np.where(width > 0.0, least_pace(vertices) / width, np.inf)
+            lack = _LEAST_PACE - np.where(width > 0.0, least_rate(vertices, 0) / width, np.inf)
             # E2 and E3 are squares of lengths, J is a number: so is what is added to it.
             scale = 1.0 if self.kind == "J" else 16.0 * even * even
             cost = energy(vertices, self.kind) + scale * _PENALTY * np.maximum(lack, 0.0) ** 2
