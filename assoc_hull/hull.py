@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.saving import Saved
     from assoc_hull.model.feature_handle import FeatureHandle
+    from assoc_hull.model.forms.definition import FormDefinition
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Hull", "to_change"]
@@ -125,6 +126,11 @@ class Hull:
         from assoc_hull.model.feature_handle import features_by_name
 
         return features_by_name(self.state)
+
+    @property
+    def definitions(self) -> Mapping[str, FormDefinition]:
+        """Definitions by form parameters by name; `values` of each holds its numbers."""
+        return Named("definition", {each.name: each for each in self.state.definitions})
 
     @property
     def history(self) -> tuple[EditReport, ...]:

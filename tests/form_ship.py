@@ -19,7 +19,7 @@ def course(name: str, nodes: Mapping[str, tuple[float, ...]], rule: str = "form"
         for label, given in nodes.items()
         for field, value in zip(fields, given, strict=False)
     }
-    return FormDefinition(name.replace("_", " "), name, "course", values, rule, tuple(nodes))
+    return FormDefinition(name.replace("_", " "), name, "course", values, rule, [*nodes])
 
 
 AREAS = FormDefinition(
@@ -70,6 +70,4 @@ COURSES = (
 def plain_ship(*others: FormDefinition, without: tuple[str, ...] = ()) -> Forms:
     """Give the definitions; others stand in for those of the same use."""
     chosen = {each.use: each for each in (AREAS, WATERLINE, *COURSES, *others)}
-    return Forms.of(
-        [each for use, each in chosen.items() if use not in without], PARTICULARS
-    )
+    return Forms.of([each for use, each in chosen.items() if use not in without], PARTICULARS)

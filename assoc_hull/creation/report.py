@@ -134,7 +134,6 @@ _HEAD = (
 )
 
 
-
 def _row(each: SectionFigures) -> str:
     wanted = f"{each.wanted:12.4f}" if np.isfinite(each.wanted) else f"{'-':>12}"
     layout = each.layout if each.attached else f"{each.layout} (detached)"

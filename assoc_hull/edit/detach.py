@@ -24,7 +24,7 @@ from assoc_hull.model.network import bits_differ
 from assoc_hull.model.regenerate import points_given
 from assoc_hull.model.state import HullState
 
-__all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "whole"]
+__all__ = ["detach", "detach_rows", "detached_note", "edited", "off_definitions", "tidy", "whole"]
 
 _TOLD = 3
 """So many curves a note names."""
@@ -149,11 +149,9 @@ def _pruned(state: HullState, made: GeneratedCurve) -> GeneratedCurve:
 
 def tidy(maker: Maker) -> None:
     """Drop generated curves that have gone, and points that detached ones have lost."""
-    state, found = maker.state, []
-    for made in state.generated:
-        if state.curves.alive.data[made.curve]:
-            found.append(made if made.attached else _pruned(state, made))
-    maker.generated(found)
+    state = maker.state
+    there = [each for each in state.generated if state.curves.alive.data[each.curve]]
+    maker.generated(each if each.attached else _pruned(state, each) for each in there)
 
 
 def detach_rows(maker: Maker, pending: Pending, rows: IntArray) -> bool:
@@ -171,10 +169,11 @@ def detached_note(state: HullState, curves: Iterable[int]) -> list[str]:
     names = [str(state.lines.name.data[line]) for line in lines]
     if not names:
         return []
+    if len(names) == 1:
+        return [f"{names[0]} is detached from the definitions; edit.reattach returns it"]
     told = ", ".join(names[:_TOLD])
     more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
-    verb = "is" if len(names) == 1 else "are"
     return [
-        f"{told}{more} {verb} detached from the definitions, {len(names)} in all: "
-        "edit.reattach returns a line"
+        f"{len(names)} lines are detached from the definitions, {told}{more}; edit.reattach "
+        "returns one"
     ]

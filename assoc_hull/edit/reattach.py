@@ -16,17 +16,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.pending import Pending
+from assoc_hull.edit.attachable import attachable
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort
 from assoc_hull.model.forms.definition import GeneratedCurve
-from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState
 
-__all__ = ["attachable", "reattach"]
+__all__ = ["reattach"]
 
 
 def reattach(edit: Transaction, line: int) -> None:
@@ -50,7 +49,7 @@ def reattach(edit: Transaction, line: int) -> None:
     if not state.definitions:
         what = "the hull has no definitions"
         raise BadInputError(what, "in reattach", "make it of definitions: see ah.create")
-    found = _curves(state, line)
+    found = attachable(state, line)
     if not found:
         raise BadInputError(
             f"no definition makes {name}", "in reattach",
@@ -64,33 +63,6 @@ def reattach(edit: Transaction, line: int) -> None:
         edit.refuse_moved(np.array(made.rows, np.int64))
     edit.pending.attach.add(line)
     edit.pending.structural = True
-
-
-def attachable(maker: Maker, pending: Pending) -> list[GeneratedCurve]:
-    """Give the curves of the lines that are to return to the definitions."""
-    state = maker.state
-    return [made for line in sorted(pending.attach) for made in _curves(state, line)]
-
-
-def _curves(state: HullState, line: int) -> list[GeneratedCurve]:
-    """Give what comes, came or may come from definitions on a line."""
-    curves = [c for c in state.lines.curves.data[line] if state.curves.alive.data[c]]
-    known = {each.curve: each for each in state.generated}
-    found = [known[curve] for curve in curves if curve in known]
-    if found or not _is_section(state, line):
-        return found
-    keys = state.curves.key.data
-    return [GeneratedCurve(str(keys[c]), c, "section", "", (), (), attached=False) for c in curves]
-
-
-def _is_section(state: HullState, line: int) -> bool:
-    """Tell whether a line is a section like those that are generated."""
-    groups = {
-        int(state.lines.group.data[state.line_of(each.curve)])
-        for each in state.generated
-        if each.what == "section"
-    }
-    return int(state.lines.group.data[line]) in groups
 
 
 def _refuse_others(state: HullState, made: GeneratedCurve) -> None:

@@ -76,9 +76,10 @@ def recipe_for(state: HullState, made: GeneratedCurve, layout: str) -> Recipe:
         return Recipe(layout, (), (), ())
     place, ends = place_of(state, made.curve), ends_of(state, [made.curve])[0]
     marks, kinds, directions, conditions = marks_for(
-        forms_of(state), made.what, layout, place, ends
-    )
-    vectors = [tuple(each) for each in np.asarray(directions, np.float64).reshape(-1, 3).tolist()]
+        forms_of(state), made.what, layout, place, ends,
+        made.marks if layout == made.layout and made.attached else (),
+    )  # fmt: skip
+    vectors = [(x, y, z) for x, y, z in np.asarray(directions, np.float64).reshape(-1, 3).tolist()]
     chosen = tuple((int(piece), float(t)) for piece, t in marks)
     numbers = tuple(np.asarray(kinds, np.int64).tolist())
     return Recipe(layout, chosen, numbers, tuple(vectors), conditions)

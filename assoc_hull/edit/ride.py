@@ -2,8 +2,8 @@
 
 An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
 linear blend of the displacements of its nearest driven neighbours since they were last
-linked; so there and back is exact. A generated point does not ride, and none that was: definitions placed
-it, or a designer did.
+linked; so there and back is exact. A generated point does not ride, and none that was one:
+definitions place it, or a designer did.
 """
 
 from __future__ import annotations

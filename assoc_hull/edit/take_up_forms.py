@@ -7,26 +7,21 @@ What remains is done by the update: each point that a definition gives is evalua
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
+from assoc_hull.edit.attachable import attachable
 from assoc_hull.edit.detach import detach, edited, tidy
 from assoc_hull.edit.pending import Pending
-from assoc_hull.edit.reattach import attachable
 from assoc_hull.edit.remake import layout_now, recipe_for, remake
+from assoc_hull.edit.report import FormChange
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
-from assoc_hull.model.forms.generate import reads
 from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState, form_node
 
-__all__ = ["FormChange", "form_changes", "take_up_forms"]
-
-FormChange = tuple[str, str, float | None, float | None]
-"""Name of a definition, name of a value, what it was, what it is."""
+__all__ = ["form_changes", "take_up_forms"]
 
 
 def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntArray:
@@ -58,8 +53,8 @@ def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntAr
     _refuse_both(state, pending, left)
     detach(maker, pending, left)
     nodes = _write(maker, pending)
-    made = attachable(maker, pending)
-    _remake(maker, pending, [*made, *_other_pieces(state, pending.forms.keys())])
+    made = [each for line in sorted(pending.attach) for each in attachable(state, line)]
+    _remake(maker, pending, [*made, *(_other_pieces(state) if pending.forms else ())])
     if pending.structural:
         tidy(maker)
     return nodes
@@ -84,17 +79,11 @@ def _write(maker: Maker, pending: Pending) -> IntArray:
     return form_node(np.array(numbers, np.int64))
 
 
-def _other_pieces(state: HullState, uses: Iterable[str]) -> list[GeneratedCurve]:
-    """Give attached curves that read definitions of some uses and come of other pieces now."""
-    changed = set(uses)
-    if not changed:
-        return []
+def _other_pieces(state: HullState) -> list[GeneratedCurve]:
+    """Give attached curves that come of other pieces now."""
     return [
-        made
-        for made in state.generated
-        if made.attached and changed.intersection(reads(made))
-        and layout_now(state, made) != made.layout
-    ]  # fmt: skip
+        made for made in state.generated if made.attached and layout_now(state, made) != made.layout
+    ]
 
 
 def _remake(maker: Maker, pending: Pending, curves: list[GeneratedCurve]) -> None:

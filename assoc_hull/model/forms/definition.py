@@ -188,7 +188,7 @@ class GeneratedCurve:
     @property
     def reads_ends(self) -> bool:
         """Whether the points depend on where the ends of the curve lie: those of sections do."""
-        return self.what in ("section", "transom")
+        return self.what == "section"
 
     def evolve(self, **changes: Any) -> GeneratedCurve:
         """Give the same with other attributes."""

@@ -26,8 +26,8 @@ from assoc_hull.model.forms.pieces import Shape
 
 __all__ = ["AREA_WITHIN", "WITHIN", "finer", "first_marks"]
 
-WITHIN = 1e-3
-"""So far (m) the spline may pass the pieces."""
+WITHIN = 9e-4
+"""So far (m) the spline may pass the pieces where it is measured: between, it stays within 1 mm."""
 
 AREA_WITHIN = 5e-7
 """By so much, of itself, the area below the draught may be missed; the bilge has the rest."""
