@@ -129,6 +129,11 @@ class Hull:
         return features_by_name(self.state)
 
     @property
+    def definitions(self) -> Mapping[str, FormDefinition]:
+        """Definitions by form parameters by name; `values` of each holds its numbers."""
+        return Named("definition", {each.name: each for each in self.state.definitions})
+
+    @property
     def creation(self) -> CreationReport:
         """The hull beside its definitions: closure and net, and every section.
 

@@ -27,7 +27,6 @@ from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.layout import COURSES, ends_for, layout_at
 from assoc_hull.model.forms.marks import finer, first_marks
 from assoc_hull.model.forms.pieces import Shape
-from assoc_hull.model.forms.section_bulb import BULB_USES
 from assoc_hull.model.forms.sections import parted, section_shape
 from assoc_hull.model.forms.water import water_points
 from assoc_hull.model.state import Ends
@@ -44,6 +43,7 @@ _BY_PIECE = {
     "arc": ("sectional_area", "design_waterline", "bilge_radius"),
     "upright": ("flat_of_side",),
     "bulb": BULB_USES,
+    "bulb": ("bulb_area", "bulb_height", "bulb_neck", "bulb_neck_angle"),
     "upper": (
         "sectional_area", "design_waterline", "waterline_angle", "waterline_curvature",
         "waterline_tangent",

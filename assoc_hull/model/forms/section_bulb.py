@@ -140,6 +140,8 @@ def bulb_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Pieces], Fo
     finish = FormEnd.of(
         top[:, 0], top[:, 1], stand.radians("waterline_angle", 0.0),
         stand.value("waterline_curvature", 0.0),
+        top[:, 0], top[:, 1],
+        stand.radians("waterline_angle", 0.0), stand.value("waterline_curvature", 0.0),
         pace * stand.value("waterline_tangent", _TANGENT),
     )  # fmt: skip
     upper = form_vertices(start, finish, area - half)

@@ -76,8 +76,9 @@ def immersed(spline: SplineBatch, draught: float) -> tuple[float, float]:
 def distance(spline: SplineBatch, shape: SectionShape) -> float:
     """The largest distance of a spline from a shape that is drawn as a close polyline."""
     points = evaluate(spline, np.zeros(600, np.int64), np.linspace(0.0, spline.knot[-1], 600))
-    t = np.tile(np.linspace(0.0, 4.0, 1001), len(shape.pieces))
-    piece = np.repeat(np.arange(len(shape.pieces)), 1001)
+    # Joints but once: a step of no length has no direction.
+    t = np.append(np.tile(np.arange(1000) * 4e-3, len(shape.pieces)), 4.0)
+    piece = np.minimum(np.arange(len(t)) // 1000, len(shape.pieces) - 1)
     line = shape.at(np.zeros(len(t), np.int64), piece, t)
     near = cdist(points, line).argmin(axis=1)
     found = np.full(len(points), np.inf)
