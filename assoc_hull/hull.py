@@ -34,6 +34,7 @@ from assoc_hull.tolerance import Tolerances
 if TYPE_CHECKING:
     import networkx
 
+    from assoc_hull.creation.report import CreationReport
     from assoc_hull.edit.adopt import AdoptionReport
     from assoc_hull.edit.check_hull import Finding
     from assoc_hull.edit.compare import Comparison
@@ -131,6 +132,13 @@ class Hull:
     def definitions(self) -> Mapping[str, FormDefinition]:
         """Definitions by form parameters by name; `values` of each holds its numbers."""
         return Named("definition", {each.name: each for each in self.state.definitions})
+
+    @property
+    def creation(self) -> CreationReport:
+        """The hull beside its definitions; BadInputError if it has none."""
+        from assoc_hull.creation.report import creation_report
+
+        return creation_report(self.state)
 
     @property
     def history(self) -> tuple[EditReport, ...]:

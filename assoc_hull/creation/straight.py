@@ -52,6 +52,7 @@ def go_straight(edit: Transaction, forms: Forms, line: int) -> None:
     _make_room(edit, curve, places)
     for row in rows.tolist():
         thread(edit.maker, curve, row)
+    edit.pending.curves.add(curve)
     edit.maker.generated([*state.generated, made.evolve(rows=tuple(rows.tolist()))])
 
 

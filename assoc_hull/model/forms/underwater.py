@@ -62,10 +62,11 @@ def underwater_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Piece
     pieces: list[Pieces] = []
     corner = stand.start
     if tokens[0] in ("level", "siding"):
-        use = "flat_of_bottom" if tokens[0] == "level" else "half_siding"
-        corner = np.stack([stand.start[:, 0], stand.needed(use)], axis=1)
         if tokens[1] == "arc":
             corner = _arc_start(stand)
+        else:
+            use = "flat_of_bottom" if tokens[0] == "level" else "half_siding"
+            corner = np.stack([stand.start[:, 0], stand.needed(use)], axis=1)
         pieces.append(straight_pieces(stand.start, corner))
     if "arc" in tokens:
         radius = stand.needed("bilge_radius")
