@@ -135,13 +135,7 @@ class Hull:
 
     @property
     def creation(self) -> CreationReport:
-        """The hull beside its definitions: closure and net, and every section.
-
-        Raises
-        ------
-        BadInputError
-            The hull has no definitions.
-        """
+        """The hull beside its definitions; BadInputError if it has none."""
         from assoc_hull.creation.report import creation_report
 
         return creation_report(self.state)

@@ -17,6 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.edit.attachable import attachable
+from assoc_hull.edit.drive_others import drive_others
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
@@ -61,6 +62,8 @@ def reattach(edit: Transaction, line: int) -> None:
     for made in found:
         _refuse_others(state, made)
         edit.refuse_moved(np.array(made.rows, np.int64))
+    for made in found:
+        drive_others(edit, made.curve)
     edit.pending.attach.add(line)
     edit.pending.structural = True
 
