@@ -135,19 +135,10 @@ class Hull:
 
     @property
     def creation(self) -> CreationReport:
-        """The hull beside its definitions: closure and net, and every section.
-
-    @property
-    def creation(self) -> CreationReport:
         """The hull beside its definitions; BadInputError if it has none."""
         from assoc_hull.creation.report import creation_report
 
         return creation_report(self.state)
-
-    @property
-    def definitions(self) -> Mapping[str, FormDefinition]:
-        """Definitions by form parameters by name; `values` of each holds its numbers."""
-        return Named("definition", {each.name: each for each in self.state.definitions})
 
     @property
     def history(self) -> tuple[EditReport, ...]:
