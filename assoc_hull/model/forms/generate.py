@@ -43,7 +43,6 @@ _BY_PIECE = {
     ),
     "arc": ("sectional_area", "design_waterline", "bilge_radius"),
     "upright": ("flat_of_side",),
-    "bulb": BULB_USES,
     "bulb": ("bulb_area", "bulb_height", "bulb_neck", "bulb_neck_angle"),
     "upper": (
         "sectional_area", "design_waterline", "waterline_angle", "waterline_curvature",

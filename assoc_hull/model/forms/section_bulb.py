@@ -40,10 +40,7 @@ from assoc_hull.model.forms.pieces import CurvePieces, Pieces, ends_of
 from assoc_hull.model.forms.stand import Stand
 from assoc_hull.model.forms.underwater import chord_of
 
-__all__ = ["BULB_USES", "bulb_layout", "bulb_pieces", "bulb_vertices"]
-
-BULB_USES = ("bulb_area", "bulb_height", "bulb_neck", "bulb_neck_angle")
-"""What a section through a bulb reads, besides what others read."""
+__all__ = ["bulb_layout", "bulb_pieces", "bulb_vertices"]
 
 _LEAST = 0.01
 """Shorter pieces (m) are left out."""
@@ -138,8 +135,6 @@ def bulb_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Pieces], Fo
     pace = 0.25 * chord_of(neck, top)
     start = FormEnd.of(neck[:, 0], neck[:, 1], angle, 0.0, _PACE * pace)
     finish = FormEnd.of(
-        top[:, 0], top[:, 1], stand.radians("waterline_angle", 0.0),
-        stand.value("waterline_curvature", 0.0),
         top[:, 0], top[:, 1],
         stand.radians("waterline_angle", 0.0), stand.value("waterline_curvature", 0.0),
         pace * stand.value("waterline_tangent", _TANGENT),
