@@ -151,7 +151,9 @@ def _rule(work: Work, curve: int) -> set[int]:
 def _roles(work: Work, generates: list[tuple[bool, bool]]) -> list[Role]:
     net, chosen = work.net, work.chosen
     roles = [
-        Role.SHARED if i in chosen[contact.boundary] else Role.DRIVES_B
+        Role.SHARED
+        if i in chosen[contact.boundary] and _may_define(net.state, contact)
+        else Role.DRIVES_B
         for i, contact in enumerate(net.contacts)
     ]
     pairs = zip(net.meetings, generates, strict=True)
@@ -160,11 +162,21 @@ def _roles(work: Work, generates: list[tuple[bool, bool]]) -> list[Role]:
     return roles
 
 
+def _may_define(state: HullState, contact: Contact) -> bool:
+    """Tell whether the line that ends, turns or leaves a flat may define the boundary curve."""
+    return _between(state, contact.boundary, contact.curve)[1]
+
+
 def _generates(state: HullState, meeting: Meeting) -> tuple[bool, bool]:
     """Tell whether the group of a generates on that of b, and back."""
+    return _between(state, meeting.a, meeting.b)
+
+
+def _between(state: HullState, a: int, b: int) -> tuple[bool, bool]:
+    """Tell whether the group of one curve generates on that of another, and back."""
     names = [
         state.groups.name.data[int(state.lines.group.data[state.line_of(curve)])]
-        for curve in (meeting.a, meeting.b)
+        for curve in (a, b)
     ]
     found = [False, False]
     for link in state.associations:

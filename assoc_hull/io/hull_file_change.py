@@ -29,6 +29,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import Change
 from assoc_hull.model.feature import Feature
+from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.places_on_curves import PlacesOn
 from assoc_hull.model.state import Association, Ends, Particulars
 
@@ -192,12 +193,29 @@ def _ends_of(value: Any) -> Ends:
     return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
 
 
-def _plain(feature: Feature | None) -> Any:
-    return None if feature is None else attrs.asdict(feature)
+def _plain(thing: Feature | GeneratedCurve | None) -> Any:
+    return None if thing is None else attrs.asdict(thing)
 
 
 def _feature(said: Any) -> Feature | None:
     return None if said is None else Feature(**said)
+
+
+def _said_form(form: FormDefinition | None) -> Any:
+    return (
+        None if form is None else {**attrs.asdict(form, recurse=False), "values": {**form.values}}
+    )
+
+
+def _form(said: Any) -> FormDefinition | None:
+    return None if said is None else FormDefinition(**said)
+
+
+def _made(said: Any) -> GeneratedCurve | None:
+    if said is None:
+        return None
+    marks = tuple((int(piece), float(t)) for piece, t in said["marks"])
+    return GeneratedCurve(**{**said, "rows": tuple(_numbers(said["rows"])), "marks": marks})
 
 
 _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
@@ -207,6 +225,8 @@ _CODES: Mapping[str, tuple[Callable[[Any], Any], Callable[[Any], Any]]] = {
     "lines.curves": (_numbers, tuple),
     "settings.failed": (_numbers, tuple),
     "featured.feature": (_plain, _feature),
+    "formed.definition": (_said_form, _form),
+    "produced.curve": (_plain, _made),
     "settings.particulars": (attrs.asdict, lambda said: Particulars(**said)),
     "settings.associations": (
         lambda links: [[each.a, each.b, each.two_way] for each in links],

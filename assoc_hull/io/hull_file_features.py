@@ -12,13 +12,38 @@ True
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
+from assoc_hull.geometry.curves import IntArray
 from assoc_hull.model.feature import Feature
+from assoc_hull.model.state import HullState
 
-__all__ = ["feature_of", "feature_row"]
+__all__ = ["feature_of", "feature_row", "feature_rows", "read_features"]
+
+
+def feature_rows(state: HullState, numbers: IntArray) -> Iterator[tuple[Any, ...]]:
+    """Give rows of the table of features as rows of the file."""
+    table = state.featured
+    for i in numbers.tolist():
+        yield feature_row(i, bool(table.alive.data[i]), table.feature.data[i])
+
+
+def read_features(state: HullState, rows: Sequence[tuple[Any, ...]]) -> None:
+    """Put rows of the file into the empty table of features.
+
+    Raises
+    ------
+    ValueError, TypeError, AssocHullError
+        A row holds none.
+    """
+    table = state.featured
+    table.resize(len(rows))
+    table.feature.data[:] = [feature_of(row) for row in rows]
+    table.alive.store[: len(rows)] = [bool(row[1]) for row in rows]
+    table.alive.writes += 1
 
 
 def feature_row(number: int, alive: bool, feature: Feature) -> tuple[Any, ...]:

@@ -25,7 +25,7 @@ __all__ = ["APPLICATION", "MIGRATIONS", "SCHEMA", "TABLES", "create", "migrate"]
 APPLICATION = 0x4148554C
 """``AHUL`` in ASCII; bytes 68 to 71 of the file."""
 
-SCHEMA = 5
+SCHEMA = 6
 
 TABLES = """
 CREATE TABLE hull (
@@ -72,6 +72,15 @@ CREATE TABLE features (
     number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, kind TEXT NOT NULL,
     name TEXT NOT NULL, lines TEXT NOT NULL, points BLOB NOT NULL, centre BLOB, radius BLOB,
     normal BLOB, plane_offset BLOB, direction BLOB, side INTEGER NOT NULL, gap BLOB NOT NULL
+);
+CREATE TABLE definitions (
+    number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, use TEXT NOT NULL, name TEXT NOT NULL,
+    kind TEXT NOT NULL, rule TEXT NOT NULL, nodes TEXT NOT NULL, numbers BLOB NOT NULL
+);
+CREATE TABLE generated (
+    number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, key TEXT NOT NULL, curve INTEGER NOT NULL,
+    what TEXT NOT NULL, layout TEXT NOT NULL, points BLOB NOT NULL, marks BLOB NOT NULL,
+    attached INTEGER NOT NULL
 );
 CREATE TABLE associations (
     a TEXT NOT NULL, b TEXT NOT NULL, two_way INTEGER NOT NULL, PRIMARY KEY (a, b)
@@ -127,8 +136,23 @@ def _tell_features(database: sqlite3.Connection) -> None:
     )
 
 
+def _tell_definitions(database: sqlite3.Connection) -> None:
+    """From 5 to 6: definitions and the curves that come from them; older hulls have none."""
+    database.execute(
+        "CREATE TABLE definitions (number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, "
+        "use TEXT NOT NULL, name TEXT NOT NULL, kind TEXT NOT NULL, rule TEXT NOT NULL, "
+        "nodes TEXT NOT NULL, numbers BLOB NOT NULL)"
+    )
+    database.execute(
+        "CREATE TABLE generated (number INTEGER PRIMARY KEY, alive INTEGER NOT NULL, "
+        "key TEXT NOT NULL, curve INTEGER NOT NULL, what TEXT NOT NULL, layout TEXT NOT NULL, "
+        "points BLOB NOT NULL, marks BLOB NOT NULL, attached INTEGER NOT NULL)"
+    )
+
+
 MIGRATIONS: Mapping[int, Migration] = {
     1: _sign_labels, 2: _remember_gone, 3: _tell_deck, 4: _tell_features,
+    5: _tell_definitions,
 }  # fmt: skip
 """By version: what brings a file of it to the next one."""
 

@@ -68,6 +68,7 @@ def _faults(state: HullState) -> Iterator[str]:
     yield from _lists(state)
     yield from _settings(state)
     yield from _features(state)
+    yield from _generated(state)
 
 
 def _live(state: HullState, table: str, column: str) -> Any:
@@ -135,6 +136,22 @@ def _features(state: HullState) -> Iterator[str]:
     for each in features:
         if not (live.issuperset(each.points) and lines.issuperset(each.lines)):
             yield f"the feature {each.name!r} owns a point or lies on a line that is not there"
+
+
+def _generated(state: HullState) -> Iterator[str]:
+    """Look whether generated curves are there, and the points of attached ones."""
+    forms, made = state.definitions, state.generated
+    if len({each.use for each in forms}) < len(forms):
+        yield "a use of the definitions stands there twice"
+    curves, live = set(state.live("curves").tolist()), set(state.live("rows").tolist())
+    if len({each.curve for each in made}) < len(made):
+        yield "a generated curve stands there twice"
+    for each in made:
+        if each.curve not in curves or state.curves.key.data[each.curve] != each.key:
+            yield f"the generated curve {each.key!r} does not exist"
+        there = live if each.attached else range(state.rows.count)
+        if len(each.marks) != len(each.rows) or any(row not in there for row in each.rows):
+            yield f"the generated curve {each.key!r} lacks points"
 
 
 def _settings(state: HullState) -> Iterator[str]:

@@ -27,7 +27,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
-from assoc_hull.io.hull_file_features import feature_of, feature_row
+from assoc_hull.io.hull_file_features import feature_rows, read_features
+from assoc_hull.io.hull_file_forms import (
+    definition_rows,
+    generated_rows,
+    read_definitions,
+    read_generated,
+)
 from assoc_hull.io.packing import pack, unpack
 from assoc_hull.model.change import shape_curves
 from assoc_hull.model.family import State
@@ -58,10 +64,12 @@ _REALS = {
 """Columns of points that may be left out, holding the fill value, and their names in the file."""
 
 _PAIRS = ("curve", "kind", "reader", "anchor")
-_NAMES = {"rows": "points", "featured": "features"}
+_NAMES = {
+    "rows": "points", "featured": "features", "formed": "definitions", "produced": "generated",
+}  # fmt: skip
 """Tables that the file calls otherwise."""
 
-WRITTEN = ("groups", "lines", "curves", "rows", "featured")
+WRITTEN = ("groups", "lines", "curves", "rows", "featured", "formed", "produced")
 """Tables of which each row is a row of the file, too."""
 
 _WHOLES = ("alive", "sort", "role", "override", "driver", "contact", "sign", "birth", "state")
@@ -203,15 +211,9 @@ def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
     return [None if each == nothing else each for each in found]
 
 
-def _feature_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
-    table = state.featured
-    for i in numbers.tolist():
-        yield feature_row(i, bool(table.alive.data[i]), table.feature.data[i])
-
-
 _GIVE = {
     "groups": _group_rows, "lines": _line_rows, "curves": _curve_rows, "rows": _point_rows,
-    "featured": _feature_rows,
+    "featured": feature_rows, "formed": definition_rows, "produced": generated_rows,
 }  # fmt: skip
 
 
@@ -236,7 +238,9 @@ def read_state(database: sqlite3.Connection) -> HullState:
     _read_lines(state, _rows(database, "lines"))
     _read_points(state, _rows(database, "points"))
     _read_curves(state, _rows(database, "curves"))
-    _read_features(state, _rows(database, "features"))
+    read_features(state, _rows(database, "features"))
+    read_definitions(state, _rows(database, "definitions"))
+    read_generated(state, _rows(database, "generated"))
     state.revision_row, state.revision_curve = read_revisions(database)
     return state
 
@@ -340,13 +344,6 @@ def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
     put_places_of(state, _places(places))
     splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
     shape_curves(state, np.arange(len(rows)), splines)
-
-
-def _read_features(state: HullState, rows: Sequence[Row]) -> None:
-    table = state.featured
-    table.resize(len(rows))
-    table.feature.data[:] = [feature_of(row) for row in rows]
-    _whole(table.alive, [row[1] for row in rows])
 
 
 def _ends(said: list[Any]) -> Ends:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.generated import unmade_rows
 from assoc_hull.model.state import HullState
 
 __all__ = [
@@ -159,7 +160,8 @@ def point_columns(state: HullState, order: Places) -> dict[str, Column]:
     riding = (anchor >= 0).any(axis=1)
     crossing = table.sort.data[rows] == Sort.CROSSING
     shared = crossing & (table.role.data[rows] == Role.SHARED)
-    stored = shared | (~crossing & ~riding) | (table.state.data[rows] != State.CLEAN)
+    own = ~crossing & ~riding & unmade_rows(state, rows)
+    stored = shared | own | (table.state.data[rows] != State.CLEAN)
     watched = _watched(state, rows)
     return {
         "key": _texts(table.key, rows),

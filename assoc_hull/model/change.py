@@ -44,7 +44,7 @@ from assoc_hull.model.state import HullState
 
 __all__ = ["TABLES", "Change", "change_of", "run_change", "shape_curves"]
 
-TABLES = ("groups", "lines", "curves", "rows", "featured", "settings")
+TABLES = ("groups", "lines", "curves", "rows", "featured", "formed", "produced", "settings")
 
 _PLACES = ("curves.meets", "rows.spot", "rows.parameter")
 _OWN_WAY = (*_PLACES, "curves.spline", "settings.births")

@@ -46,6 +46,12 @@ from assoc_hull.model.canonical import (
     value_columns,
 )
 from assoc_hull.model.family import BoundaryKind, Role, Sort, State
+from assoc_hull.model.form_records import (
+    definition_columns,
+    definition_records,
+    generated_columns,
+    generated_records,
+)
 from assoc_hull.model.state import HullState
 
 __all__ = [
@@ -83,7 +89,8 @@ def definition(state: HullState) -> dict[str, object]:
         ``particulars`` and ``tolerances`` (m, degrees), and lists sorted by key or name:
         ``groups``, ``associations``, ``lines``, ``curves``, ``points``, ``births`` (line,
         line, how many crossings the pair ever had), ``retired`` (keys that must not come
-        back) and, of a hull that has any, ``features``. What has its default is left out: an
+        back) and, of a hull that has any, ``features``, ``definitions`` (by form parameters)
+        and ``generated`` (curves that come from these). What has its default is left out: an
         open deck, notes, labels, free ends, directions of nil, smooth passage, overrides, nil
         signs.
         ``meets`` of a curve lists, per associated line and along the curve, the sense of
@@ -92,7 +99,11 @@ def definition(state: HullState) -> dict[str, object]:
         ``base``, ``from`` and ``weight`` instead.
     """
     order = places(state)
-    features = list(_feature_records(state))
+    more = {
+        "features": list(_feature_records(state)),
+        "definitions": list(definition_records(state)),
+        "generated": list(generated_records(state)),
+    }
     return {
         "particulars": _plain(state.particulars),
         "tolerances": _plain(state.tolerances),
@@ -106,7 +117,7 @@ def definition(state: HullState) -> dict[str, object]:
         "points": list(_point_records(state, order)),
         "births": _births(state),
         "retired": retired(state),
-        **({"features": features} if features else {}),
+        **{name: records for name, records in more.items() if records},
     }
 
 
@@ -348,6 +359,10 @@ def fingerprint_parts(
     }
     if state.features:
         tables["feature"] = feature_columns(state, order)
+    if state.definitions:
+        tables["definition"] = definition_columns(state)
+    if state.generated:
+        tables["generated"] = generated_columns(state, order)
     for title, columns in tables.items():
         for column, values in columns.items():
             name = f"{title}.{column}"

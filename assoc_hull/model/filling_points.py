@@ -15,7 +15,7 @@ array([[1., 2., 3.]])
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from enum import IntEnum
 from itertools import pairwise
 from typing import Any
@@ -42,7 +42,13 @@ def _codes(values: Sequence[str], codes: type[IntEnum], count: int) -> list[int]
     return [*(names.index(value) for value in values), *[0] * (count - len(values))]
 
 
-def put_points(state: HullState, journal: Journal, points: list[Record], keys: Keys) -> None:
+def put_points(
+    state: HullState,
+    journal: Journal,
+    points: list[Record],
+    keys: Keys,
+    computed: Collection[str] = (),
+) -> None:
     """Add the points of a hull, with the links that follow from their roles.
 
     Parameters
@@ -55,6 +61,8 @@ def put_points(state: HullState, journal: Journal, points: list[Record], keys: K
         As in a definition, by number.
     keys : Keys
         Numbers by key.
+    computed : collection of str
+        Keys of the points whose places come from form definitions.
 
     Raises
     ------
@@ -62,7 +70,7 @@ def put_points(state: HullState, journal: Journal, points: list[Record], keys: K
         If a point lacks what a point of its sort and role has, or has more.
     """
     for point in points:
-        _check_point(point)
+        _check_point(point, made=point["key"] in computed)
     if not points:
         return
     roles, sorts, states = words(Role), words(Sort), words(State)
@@ -100,7 +108,7 @@ def _override(point: Record, roles: list[str]) -> int:
     return roles.index(point["override"]) if "override" in point else -1
 
 
-def _check_point(point: Record) -> None:
+def _check_point(point: Record, *, made: bool = False) -> None:
     """Check that a point of its sort has just the parts that such a point has."""
     where, crossing = f"at the point {point['key']!r}", point["sort"] == "crossing"
     if len(point["curves"]) != (2 if crossing else 1):
@@ -109,7 +117,8 @@ def _check_point(point: Record) -> None:
         if len(point.get(name, point["curves"])) != len(point["curves"]):
             raise wrong(f"there are not as many {name} as curves", where)
     role = point.get("role")
-    known = role == "shared" or (not crossing and "riding" not in point) or "state" in point
+    own = not crossing and "riding" not in point and not made
+    known = role == "shared" or own or "state" in point
     wanted = {
         "role": crossing,
         "birth": crossing,

@@ -15,6 +15,8 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.rank import levels
+from assoc_hull.model.forms.generate import reads
+from assoc_hull.model.generated import attached
 from assoc_hull.model.recipe import same_objects
 from assoc_hull.model.state import HullState
 
@@ -72,6 +74,10 @@ class Index:
         For a row, the adopted points that ride with it.
     level : (c,) int
         Level of each curve in the graph of driven links.
+    makes : dict of int to (k,) int
+        For a point at the end of a generated curve, the points made with it.
+    forms : dict of int to (k,) int
+        For a definition, the points made of it.
     guess : (r, 2) int32
         In which segment of its two curves each crossing was last found; never relied upon.
     recall : dict
@@ -83,6 +89,8 @@ class Index:
     drives: dict[int, IntArray]
     riders: dict[int, IntArray]
     level: IntArray
+    makes: dict[int, IntArray]
+    forms: dict[int, IntArray]
     guess: np.typing.NDArray[np.int32]
     recall: dict[bytes, Any] = attrs.field(factory=dict)
     _answers: dict[Hashable, tuple[Hashable, Any]] = attrs.field(factory=dict, init=False)
@@ -123,7 +131,10 @@ def build_index(state: HullState) -> Index:
     driver = np.where(rows.alive.data, rows.driver.data, -1)
     driven = np.flatnonzero(driver >= 0)
     drives, guess = _by_value(driver[driven], driven), np.zeros((rows.count, 2), np.int32)
-    return Index(_partners(state), drives, _riders(state), driven_levels(state), guess)
+    makes, forms = _generating(state)
+    return Index(
+        _partners(state), drives, _riders(state), driven_levels(state), makes, forms, guess
+    )
 
 
 def driven_levels(state: HullState) -> IntArray:
@@ -157,6 +168,23 @@ def _riders(state: HullState) -> dict[int, IntArray]:
         for anchor in sorted(set(state.rows.anchor.data[row].tolist()) - {-1}):
             found[anchor].append(row)
     return {anchor: np.array(riders, np.int64) for anchor, riders in found.items()}
+
+
+def _generating(state: HullState) -> tuple[dict[int, IntArray], dict[int, IntArray]]:
+    """Give the generated points by the ends, and by the definitions, that they are made of."""
+    ends, forms = defaultdict[int, list[int]](list), defaultdict[int, list[int]](list)
+    number = {state.formed.definition.data[i].use: i for i in state.live("formed").tolist()}
+    for curve, made in attached(state).items():
+        for use in reads(made):
+            if use in number:
+                forms[number[use]] += made.rows
+        if made.reads_ends:
+            for row in set(state.curves.rows.data[curve][[0, -1]].tolist()):
+                ends[row] += made.rows
+    return tuple(  # type: ignore[return-value]
+        {each: np.array(sorted(rows), np.int64) for each, rows in found.items()}
+        for found in (ends, forms)
+    )
 
 
 def _partners(state: HullState) -> dict[int, tuple[PlaneSet, ...]]:

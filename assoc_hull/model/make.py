@@ -8,6 +8,7 @@ birth for that pair, a placed or adopted point's from its curve and first place.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
@@ -16,8 +17,10 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import NameTakenError, UnknownNameError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, freeze
 from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.table import ListColumn, Table
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.feature import Feature
+from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.state import Association, Ends, HullState
 
 __all__ = ["CrossingSpec", "Maker", "PointSpec"]
@@ -248,20 +251,33 @@ class Maker:
         wanted : iterable of Feature
             By their keys they take the place of those that are there.
         """
-        table, live = self.state.featured, self.state.live("featured").tolist()
-        there = {table.feature.data[number].key: number for number in live}
+        self._keyed(self.state.featured, self.state.featured.feature, wanted)
+
+    def definitions(self, wanted: Iterable[FormDefinition]) -> None:
+        """Let a hull have these definitions and no others; one of the same use is replaced."""
+        self._keyed(self.state.formed, self.state.formed.definition, wanted)
+
+    def generated(self, wanted: Iterable[GeneratedCurve]) -> None:
+        """Let these curves and no others come from definitions, or have come before."""
+        self._keyed(self.state.produced, self.state.produced.curve, wanted)
+
+    def _keyed(self, table: Table, column: ListColumn, wanted: Iterable[Any]) -> None:
+        """Bring a table of objects with keys to these objects; a key keeps its row."""
+        there = {
+            column.data[number].key: number for number in np.flatnonzero(table.alive.data).tolist()
+        }
         by_key = {each.key: each for each in wanted}
         gone = [number for key, number in there.items() if key not in by_key]
         self.journal.put(table.alive, gone, False)
         known = [key for key in sorted(by_key) if key in there]
-        changed = [key for key in known if by_key[key] != table.feature.data[there[key]]]
+        changed = [key for key in known if by_key[key] != column.data[there[key]]]
         if changed:
             numbers = [there[key] for key in changed]
-            self.journal.set(table.feature, numbers, [by_key[key] for key in changed])
+            self.journal.set(column, numbers, [by_key[key] for key in changed])
         fresh = [key for key in sorted(by_key) if key not in there]
         if fresh:
             rows = self.journal.grow(table, len(fresh))
-            self.journal.set(table.feature, rows.tolist(), [by_key[key] for key in fresh])
+            self.journal.set(column, rows.tolist(), [by_key[key] for key in fresh])
             self.journal.put(table.alive, rows, True)
 
     def remove_rows(self, rows: ArrayLike) -> None:

@@ -1,9 +1,12 @@
 """The hull as a network of nodes: curves read their points, computed points read a curve.
 
+Definitions by form parameters are nodes below nil, of which nothing but the edit writes the
+value; generated points read them, and those of sections the ends of their curve as well.
+
 Levels: a curve of level L in the graph of driven links is evaluated at 4 L, the points
-computed from it at 4 L + 1, and adopted points that ride with such points one below the
-level of their own curve. A curve and a waterline that nothing drives are thus lofted in one
-batch.
+computed from it at 4 L + 1, and adopted points that ride with such points, as generated ones,
+one below the level of their own curve. A curve and a waterline that nothing drives are thus
+lofted in one batch.
 """
 
 from __future__ import annotations
@@ -19,9 +22,11 @@ from assoc_hull.graph.node import Evaluation, Readers
 from assoc_hull.graph.plan import closure
 from assoc_hull.model.align import Alignment, align_curve
 from assoc_hull.model.cutting import Found, Recall, cut_curves
+from assoc_hull.model.generated import attached, unmade_rows
 from assoc_hull.model.index import Index
 from assoc_hull.model.recipe import loft_curves, remember
-from assoc_hull.model.state import HullState, Meets, curve_node, row_node
+from assoc_hull.model.regenerate import points_given
+from assoc_hull.model.state import HullState, Meets, curve_node, form_of, row_node
 
 __all__ = ["HullNetwork", "bits_differ"]
 
@@ -90,15 +95,17 @@ class HullNetwork:
         )
 
     def _find_readers(self, nodes: IntArray) -> Readers:
-        odd = (nodes & 1).astype(np.bool_)
-        points, curves = nodes[~odd], nodes[odd]
+        odd, forms = (nodes & 1).astype(np.bool_), nodes < 0
+        points, curves = nodes[~odd & ~forms], nodes[odd]
         pairs: list[tuple[IntArray, IntArray]] = []
         if len(points):
             reader = self.state.rows.reader.data.take(points >> 1, axis=0)
             both = reader >= 0
             pairs.append((curve_node(reader[both]), np.repeat(points, 2)[both.ravel()]))
-            pairs += self._listed(points, self.index.riders)
-        pairs += self._listed(curves, self.index.drives)
+            pairs += self._listed(points, points >> 1, self.index.riders)
+            pairs += self._listed(points, points >> 1, self.index.makes)
+        pairs += self._listed(curves, curves >> 1, self.index.drives)
+        pairs += self._listed(nodes[forms], form_of(nodes[forms]), self.index.forms)
         if len(pairs) == 1:
             return Readers(*pairs[0])
         return Readers(
@@ -107,23 +114,39 @@ class HullNetwork:
         )
 
     @staticmethod
-    def _listed(nodes: IntArray, table: dict[int, IntArray]) -> list[tuple[IntArray, IntArray]]:
-        hits = [(node, table[node >> 1]) for node in nodes.tolist() if node >> 1 in table]
+    def _listed(
+        nodes: IntArray, numbers: IntArray, table: dict[int, IntArray]
+    ) -> list[tuple[IntArray, IntArray]]:
+        if not table:
+            return []
+        pairs = zip(nodes.tolist(), numbers.tolist(), strict=True)
+        hits = [(node, table[number]) for node, number in pairs if number in table]
         return [(row_node(out), np.full(len(out), node)) for node, out in hits]
 
     def name(self, node: int) -> str:
         """Name a node by the key of its object."""
+        if node < 0:
+            return str(self.state.formed.definition.data[-1 - (node >> 1)].key)
         table = self.state.curves if node & 1 else self.state.rows
         return str(table.key.data[node >> 1])
 
     def evaluate(self, nodes: IntArray, journal: Journal) -> Evaluation:
-        """Evaluate curves, computed points or riding points, whichever the nodes are."""
+        """Evaluate curves, computed points, or riding and generated ones, as the nodes are."""
         numbers = nodes >> 1
         if nodes[0] & 1:
             return self._curves(numbers, journal)
         if self.state.rows.driver.data[numbers[0]] >= 0:
             return self._computed(numbers, journal)
-        return self._riding(numbers, journal)
+        rides = unmade_rows(self.state, numbers)
+        if rides.all():
+            return self._riding(numbers, journal)
+        made = self._generated(numbers[~rides], journal)
+        if not rides.any():
+            return made
+        rest = self._riding(numbers[rides], journal)
+        return Evaluation(
+            np.concatenate([rest.changed, made.changed]), np.concatenate([rest.moved, made.moved])
+        )
 
     def _computed(self, rows: IntArray, journal: Journal) -> Evaluation:
         """Points computed from their driver: its meeting with the other line's plane."""
@@ -140,6 +163,15 @@ class HullNetwork:
         weight = table.anchor_weight.data[rows][:, None]
         value = table.base.data[rows] + ((1.0 - weight) * shift[:, 0] + weight * shift[:, 1])
         return self._publish(rows, value, journal)
+
+    def _generated(self, rows: IntArray, journal: Journal) -> Evaluation:
+        """Points of generated curves, as the definitions have them; one batch of curves."""
+        owners = set(self.state.rows.curve.data[rows, 0].tolist())
+        every, value = points_given(
+            self.state, [made for curve, made in attached(self.state).items() if curve in owners]
+        )
+        chosen = np.isin(every, rows)
+        return self._publish(every[chosen], value[chosen], journal)
 
     def _publish(self, rows: IntArray, value: FloatArray, journal: Journal) -> Evaluation:
         """Write the points that differ by a bit from what is published."""

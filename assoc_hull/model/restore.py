@@ -26,6 +26,7 @@ from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import State
 from assoc_hull.model.gaps import gap_at, watched_on
+from assoc_hull.model.generated import unmade_rows
 from assoc_hull.model.index import build_index
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.schema import check_definition, check_published
@@ -114,10 +115,11 @@ def _rebuild(state: HullState, journal: Journal) -> list[str]:
 
 
 def _all_nodes(state: HullState) -> IntArray:
-    """Give every curve, computed point and riding point that is up to date."""
+    """Give every curve, computed, riding and generated point that is up to date."""
     rows, curves = state.live("rows"), state.live("curves")
     table = state.rows
     made = (table.driver.data[rows] >= 0) | (table.anchor.data[rows] >= 0).any(axis=1)
+    made |= ~unmade_rows(state, rows)
     rows = rows[made & (table.state.data[rows] == State.CLEAN)]
     curves = curves[state.curves.state.data[curves] == State.CLEAN]
     return np.concatenate([row_node(rows), curve_node(curves)])

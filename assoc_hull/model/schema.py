@@ -41,6 +41,7 @@ from assoc_hull.model.form import (
     told,
     tuple_of,
 )
+from assoc_hull.model.forms.definition import FORM_KINDS, RULES
 from assoc_hull.model.state import DECKS, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -131,6 +132,31 @@ _FEATURE = record(
 )
 
 
+_FORM = record(
+    {
+        "use": told(NAME, "what is taken from it; each use stands once"),
+        "name": NAME,
+        "kind": one_of(FORM_KINDS),
+        "rule": told(one_of(RULES), "how a course runs between its nodes"),
+        "nodes": told(listed(NAME), "labels of the nodes of a course, in order"),
+        "values": told(mapped(REAL), "by name: m, m2, degrees, 1/m or parts"),
+    }
+)
+_MADE = record(
+    {
+        "curve": told(TEXT, "key of the curve"),
+        "what": told(NAME, "what is generated"),
+        "layout": told(TEXT, "of which pieces"),
+        "points": told(listed(TEXT), "keys of its generated points, along the curve"),
+        "marks": told(
+            listed(tuple_of(NOT_NEGATIVE, NOT_NEGATIVE)),
+            "of each point: number of the piece, and parameter (0 to 4) on it",
+        ),
+    },
+    {"attached": told(TRUTH, "whether the points are those of the definitions; if not told, so")},
+)
+
+
 def _fields(cls: type, form: Form, leave: Collection[str] = ()) -> Mapping[str, Form]:
     """Give the forms of an attrs class of numbers, and perhaps a name."""
     names = [each.name for each in attrs.fields(cls) if each.name not in leave]
@@ -163,7 +189,11 @@ DEFINITION = record(
             "keys that must not come back",
         ),
     },
-    {"features": told(listed(_FEATURE), "circles, arcs, flats and so on; none if not told")},
+    {
+        "features": told(listed(_FEATURE), "circles, arcs, flats and so on; none if not told"),
+        "definitions": told(listed(_FORM), "curves of form parameters; none if not told"),
+        "generated": told(listed(_MADE), "curves that come from these; none if not told"),
+    },
 )
 PUBLISHED = record(
     {

@@ -22,6 +22,7 @@ from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatc
 from assoc_hull.graph.table import Table
 from assoc_hull.model.family import FAMILIES, Family
 from assoc_hull.model.feature import Feature
+from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [
@@ -32,6 +33,8 @@ __all__ = [
     "Meets",
     "Particulars",
     "curve_node",
+    "form_node",
+    "form_of",
     "row_node",
 ]
 
@@ -162,6 +165,16 @@ def curve_node(curve: IntArray) -> IntArray:
     return 2 * np.asarray(curve, np.int64) + 1
 
 
+def form_node(definition: IntArray) -> IntArray:
+    """Give the engine's node of a definition: even numbers below nil."""
+    return -2 - 2 * np.asarray(definition, np.int64)
+
+
+def form_of(node: IntArray) -> IntArray:
+    """Give the number of the definition that a node below nil stands for."""
+    return -1 - (np.asarray(node, np.int64) >> 1)
+
+
 def _rows() -> Table:
     return Table(
         key=(object, ""),
@@ -224,6 +237,14 @@ def _featured() -> Table:
     return Table(alive=(bool, ()), feature=(object, None))
 
 
+def _formed() -> Table:
+    return Table(alive=(bool, ()), definition=(object, None))
+
+
+def _produced() -> Table:
+    return Table(alive=(bool, ()), curve=(object, None))
+
+
 def _settings() -> Table:
     return Table(
         associations=(object, ()),
@@ -247,6 +268,10 @@ class HullState:
         The objects.
     featured : Table
         One row per feature, which it holds whole: see `features`.
+    formed : Table
+        One row per definition by form parameters, which it holds whole: see `definitions`.
+    produced : Table
+        One row per curve whose points come from definitions: see `generated`.
     settings : Table
         One row: the associations (`associations`) and how many crossings of each pair of
         lines were ever born (`births`), so that a dead id never comes back; the name may
@@ -267,6 +292,8 @@ class HullState:
         factory=lambda: Table(name=(object, ""), family=(object, ""), alive=(bool, ()))
     )
     featured: Any = attrs.field(factory=_featured)
+    formed: Any = attrs.field(factory=_formed)
+    produced: Any = attrs.field(factory=_produced)
     settings: Any = attrs.field(factory=_settings)
     revision_row: dict[int, int] = attrs.field(factory=dict)
     revision_curve: dict[int, int] = attrs.field(factory=dict)
@@ -295,6 +322,20 @@ class HullState:
         """The features that are alive, by key."""
         table = self.featured
         found = [table.feature.data[number] for number in self.live("featured").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
+
+    @property
+    def definitions(self) -> tuple[FormDefinition, ...]:
+        """The definitions by form parameters, by key."""
+        table = self.formed
+        found = [table.definition.data[number] for number in self.live("formed").tolist()]
+        return tuple(sorted(found, key=lambda each: each.key))
+
+    @property
+    def generated(self) -> tuple[GeneratedCurve, ...]:
+        """The curves whose points come from definitions, detached ones too, by key."""
+        table = self.produced
+        found = [table.curve.data[number] for number in self.live("produced").tolist()]
         return tuple(sorted(found, key=lambda each: each.key))
 
     @property

@@ -26,6 +26,7 @@ from assoc_hull.model.definition import words
 from assoc_hull.model.family import BoundaryKind, Sort, State
 from assoc_hull.model.filling import Keys, fill, wrong
 from assoc_hull.model.filling_features import put_features
+from assoc_hull.model.filling_forms import computed_points, put_forms
 from assoc_hull.model.filling_points import put_defining, put_points
 from assoc_hull.model.meetings import put_meetings
 from assoc_hull.model.state import Association, Ends, HullState, Particulars
@@ -68,11 +69,12 @@ def make_tables(definition: Record) -> HullState:
     _put_groups(state, journal, groups, definition, keys)
     _put_lines(state, journal, parts[0], keys)
     _put_curves(state, journal, parts[1], keys)
-    put_points(state, journal, parts[2], keys)
+    put_points(state, journal, parts[2], keys, computed_points(definition))
     put_defining(state, journal, parts[1], keys)
     _check_births(state)
     put_meetings(state, journal, parts[1], keys.find)
     put_features(state, journal, definition.get("features", ()), keys)
+    put_forms(state, journal, definition, keys)
     _retire(state, journal, gone)
     return state
 

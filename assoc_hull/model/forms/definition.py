@@ -18,7 +18,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -26,6 +26,7 @@ import attrs
 
 from assoc_hull.arguments import choice, number, text
 from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.model.forms.uses import USES
 
 __all__ = [
     "FORM_KINDS",
@@ -51,8 +52,8 @@ HALVES = (
     "entrance_end_curvature", "entrance_end_tangent", "entrance_area", "entrance_centroid",
 )  # fmt: skip
 """The values of a curve of two halves. ``full`` is what the ordinate 1 stands for (m2 of the
-midship section, m of the half-breadth); abscissae run from -1 at AP to 1 at FP. Area, centroid
-and tangent lengths may be None: then they come out fairest."""
+midship section, m of the half-breadth); abscissae run from -1 at AP to 1 at FP. Area and centroid
+may be None: then they come out fairest; a tangent length that is None is an eighth of the chord."""
 
 NODE_FIELDS = (
     "x", "y", "angle_deg", "curvature", "tangent", "leave_angle_deg", "leave_curvature",
@@ -80,6 +81,10 @@ def _values(given: Mapping[str, float | None]) -> Mapping[str, float | None]:
             for name, value in given.items()
         }
     )
+
+
+def _labels(given: Iterable[str]) -> tuple[str, ...]:
+    return tuple(given)
 
 
 @attrs.frozen
@@ -110,13 +115,17 @@ class FormDefinition:
         converter=_values, eq=lambda v: tuple(v.items())
     )
     rule: str = "form"
-    nodes: tuple[str, ...] = attrs.field(default=(), converter=tuple)
+    nodes: tuple[str, ...] = attrs.field(default=(), converter=_labels)
 
     def __attrs_post_init__(self) -> None:
         where = f"in the definition {text(self.name, 'name', 'in a definition')!r}"
-        text(self.use, "use", where)
-        choice(self.kind, "kind", FORM_KINDS, where)
+        wanted = USES[choice(self.use, "use", tuple(USES), where)].kind
+        if choice(self.kind, "kind", FORM_KINDS, where) != wanted:
+            raise BadInputError(f"the kind {self.kind!r}", where, f"{self.use} is of {wanted!r}")
         choice(self.rule, "rule", RULES, where)
+        for node in self.nodes:
+            if self.nodes.count(text(node, "a node", where)) > 1:
+                raise BadInputError(f"two nodes are labelled {node!r}", where, "rename one")
         known = self.names
         for name in self.values:
             if name not in known:
@@ -177,6 +186,11 @@ class GeneratedCurve:
     rows: tuple[int, ...]
     marks: tuple[Mark, ...]
     attached: bool = True
+
+    @property
+    def reads_ends(self) -> bool:
+        """Whether the points depend on where the ends of the curve lie: those of sections do."""
+        return self.what == "section"
 
     def evolve(self, **changes: Any) -> GeneratedCurve:
         """Give the same with other attributes."""

@@ -1,0 +1,1 @@
+"""Hulls without a parent: made of definitions by form parameters."""

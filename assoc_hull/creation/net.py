@@ -1,0 +1,103 @@
+"""The net of a design: what the definitions draw, and the lines that are cut from it.
+
+Everything is associated one way: boundary curves give ends to all lines, sections give points to
+waterlines and buttocks, waterlines to buttocks. So definitions shape the hull and nothing that is
+edited runs back against them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from assoc_hull.creation.design import Design
+from assoc_hull.creation.drawn import Drawn, boundary_curves, section_curves
+from assoc_hull.creation.straight import go_straight
+from assoc_hull.edit.adopt import AdoptionReport, adopt
+from assoc_hull.edit.cut import add_line
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.family import Sort
+from assoc_hull.model.forms.forms import Forms
+from assoc_hull.model.make import Maker
+from assoc_hull.model.state import Association, HullState
+
+__all__ = ["LINKS", "build_net"]
+
+LINKS = tuple(
+    Association(a, b, two_way=False)
+    for a, b in (
+        ("boundary", "sections"),
+        ("boundary", "waterlines"),
+        ("boundary", "buttocks"),
+        ("sections", "waterlines"),
+        ("sections", "buttocks"),
+        ("waterlines", "buttocks"),
+    )
+)
+"""Which lines give points to which."""
+
+
+def build_net(design: Design) -> tuple[HullState, AdoptionReport]:
+    """Make the net of a design.
+
+    Parameters
+    ----------
+    design : Design
+        The design.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+        The net with its definitions; how its sections and boundary curves were adopted.
+
+    Raises
+    ------
+    BadInputError, OutOfRangeError
+        Definitions of which no section can be made at some station; the error names both.
+    RefusedEditError
+        A waterline or a buttock that cannot be cut.
+    """
+    forms = Forms.of(design.definitions, design.particulars)
+    boundary = boundary_curves(design, forms)
+    drawn = [*boundary, *section_curves(design, forms, boundary)]
+    state, report = adopt(
+        [each.source for each in drawn], design.particulars, LINKS, design.tolerances
+    )
+    _hand_over(state, design, drawn)
+    document = Document(state)
+    for z in design.waterlines:
+        with Transaction(document, f"cut waterline {z:g}") as edit:
+            go_straight(edit, forms, add_line(edit, "waterlines", z))
+    for y in design.buttocks:
+        with Transaction(document, f"cut buttock {y:g}") as edit:
+            add_line(edit, "buttocks", y)
+    return state, report
+
+
+def _hand_over(state: HullState, design: Design, drawn: Sequence[Drawn]) -> None:
+    """Let the points of drawn curves be those of definitions: adopted, no longer placed."""
+    maker = Maker(state, Journal())
+    maker.definitions(design.definitions)
+    names = {name: number for number, name in enumerate(state.groups.name.data)}
+    lines = {
+        (int(state.lines.group.data[line]), state.lines.name.data[line]): line
+        for line in state.live("lines").tolist()
+    }
+    taken: dict[int, int] = {}
+    made = []
+    for each in drawn:
+        line = lines[names[each.source.group], each.source.name]
+        part = taken.get(line, 0)
+        taken[line] = part + 1
+        curve = state.lines.curves.data[line][part]
+        made.append(
+            each.generated(
+                state.curves.key.data[curve], curve, state.curves.rows.data[curve].tolist()
+            )
+        )
+    rows = np.array(sorted(row for each in made for row in each.rows), np.int64)
+    maker.journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
+    maker.generated(made)
