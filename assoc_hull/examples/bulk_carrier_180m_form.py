@@ -56,12 +56,12 @@ AREAS = {
 
 WATERLINE = {
     "run_start": -1.05,
-    "run_start_angle_deg": 84.0,
-    "run_start_tangent": 0.195,
+    "run_start_angle_deg": 83.0,
+    "run_start_tangent": 0.17,
     "run_end": -0.44,
     "run_end_tangent": 0.156,
     "run_area": 0.3863,
-    "run_centroid": -0.6649,
+    "run_centroid": -0.664,
     "entrance_start": 0.52,
     "entrance_start_tangent": 0.076,
     "entrance_end_angle_deg": -80.0,
