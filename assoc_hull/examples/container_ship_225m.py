@@ -21,40 +21,8 @@ _RADIUS = 4.486711
 """Of the bilge, m: that of a midship section with the coefficient above."""
 
 _STATIONS = (
-    -0.2,
-    0.0,
-    0.25,
-    0.5,
-    0.75,
-    1.0,
-    1.5,
-    2.0,
-    3.0,
-    4.0,
-    5.0,
-    6.0,
-    7.0,
-    8.0,
-    9.0,
-    10.0,
-    11.0,
-    12.0,
-    13.0,
-    14.0,
-    15.0,
-    16.0,
-    17.0,
-    17.5,
-    18.0,
-    18.5,
-    19.0,
-    19.25,
-    19.5,
-    19.75,
-    20.0,
-    20.2,
-    20.35,
-    20.45,
+    -0.2, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0,
+    14.0, 15.0, 16.0, 17.0, 17.5, 18.0, 18.5, 19.0, 19.25, 19.5, 19.75, 20.0, 20.2, 20.35, 20.45,
 )
 _WATERLINES = (0.6, 1.5, 3.0, 4.5, 6.0, 7.5, 9.0, 10.8, 12.5, 14.5, 16.5, 18.5)
 _BUTTOCKS = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0)
@@ -124,12 +92,7 @@ def _definitions() -> list[FormDefinition]:
 def container_ship_225m_design() -> Design:
     """Give the design of which the ship is created."""
     return Design(
-        _SHIP,
-        _definitions(),
-        _STATIONS,
-        _WATERLINES,
-        _BUTTOCKS,
-        transom=-4.2,
+        _SHIP, _definitions(), _STATIONS, _WATERLINES, _BUTTOCKS, transom=-4.2,
     )
 
 
