@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.equilibrium import equilibrium
     from assoc_hull.analysis.stability.flooding import FloodingPoint
     from assoc_hull.analysis.stability.stability import stability
+    from assoc_hull.creation.courses import course, design_waterline, sectional_area
+    from assoc_hull.creation.design import Design
     from assoc_hull.creation.form_curve import FormCurve
     from assoc_hull.errors import (
         AssocHullError,
@@ -47,11 +49,12 @@ if TYPE_CHECKING:
     from assoc_hull.geometry.plane import Plane
     from assoc_hull.hull import Hull
     from assoc_hull.model.family import BoundaryKind
+    from assoc_hull.model.forms.definition import FormDefinition
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.shifts import shift_sections, swing
-    from assoc_hull.sources import examples, open, read
+    from assoc_hull.sources import create, examples, open, read
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
     from assoc_hull.tolerance import Tolerances
@@ -68,11 +71,13 @@ __all__ = [
     "BoundaryKind",
     "Crossing",
     "Curve",
+    "Design",
     "Ends",
     "FileBusyError",
     "FloodingPoint",
     "ForeignPointError",
     "FormCurve",
+    "FormDefinition",
     "FreedomError",
     "Group",
     "Hull",
@@ -95,8 +100,11 @@ __all__ = [
     "UnreachableError",
     "__version__",
     "compare",
+    "course",
+    "create",
     "cross_curves",
     "curve_transform",
+    "design_waterline",
     "equilibrium",
     "examples",
     "form_parameters",
@@ -109,6 +117,7 @@ __all__ = [
     "panels",
     "read",
     "sample",
+    "sectional_area",
     "sensitivities",
     "shift_sections",
     "stability",
@@ -133,6 +142,8 @@ _HOMES = {
     "analysis.stability.equilibrium": ("equilibrium",),
     "analysis.stability.flooding": ("FloodingPoint",),
     "analysis.stability.stability": ("stability",),
+    "creation.courses": ("course", "design_waterline", "sectional_area"),
+    "creation.design": ("Design",),
     "creation.form_curve": ("FormCurve",),
     "errors": (
         "AssocHullError",
@@ -153,11 +164,12 @@ _HOMES = {
     "geometry.plane": ("Plane",),
     "hull": ("Hull",),
     "model.family": ("BoundaryKind",),
+    "model.forms.definition": ("FormDefinition",),
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
     "shifts": ("shift_sections", "swing"),
-    "sources": ("examples", "open", "read"),
+    "sources": ("create", "examples", "open", "read"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
     "tolerance": ("Tolerances",),

@@ -34,6 +34,7 @@ from assoc_hull.tolerance import Tolerances
 if TYPE_CHECKING:
     import networkx
 
+    from assoc_hull.creation.report import CreationReport
     from assoc_hull.edit.adopt import AdoptionReport
     from assoc_hull.edit.check_hull import Finding
     from assoc_hull.edit.compare import Comparison
@@ -45,16 +46,14 @@ if TYPE_CHECKING:
     from assoc_hull.io.export_book import ExportReport
     from assoc_hull.io.saving import Saved
     from assoc_hull.model.feature_handle import FeatureHandle
+    from assoc_hull.model.forms.definition import FormDefinition
     from assoc_hull.model.verify import Difference
 
 __all__ = ["Hull", "to_change"]
 
 
 class Hull:
-    """A ship hull form: lines that follow one another, with its history.
-
-    `adoption` tells how the net was made, if it was made of lines here.
-    """
+    """A ship hull form, with its history; `adoption` tells how it was made of lines, if here."""
 
     def __init__(self, state: HullState | Document) -> None:
         if not isinstance(state, Document):
@@ -125,6 +124,18 @@ class Hull:
         from assoc_hull.model.feature_handle import features_by_name
 
         return features_by_name(self.state)
+
+    @property
+    def definitions(self) -> Mapping[str, FormDefinition]:
+        """Definitions by form parameters by name; `values` of each holds its numbers."""
+        return Named("definition", {each.name: each for each in self.state.definitions})
+
+    @property
+    def creation(self) -> CreationReport:
+        """The hull beside its definitions; BadInputError if it has none."""
+        from assoc_hull.creation.report import creation_report
+
+        return creation_report(self.state)
 
     @property
     def history(self) -> tuple[EditReport, ...]:

@@ -19,7 +19,7 @@ def course(name: str, nodes: Mapping[str, tuple[float, ...]], rule: str = "form"
         for label, given in nodes.items()
         for field, value in zip(fields, given, strict=False)
     }
-    return FormDefinition(name.replace("_", " "), name, "course", values, rule, tuple(nodes))
+    return FormDefinition(name.replace("_", " "), name, "course", values, rule, [*nodes])
 
 
 AREAS = FormDefinition(

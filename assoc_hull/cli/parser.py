@@ -8,6 +8,7 @@ from typing import NoReturn
 
 from assoc_hull.cli import (
     compare,
+    create,
     demo,
     edit,
     export,
@@ -72,7 +73,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, look, edit, history, replay, why, graph, hydrostatics, parameters,
+        demo, make, create, look, edit, history, replay, why, graph, hydrostatics, parameters,
         stability, transform, panels, vary, shift, study, compare, sensitivities, plot, export,
         shell,
     )  # fmt: skip

@@ -13,7 +13,7 @@ from assoc_hull.cli.problems import check_target
 __all__ = ["add"]
 
 _SHELLS = ("bash", "zsh", "fish")
-_DOCUMENTS = ("hull", "form-catalogue", "form-parameters", "comparison")
+_DOCUMENTS = ("hull", "form-catalogue", "form-parameters", "comparison", "design")
 
 
 def add(commands: Commands) -> None:
@@ -87,6 +87,10 @@ def _schema_of(document: str) -> dict[str, Any]:
         from assoc_hull.io.comparison_schema import comparison_schema
 
         return comparison_schema()
+    if document == "design":
+        from assoc_hull.creation.design_json import design_schema
+
+        return design_schema()
     from assoc_hull.io.form_schema import catalogue_schema, form_schema
 
     return catalogue_schema() if document == "form-catalogue" else form_schema()

@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.edit.check_associations import find_associations
 from assoc_hull.edit.check_features import find_off_features
+from assoc_hull.edit.check_forms import find_detached
 from assoc_hull.edit.check_links import find_links
 from assoc_hull.edit.check_roles import find_roles
 from assoc_hull.edit.check_sense import find_sense
@@ -132,5 +133,6 @@ _LOOKS: tuple[Callable[[HullState, AddressBook], Iterator[Finding]], ...] = (
     find_links,
     find_associations,
     find_off_features,
+    find_detached,
     _rings,
 )

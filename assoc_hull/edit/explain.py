@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
 from assoc_hull.arguments import shown
 from assoc_hull.edit.cause import Why
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import told_change
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.explain import Trace, Tracer
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.generated import attached_rows
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
-from assoc_hull.model.state import HullState
+from assoc_hull.model.state import HullState, form_of
 
 __all__ = ["Thing", "Why", "node_of", "why", "why_after"]
 
@@ -114,7 +117,7 @@ def node_of(state: HullState, thing: Thing | str) -> int:
 
 
 def _is_watched(state: HullState, node: int) -> bool:
-    if node & 1:
+    if node & 1 or node < 0:
         return False
     row = node >> 1
     crossing = state.rows.sort.data[row] == Sort.CROSSING
@@ -133,11 +136,21 @@ def _watched(state: HullState, steps: Sequence[Step], book: AddressBook, node: i
 
 
 def _key(state: HullState, node: int) -> str:
+    if node < 0:
+        return str(_form(state, node).key)
     table = state.curves if node & 1 else state.rows
     return str(table.key.data[node >> 1]) if node >> 1 < table.count else _GONE
 
 
+def _form(state: HullState, node: int) -> FormDefinition:
+    number = int(form_of(np.array([node]))[0])
+    found: FormDefinition = state.formed.definition.data[number]
+    return found
+
+
 def _name(book: AddressBook, node: int) -> str:
+    if node < 0:
+        return f"the definition {_form(book.state, node).name!r}"
     table = book.state.curves if node & 1 else book.state.rows
     if node >> 1 >= table.count:
         return _GONE
@@ -153,8 +166,22 @@ def _still(state: HullState, node: int) -> str:
 
 
 def _state(state: HullState, node: int) -> State:
+    if node < 0:
+        return State.CLEAN
     table = state.curves if node & 1 else state.rows
     return State(int(table.state.data[node >> 1])) if node >> 1 < table.count else State.CLEAN
+
+
+def _told(causes: Sequence[Trace], made: Collection[int]) -> list[Trace]:
+    """Leave out generated points but the one that moved most: they come of the same definitions."""
+    found, known = list[Trace](), set[tuple[int, ...]]()
+    for each in causes:
+        roots = tuple(sorted(cause.node for cause in each.causes))
+        if each.node not in made or roots not in known:
+            found.append(each)
+        if each.node in made:
+            known.add(roots)
+    return found
 
 
 class _Teller:
@@ -164,6 +191,7 @@ class _Teller:
         self.state, self.book, self.step, self.number = state, book, step, number
         self.tracer = Tracer(step.cause, step.changed, step.moved, step.seeds)
         self._done: dict[int, Why] = {}
+        self._made = frozenset((2 * attached_rows(state)).tolist())
 
     def tell(self, trace: Trace) -> Why:
         """Put a trace into names."""
@@ -172,15 +200,23 @@ class _Teller:
             self._done[node] = Why(
                 _key(self.state, node), _name(self.book, node), self.step.name, self.number,
                 None if np.isnan(trace.moved) else trace.moved, self._what(trace),
-                tuple(self.tell(each) for each in trace.causes),
+                tuple(self.tell(each) for each in _told(trace.causes, self._made)),
                 tuple(_name(self.book, each) for each in self.tracer.cut_off(node)),
             )  # fmt: skip
         return self._done[node]
 
     def _what(self, trace: Trace) -> str:
+        if trace.node < 0:
+            return f"{_SET}: {self._values(trace.node)}"
         if trace.seed:
             return _CARRIED if self.step.report.carried else _SET
         if trace.node not in self.tracer.moved:
             halted = {State.BLOCKED: _BLOCKED, State.FAILED: _FAILED}
             return halted.get(_state(self.state, trace.node), _CUT_OFF)
         return _FOLLOWED if trace.causes else _RECIPE
+
+    def _values(self, node: int) -> str:
+        """Say which values of a definition the edit set."""
+        name = _form(self.state, node).name
+        told = [told_change(each) for each in self.step.report.definitions if each[0] == name]
+        return ", ".join(told)

@@ -19,13 +19,13 @@ class Finding:
     kind : str
         ``failed``, ``blocked``, ``not finite``, ``fold``, ``close``, ``off curve``,
         ``off plane``, ``sense``, ``gap``, ``links``, ``orphan``, ``twin``, ``association``,
-        ``ring``, ``tables``, ``feature``, or the note ``role``.
+        ``ring``, ``tables``, ``feature``, ``detached``, or the note ``role``.
     object : str
         Address of the object.
     place : (float, float, float) or None, m
         Where.
     amount : float or None
-        How much: a length in m, an angle's cosine at a fold, a count for a ring.
+        How much: a length in m, an angle's cosine at a fold, a count for a ring or of lines.
     message : str
         The finding in words, with what to do about it.
     """

@@ -8,6 +8,7 @@ from assoc_hull.edit.check import plane_normals
 from assoc_hull.edit.net_change import net_change
 from assoc_hull.edit.report import EditReport, Fairness, Movement
 from assoc_hull.edit.step import Step, StepBody
+from assoc_hull.edit.take_up_forms import form_changes
 from assoc_hull.edit.work import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.node import Readers
@@ -29,12 +30,15 @@ def step_of(work: Work, rows: IntArray, away: FloatArray) -> Step:
         every = np.concatenate([nodes, *(part.changed for part in parts)])
         known = np.concatenate([distance, *(part.moved for part in parts)])
         nodes, distance = net_change(work.state, work.journal, work.network.before, every, known)
+    nodes = np.concatenate([nodes, work.forms])
+    distance = np.concatenate([distance, np.full(len(work.forms), np.nan)])
     cause = Readers(
         np.concatenate([part.cause.reader for part in parts]),
         np.concatenate([part.cause.source for part in parts]),
     )
     report = _report(work, nodes, distance)
-    body = StepBody(work.journal, cause, nodes, distance, row_node(rows), report)
+    seeds = np.concatenate([row_node(rows), work.forms])
+    body = StepBody(work.journal, cause, nodes, distance, seeds, report)
     return Step(work.name, work.pending.structural, body=body)
 
 
@@ -61,6 +65,7 @@ def _report(work: Work, changed: IntArray, moved: FloatArray) -> EditReport:
         notes=tuple(work.pending.notes),
         carried=tuple(work.pending.carried),
         cut_again=tuple(work.pending.cut_again),
+        definitions=form_changes(state, work.journal),
         seconds=work.seconds,
         fairness=Fairness(work.network.before, after, plane_normals(state, curves), curves, keys),
     )

@@ -11,6 +11,7 @@ from assoc_hull.edit.field import Field
 from assoc_hull.edit.nudge import Nudge
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.graph.run import Policy
+from assoc_hull.model.forms.definition import FormDefinition
 
 __all__ = ["Pending", "Settings"]
 
@@ -72,6 +73,12 @@ class Pending:
         The features as a mapping carried them; as they are in the tables if None.
     nudge : Nudge or None
         A small movement of the whole hull when all else has run.
+    forms : dict of str to FormDefinition
+        By use, definitions with other values.
+    attach : set of int
+        Lines whose points are to come from definitions again.
+    detached : list of int
+        Curves that have left their definitions in this transaction.
     """
 
     values: dict[int, FloatArray] = attrs.field(factory=dict)
@@ -93,6 +100,9 @@ class Pending:
     by_hand: set[tuple[int, int]] = attrs.field(factory=set)
     features: CarriedFeatures | None = None
     nudge: Nudge | None = None
+    forms: dict[str, FormDefinition] = attrs.field(factory=dict)
+    attach: set[int] = attrs.field(factory=set)
+    detached: list[int] = attrs.field(factory=list)
 
     @staticmethod
     def not_alone(name: str) -> tuple[str, str, str]:

@@ -29,6 +29,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import tangents
+from assoc_hull.model.generated import attached
 from assoc_hull.model.make import PointSpec
 from assoc_hull.model.place import free_axes
 from assoc_hull.model.state import HullState
@@ -36,6 +37,7 @@ from assoc_hull.model.state import HullState
 __all__ = ["delete", "insert", "move", "pin", "set_kind", "unpin"]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
+_BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"
 _WAYS_OUT = "move the driver, pull it (edit.pull), or make it shared (edit.set_role)"
 
 
@@ -84,7 +86,8 @@ def _refuse_computed(state: HullState, row: int) -> None:
     driver = int(state.rows.driver.data[row])
     title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
     kind = "watched" if role is Role.WATCHED else "driven"
-    raise PointRoleError(address(state, row), kind, title, _WAYS_OUT)
+    ways = _WAYS_OUT if driver not in attached(state) else f"{_BY_DEFINITION}, or {_WAYS_OUT}"
+    raise PointRoleError(address(state, row), kind, title, ways)
 
 
 def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:

@@ -26,6 +26,7 @@ from assoc_hull.edit.pending import Settings
 from assoc_hull.errors import AssocHullError
 from assoc_hull.graph.run import Policy
 from assoc_hull.model.address import AddressBook, address
+from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
 
 __all__ = ["ANY_FUNCTION", "Recording", "Script", "recorded", "said"]
@@ -113,6 +114,8 @@ def said(value: object, depth: int = 0) -> Any:
         return address(value.tables, value.number, value.side) if value.alive else value.id
     if isinstance(value, Crossing):
         return address(value.tables, value.number) if value.alive else value.id
+    if isinstance(value, FormDefinition):
+        return value.use
     if isinstance(value, Group | Line | Curve):
         return _named(value)
     if isinstance(value, np.ndarray | np.generic):

@@ -7,9 +7,12 @@ import attrs
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
 from assoc_hull.geometry.fairness import inflections
 
-__all__ = ["EditReport", "Fairness", "Movement"]
+__all__ = ["EditReport", "Fairness", "FormChange", "Movement", "told_change"]
 
 Inflections = tuple[tuple[str, int], ...]
+
+FormChange = tuple[str, str, float | None, float | None]
+"""Name of a definition, name of a value, what it was, what it is."""
 
 
 @attrs.frozen(eq=False)
@@ -46,6 +49,20 @@ class Fairness:
             for i, count in zip(known, more.tolist(), strict=True)
             if count > 0
         )
+
+
+def told_change(change: FormChange) -> str:
+    """Say how a value of a definition was changed.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.report import told_change
+    >>> told_change(("areas", "run_area", 0.51, None))
+    'run_area 0.51 -> free'
+    """
+    _, name, old, new = change
+    told = ["free" if value is None else f"{value:.10g}" for value in (old, new)]
+    return f"{name} {told[0]} -> {told[1]}"
 
 
 @attrs.frozen
@@ -97,6 +114,9 @@ class EditReport:
         What was left alone, and why.
     carried, cut_again : tuple of str
         Keys of the lines that a mapping carried, and of those that were cut again from them.
+    definitions : tuple of (str, str, float or None, float or None)
+        Values of definitions that were set: name of the definition, name of the value, what it
+        was, what it is.
     seconds : dict of str to float
         Time per phase.
     number : int
@@ -125,6 +145,7 @@ class EditReport:
     notes: tuple[str, ...] = ()
     carried: tuple[str, ...] = ()
     cut_again: tuple[str, ...] = ()
+    definitions: tuple[FormChange, ...] = ()
     seconds: dict[str, float] = attrs.field(factory=dict, eq=False)
     fairness: Fairness | None = attrs.field(default=None, eq=False, repr=False)
     counted: Inflections = attrs.field(default=(), eq=False, repr=False)
@@ -142,6 +163,7 @@ class EditReport:
         if not self.changed:
             return f"{self.name}: nothing changed, no step was added"
         parts = [f"{self.name}: {len(self.relofted)} curves re-lofted"]
+        parts += [f"{each[0]}: {told_change(each)}" for each in self.definitions]
         if self.largest is not None:
             x, y, z = self.largest.place
             parts.append(

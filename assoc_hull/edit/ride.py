@@ -2,7 +2,8 @@
 
 An adopted point holds a shape that crossings alone cannot. Its place is its base plus a
 linear blend of the displacements of its nearest driven neighbours since they were last
-linked; so there and back is exact. A generated point does not ride: definitions place it.
+linked; so there and back is exact. A generated point does not ride, and none that was one:
+definitions place it, or a designer did.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import numpy as np
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import Sort
-from assoc_hull.model.generated import unmade_rows
+from assoc_hull.model.generated import kept_rows
 from assoc_hull.model.state import HullState
 
 __all__ = ["rebase", "ride_links"]
@@ -22,7 +23,8 @@ def ride_links(state: HullState, curves: IntArray, journal: Journal) -> None:
     """Link the adopted points of curves to their driven neighbours as these lie now."""
     for curve in curves.tolist():
         rows: IntArray = state.curves.rows.data[curve]
-        rides = (state.rows.sort.data[rows] == Sort.ADOPTED) & unmade_rows(state, rows)
+        rides = state.rows.sort.data[rows] == Sort.ADOPTED
+        rides &= ~np.isin(rows, kept_rows(state))
         adopted, others = np.flatnonzero(rides), np.flatnonzero(~rides)
         if not len(adopted):
             continue

@@ -79,8 +79,9 @@ def _modify(edit: Edit, change: object, where: str) -> None:
         raise UnknownNameError("modification", shown_name(name), known)
     method = getattr(edit, name)
     takes = inspect.signature(method)
+    any_name = any(each.kind is each.VAR_KEYWORD for each in takes.parameters.values())
     for given in arguments:
-        if given not in takes.parameters:
+        if given not in takes.parameters and not any_name:
             remedy = f"it takes {', '.join(takes.parameters)}"
             raise BadInputError(f"{name} takes no {given!r}", where, remedy)
     try:

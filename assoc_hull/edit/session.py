@@ -19,9 +19,11 @@ from assoc_hull.edit import ends as _ends
 from assoc_hull.edit import lines as _lines
 from assoc_hull.edit import points as _points
 from assoc_hull.edit import pull as _pull
+from assoc_hull.edit import reattach as _reattach
 from assoc_hull.edit import rename as _rename
 from assoc_hull.edit import renew as _renew
 from assoc_hull.edit import reshape as _reshape
+from assoc_hull.edit import set_form as _set_form
 from assoc_hull.edit import set_role as _set_role
 from assoc_hull.edit import shift as _shift
 from assoc_hull.edit import transform as _transform
@@ -35,6 +37,7 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
 from assoc_hull.model.state import HullState
 
@@ -253,6 +256,39 @@ class Edit:
     def dissociate(self, a: Group | str, b: Group | str) -> None:
         """Take an association back."""
         _associate.dissociate(self._transaction, self._given.group(a), self._given.group(b))
+
+    @recorded
+    def set_form(self, /, definition: FormDefinition | str, **values: float | None) -> None:
+        """Give a definition other values; all that is generated from it follows.
+
+        Parameters
+        ----------
+        definition : FormDefinition or str
+            The definition, its name or its use.
+        **values : float or None
+            As `FormDefinition.values` names them; of the curve of sectional areas also ``cb``,
+            ``cp`` and ``lcb`` (m from midship, forward positive), of the design waterline
+            ``cw`` and ``lcf``: the entrance then closes the curve.
+
+        Raises
+        ------
+        UnknownNameError
+            The hull has no such definition, or this no such value.
+        BadInputError, OutOfRangeError
+            A number that is not finite, or a curve that cannot be made.
+        """
+        _set_form.set_form(self._transaction, definition, values)
+
+    @recorded
+    def reattach(self, line: Line | str) -> None:
+        """Let the points of a line come from the definitions again.
+
+        Raises
+        ------
+        BadInputError
+            No definition makes it, or a point was placed on it.
+        """
+        _reattach.reattach(self._transaction, self._given.line(line))
 
     @recorded
     def rename(self, obj: object, name: str) -> None:

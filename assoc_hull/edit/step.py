@@ -13,7 +13,7 @@ from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.node import Readers, distinct
 from assoc_hull.model.change import Change, run_change
-from assoc_hull.model.state import HullState
+from assoc_hull.model.state import HullState, form_of
 
 __all__ = ["Rerun", "Step", "StepBody", "Writes"]
 
@@ -165,7 +165,13 @@ class Step:
     @property
     def rows(self) -> IntArray:
         """Points that changed."""
-        return distinct(self.changed[(self.changed & 1) == 0] >> 1)
+        chosen = ((self.changed & 1) == 0) & (self.changed >= 0)
+        return distinct(self.changed[chosen] >> 1)
+
+    @property
+    def forms(self) -> IntArray:
+        """Numbers of the definitions that the edit set."""
+        return form_of(distinct(self.seeds[self.seeds < 0]))
 
     @property
     def curves(self) -> IntArray:

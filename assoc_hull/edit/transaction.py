@@ -186,6 +186,8 @@ class Transaction:
         pending, xyz = self.pending, self.state.rows.xyz.data
         if pending.fields or pending.curves or pending.computed or pending.nudge is not None:
             return False
+        if pending.forms or pending.attach:
+            return False
         asked = [
             xyz[row].tobytes() == (value + 0.0).tobytes() for row, value in pending.values.items()
         ]

@@ -21,6 +21,7 @@ from assoc_hull.edit.check import (
     splines_of,
 )
 from assoc_hull.edit.check_sense import find_turned
+from assoc_hull.edit.detach import detach, detach_rows, detached_note, off_definitions, tidy
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
 from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
@@ -29,10 +30,12 @@ from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
+from assoc_hull.edit.refine_forms import refine_forms
 from assoc_hull.edit.rejoin import rejoin
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
+from assoc_hull.edit.take_up_forms import take_up_forms
 from assoc_hull.edit.topology import latent_meetings, settle
 from assoc_hull.edit.work import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
@@ -40,6 +43,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
 from assoc_hull.model.family import Sort, State
+from assoc_hull.model.generated import attached
 from assoc_hull.model.make import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
 from assoc_hull.model.state import HullState
@@ -68,12 +72,16 @@ def update(
     """
     begin = time.perf_counter()
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
+    try:
+        forms = take_up_forms(document.state, journal, pending)
+    except AssocHullError as error:
+        raise RefusedEditError(name, (str(error),)) from error
     rows, away = _set_values(document.state, journal, pending)
     if pending.structural:
         _link_riders(document.state, journal, pending)
         document.refresh()
     network = HullNetwork(document.state, document.index)
-    work = Work(document, name, journal, pending, settings, network)
+    work = Work(document, name, journal, pending, settings, network, forms=forms)
     try:
         if pending.fields:
             rows, away = _run_fields(work, rows, origin)
@@ -82,6 +90,7 @@ def update(
             _settle(work)
             _relink(work)
             _follow_up(work)
+        _refine(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -89,7 +98,8 @@ def update(
         if pending.nudge is not None and not findings:
             _run_nudge(work, pending.nudge)  # gaps have been mended: points are all there
             findings = _check(work)
-    except RingError:
+        _confirm(work)
+    except (RingError, RefusedEditError):
         raise
     except (AssocHullError, ArithmeticError) as error:
         raise RefusedEditError(name, (str(error),)) from error
@@ -143,6 +153,8 @@ def _run_fields(work: Work, rows: IntArray, origin: FloatArray) -> tuple[IntArra
             ground = context(state, across_flats=across)
         shift = add_shifts([field.shift(ground, part) for field in fields], pinned)
         before = state.rows.xyz.data.copy()
+        if detach_rows(Maker(state, work.journal), work.pending, shift.rows):
+            work.renew()
         work.journal.put(state.rows.xyz, shift.rows, state.rows.xyz.data[shift.rows] + shift.delta)
         if step == steps - 1:
             land(state, work.journal, fields)
@@ -224,6 +236,30 @@ def _follow_up(work: Work) -> None:
     live = [curve for curve in sorted(pending.curves) if work.state.curves.alive.data[curve]]
     work.go(_NONE, np.array(live, np.int64))
     _settle(work)
+
+
+def _refine(work: Work) -> None:
+    """Give generated curves the points that they have come to need, and let others follow."""
+    if not attached(work.state) or work.pending.alone:
+        return
+    curves = refine_forms(work, work.touched())
+    if curves:
+        work.go(_NONE, np.array(curves, np.int64))
+        _settle(work)
+
+
+def _confirm(work: Work) -> None:
+    """Detach what this update has bent off its definitions, and tell what has been detached."""
+    pending, state = work.pending, work.state
+    maker = Maker(state, work.journal)
+    if attached(state) and (pending.structural or pending.fields):
+        off = off_definitions(state, work.touched().tolist())
+        detach(maker, pending, off)
+        if off:
+            work.renew()
+    if pending.structural and state.generated:
+        tidy(maker)
+    pending.notes += detached_note(state, pending.detached)
 
 
 def _run_nudge(work: Work, by: Nudge) -> None:

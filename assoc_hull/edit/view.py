@@ -129,7 +129,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     Returns
     -------
     frozenset of str
-        Keys of curves, and of points with and without the curve they lie on.
+        Keys of curves and definitions, and of points with and without the curve they lie on.
 
     Raises
     ------
@@ -156,6 +156,7 @@ def changed_by(document: Document, number: int) -> frozenset[str]:
     step = document.history[number - 1 if number > 0 else number]
     state = document.state
     curves = {str(state.curves.key.data[curve]) for curve in step.curves.tolist()}
+    curves |= {str(state.formed.definition.data[form].key) for form in step.forms.tolist()}
     return frozenset(curves.union(*(_names(state, row) for row in step.rows.tolist())))
 
 

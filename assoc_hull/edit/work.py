@@ -9,6 +9,7 @@ from assoc_hull.edit.check import Wide
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.trouble import blocked_nodes, note_states
+from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.run import Pass, run
@@ -44,6 +45,8 @@ class Work:
         Gaps over their limit, when they have been measured.
     planned : int
         Curves that could at most be lofted in the main pass.
+    forms : (k,) int
+        Nodes of the definitions that the edit set; the first pass starts from them as well.
     """
 
     document: Document
@@ -61,6 +64,7 @@ class Work:
     failed: dict[int, str] = attrs.field(factory=dict)
     wide: Wide | None = None
     planned: int = 0
+    forms: IntArray = attrs.field(factory=lambda: _NONE)
 
     @property
     def state(self) -> HullState:
@@ -85,17 +89,19 @@ class Work:
 
     def go(self, rows: IntArray, curves: IntArray) -> None:
         """Run one pass from points that were set and curves whose recipe changed."""
+        seeds = row_node(rows)
         if not self.passes:
-            seeds = np.concatenate([row_node(rows), curve_node(curves)])
-            self.planned = self.network.reached(seeds)
+            seeds = np.concatenate([seeds, self.forms])
+            self.planned = self.network.reached(np.concatenate([seeds, curve_node(curves)]))
         held = row_node(np.array(sorted(self.pending.held), np.int64))
         blocked = blocked_nodes(self.network, self.state.failed)
         result = run(
-            self.network, row_node(rows), self.journal, self.settings.policy,
+            self.network, seeds, self.journal, self.settings.policy,
             also=self._also(curves), held=np.concatenate([held, blocked]),
         )  # fmt: skip
         self.passes.append(result)
         self.failed |= result.failed
+        self._refuse_unmade(result)
         note_states(self.network, result, self.journal)
         freed = blocked
         if len(blocked):
@@ -104,6 +110,15 @@ class Work:
             self.passes.append(
                 run(self.network, _NONE, self.journal, self.settings.policy, also=freed, held=held)
             )
+
+    def _refuse_unmade(self, result: Pass) -> None:
+        """Points that no definition can give refuse the edit: they have no last good place.
+
+        What the tables held would be neither what the definitions say nor what was drawn.
+        """
+        for node, why in result.failed.items():
+            if not node & 1:
+                raise RefusedEditError(self.name, (why,))
 
     def _also(self, curves: IntArray) -> IntArray:
         """Give the nodes to evaluate although nothing they read has changed; each only once."""

@@ -28,7 +28,9 @@ FORMATS = ("graphml", "dot", "mermaid", "json")
 _NO_TEXT = re.compile("[\ud800-\udfff]")
 _NO_XML = re.compile("[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NO_MERMAID = re.compile(r"[^\w .,:+/()=@'-]", re.UNICODE)
-_SHAPES = {"group": "folder", "line": "box", "curve": "box", "point": "ellipse"}
+_SHAPES = {
+    "group": "folder", "line": "box", "curve": "box", "point": "ellipse", "definition": "note",
+}  # fmt: skip
 
 
 def export(graph: Any_Graph, form: str) -> str:

@@ -114,10 +114,11 @@ def report_from(text: str) -> EditReport:
     largest = said.pop("largest")
     if largest is not None:
         largest = Movement(largest["point"], largest["distance"], tuple(largest["place"]))
+    changes = tuple(tuple(each) for each in said.pop("definitions", ()))
     plain: dict[str, Any] = {
         name: tuple(x) if isinstance(x, list) else x for name, x in said.items()
     }
-    return EditReport(**plain, largest=largest, counted=counted)
+    return EditReport(**plain, largest=largest, counted=counted, definitions=changes)
 
 
 def steps_of(

@@ -21,9 +21,9 @@ from assoc_hull.model.forms.definition import GeneratedCurve
 from assoc_hull.model.recipe import same_objects
 from assoc_hull.model.state import HullState
 
-__all__ = ["attached", "attached_rows", "generated_on", "unmade_rows"]
+__all__ = ["attached", "attached_rows", "generated_on", "kept_rows", "unmade_rows"]
 
-_Known = tuple[list[object], Mapping[int, GeneratedCurve], IntArray]
+_Known = tuple[list[object], Mapping[int, GeneratedCurve], IntArray, IntArray]
 
 
 def attached(state: HullState) -> Mapping[int, GeneratedCurve]:
@@ -34,6 +34,14 @@ def attached(state: HullState) -> Mapping[int, GeneratedCurve]:
 def attached_rows(state: HullState) -> IntArray:
     """Give the points that are computed from definitions, ascending."""
     return _known(state)[2]
+
+
+def kept_rows(state: HullState) -> IntArray:
+    """Give the points that are computed from definitions, or were until their curve was edited.
+
+    They ride with no other point: what was drawn by hand keeps its shape.
+    """
+    return _known(state)[3]
 
 
 def generated_on(state: HullState, curve: int) -> GeneratedCurve | None:
@@ -62,7 +70,9 @@ def _known(state: HullState) -> _Known:
     if known is None or not same_objects(known[0], objects):
         curves = {each.curve: each for each in objects if each is not None and each.attached}
         rows = np.array(sorted(row for each in curves.values() for row in each.rows), np.int64)
-        freeze(rows)
-        known = objects, MappingProxyType(dict(sorted(curves.items()))), rows
+        every = [row for each in objects if isinstance(each, GeneratedCurve) for row in each.rows]
+        kept = np.array(sorted(every), np.int64)
+        freeze(rows, kept)
+        known = objects, MappingProxyType(dict(sorted(curves.items()))), rows, kept
         state.kept["attached"] = known
     return known

@@ -15,6 +15,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.rank import levels
+from assoc_hull.model.forms.generate import reads
 from assoc_hull.model.generated import attached
 from assoc_hull.model.recipe import same_objects
 from assoc_hull.model.state import HullState
@@ -173,10 +174,6 @@ def _generating(state: HullState) -> tuple[dict[int, IntArray], dict[int, IntArr
     """Give the generated points by the ends, and by the definitions, that they are made of."""
     ends, forms = defaultdict[int, list[int]](list), defaultdict[int, list[int]](list)
     number = {state.formed.definition.data[i].use: i for i in state.live("formed").tolist()}
-    if not attached(state):
-        return {}, {}
-    from assoc_hull.model.forms.generate import reads
-
     for curve, made in attached(state).items():
         for use in reads(made):
             if use in number:

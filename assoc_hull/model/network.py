@@ -5,8 +5,8 @@ value; generated points read them, and those of sections the ends of their curve
 
 Levels: a curve of level L in the graph of driven links is evaluated at 4 L, the points
 computed from it at 4 L + 1, and adopted points that ride with such points, as generated ones,
-one below the level of their own curve. A curve and a waterline that nothing drives are thus lofted in one
-batch.
+one below the level of their own curve. A curve and a waterline that nothing drives are thus
+lofted in one batch.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
+from assoc_hull.model.forms.generate import generated_points
 from assoc_hull.model.state import HullState
 
 __all__ = ["ends_of", "forms_of", "forms_with", "part_of", "place_of", "points_given"]
@@ -80,8 +81,6 @@ def points_given(
     AssocHullError
         A curve that cannot be made; the error names where it stands and what is wrong.
     """
-    from assoc_hull.model.forms.generate import generated_points
-
     chosen = tuple(made)
     numbers = [each.curve for each in chosen]
     if not chosen:

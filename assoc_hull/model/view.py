@@ -15,6 +15,7 @@ from assoc_hull.model.canonical import Places, places
 from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.place import defines, generates_on, latent_curves
 from assoc_hull.model.state import HullState
+from assoc_hull.model.view_forms import add_definitions
 
 if TYPE_CHECKING:
     import networkx
@@ -45,8 +46,8 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
     Returns
     -------
     networkx.MultiDiGraph
-        Nodes are keys, with ``kind`` (group, line, curve, point), ``name``, and for curves
-        and points ``state``, ``revision`` and ``role``. Edges have a ``kind``:
+        Nodes are keys, with ``kind`` (group, line, curve, point, definition), ``name``, and for
+        curves and points ``state``, ``revision`` and ``role``. Edges have a ``kind``:
 
         - ``membership``: from a line to its group, from a curve to its line;
         - ``container``: from a point to the curve it lies on;
@@ -54,7 +55,8 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
         - ``friend``: between the two points of a crossing, both ways;
         - ``touch actual``: from a curve to a point it has generated on another;
         - ``touch latent``: from a curve to one it may come to meet;
-        - ``association``: from a group to one on which it generates.
+        - ``association``: from a group to one on which it generates;
+        - ``generates``: from a definition by form parameters to a curve that is made of it.
 
         Touches and associations have a ``way``: two-way where the other side generates
         back, else one-way. Nodes and edges come in the order of the keys.
@@ -80,6 +82,7 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
     _add_latent(found, state, order)
     _add_points(found, state, order, book)
     _add_links(found, state, order, reach)
+    add_definitions(found, state)
     return found
 
 
@@ -191,7 +194,8 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
         Edges run from what drives to what is made from it, with a ``kind``: ``drives``
         between curves, with the keys of the points through which (``through``); or, with
         points, ``defines`` (a point and a curve made through it), ``gives`` (a curve and a
-        point computed from it), ``carries`` (a point and one that rides with it).
+        point computed from it), ``carries`` (a point and one that rides with it). From
+        definitions run edges ``generates`` to the curves, or to the points, made of them.
 
     Examples
     --------
@@ -211,6 +215,7 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
         _add_rows(found, state, order, book)
     else:
         _add_drives(found, state, order)
+    add_definitions(found, state, points)
     return found
 
 

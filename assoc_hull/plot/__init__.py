@@ -5,6 +5,7 @@ from assoc_hull.plot.combs import curvature_combs
 from assoc_hull.plot.compare import before_after, snapshot
 from assoc_hull.plot.comparison_plan import comparison_plan
 from assoc_hull.plot.comparison_sheet import comparison_pdf
+from assoc_hull.plot.definitions import definition_curves
 from assoc_hull.plot.deviations import adoption_deviations
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.lines_plan import lines_plan
@@ -19,6 +20,7 @@ __all__ = [
     "comparison_pdf",
     "comparison_plan",
     "curvature_combs",
+    "definition_curves",
     "hydrostatic_curves",
     "lines_plan",
     "neighbourhood",

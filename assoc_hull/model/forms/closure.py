@@ -110,6 +110,33 @@ def close_sac(
         No falling curve has this area, or this centroid with it: fullness or centroid lie
         outside of the interval that is told.
     """
+    area = _closing_area(
+        fullness, run_end, entrance_start, entrance_end, top, run_area, end_ordinate, where
+    )
+    length = entrance_end - entrance_start
+    moment = run_area * run_centroid + 0.5 * top * (entrance_start**2 - run_end**2)
+    entrance = 2.0 * fullness * centroid - moment
+    room = _room(area, length, end_ordinate, top)
+    limits = [(moment + area * entrance_start + each) / (2.0 * fullness) for each in room]
+    if not limits[0] <= centroid <= limits[1]:
+        why = "leaves an entrance that falls and rises"
+        raise OutOfRangeError(
+            "centroid", centroid, where, why, limits[0], limits[1], "half lengths"
+        )
+    return area, entrance / area
+
+
+def _closing_area(
+    fullness: float,
+    run_end: float,
+    entrance_start: float,
+    entrance_end: float,
+    top: float,
+    run_area: float,
+    end_ordinate: float,
+    where: str,
+) -> float:
+    """Give the area of the entrance, if it fits between its ends."""
     length = entrance_end - entrance_start
     if length <= 0.0:
         what = f"the entrance begins at {entrance_start:g} and ends at {entrance_end:g}"
@@ -123,16 +150,7 @@ def close_sac(
     if not low < fullness < high:
         why = "leaves an entrance that does not fit between its ends"
         raise OutOfRangeError("fullness", fullness, where, why, low, high, "")
-    moment = run_area * run_centroid + 0.5 * top * (entrance_start**2 - run_end**2)
-    entrance = 2.0 * fullness * centroid - moment
-    room = _room(area, length, end_ordinate, top)
-    limits = [(moment + area * entrance_start + each) / (2.0 * fullness) for each in room]
-    if not limits[0] <= centroid <= limits[1]:
-        why = "leaves an entrance that falls and rises"
-        raise OutOfRangeError(
-            "centroid", centroid, where, why, limits[0], limits[1], "half lengths"
-        )
-    return area, entrance / area
+    return area
 
 
 def _room(area: float, length: float, low: float, high: float) -> tuple[float, float]:
@@ -183,7 +201,8 @@ def close_halves(
 ) -> FormDefinition:
     """Give the same curve with the entrance by which it has a fullness and a centroid.
 
-    What is not given stays as it is.
+    What is not given stays as it is; a centroid of the entrance that is None stays None, as it
+    comes out fairest with the area.
 
     Parameters
     ----------
@@ -237,17 +256,21 @@ def close_halves(
     scale = 1.0
     if names == ["cb"]:
         scale = half_number(definition, "full") / (particulars.breadth * particulars.draught)
-    if not names or not places:
-        now = coefficients(definition, particulars)
-    fullness = given[names[0]] / scale if names else now.fullness
-    centroid = (given[places[0]] if places else now.centroid) / ship
+    now = None if names and places else coefficients(definition, particulars)
+    fullness = given[names[0]] / scale if names else _there(now).fullness
     run = _half_sums(definition, "run")
+    frame = {name: half_number(definition, name) for name in _FRAME}
+    end = half_number(definition, "entrance_end_ordinate")
+    at: float | None = None
     try:
-        area, at = close_sac(
-            fullness, centroid, run_area=run[0], run_centroid=run[1], where=where,
-            **{name: half_number(definition, name) for name in _FRAME},
-            end_ordinate=half_number(definition, "entrance_end_ordinate"),
-        )  # fmt: skip
+        if not places and definition.value("entrance_centroid") is None:
+            area = _closing_area(fullness, **frame, run_area=run[0], end_ordinate=end, where=where)
+        else:
+            centroid = (given[places[0]] if places else _there(now).centroid) / ship
+            area, at = close_sac(
+                fullness, centroid, **frame, run_area=run[0], run_centroid=run[1],
+                end_ordinate=end, where=where,
+            )  # fmt: skip
     except OutOfRangeError as error:
         words = (names or ["fullness"], scale) if error.name == "fullness" else (places, ship)
         raise _told(error, (words[0] or ["centroid"])[0], words[1]) from None
@@ -255,6 +278,11 @@ def close_halves(
 
 
 _FRAME = ("run_end", "entrance_start", "entrance_end", "top")
+
+
+def _there(found: Coefficients | None) -> Coefficients:
+    assert found is not None
+    return found
 
 
 def _given(

@@ -26,6 +26,7 @@ import attrs
 
 from assoc_hull.arguments import choice, number, text
 from assoc_hull.errors import BadInputError, UnknownNameError
+from assoc_hull.model.forms.uses import USES
 
 __all__ = [
     "FORM_KINDS",
@@ -118,8 +119,9 @@ class FormDefinition:
 
     def __attrs_post_init__(self) -> None:
         where = f"in the definition {text(self.name, 'name', 'in a definition')!r}"
-        text(self.use, "use", where)
-        choice(self.kind, "kind", FORM_KINDS, where)
+        wanted = USES[choice(self.use, "use", tuple(USES), where)].kind
+        if choice(self.kind, "kind", FORM_KINDS, where) != wanted:
+            raise BadInputError(f"the kind {self.kind!r}", where, f"{self.use} is of {wanted!r}")
         choice(self.rule, "rule", RULES, where)
         for node in self.nodes:
             if self.nodes.count(text(node, "a node", where)) > 1:

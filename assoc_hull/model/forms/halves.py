@@ -220,6 +220,6 @@ def _check_centroid(
         # The discriminant is linear in the centroid: where it is nil lies the last one.
         step = middle_vertex(ends, area, centroid + 1.0)[1][0] - found
         last = at - float(found / step)
-        least, most = (last, math.inf) if step > 0.0 else (-math.inf, last)
+        least, most = (max(least, last), most) if step > 0.0 else (least, min(most, last))
         why = "cannot be met with this area"
         raise OutOfRangeError(name, at, half.where, why, least, most, "of half the length")

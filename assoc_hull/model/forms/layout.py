@@ -9,6 +9,9 @@ siding      half siding, from the contour outward to a corner
 curve       from there to the flat of side, or to the draught
 arc         the bilge of the parallel middle body
 upright     flat of side up to the draught
+bulb        the bulb up to its neck
+upper       from the neck to the draught
+round       a bulb that closes, ahead of the stem
 topside     to the flat of side, or to the deck edge
 wall        along the flat of side to the deck edge
 ==========  ==========================================================================
@@ -29,6 +32,7 @@ from assoc_hull.geometry.curves import EndKind, PointKind
 from assoc_hull.model.forms.course_layout import course_layout, deck_layout
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.middle_body import in_middle_body
+from assoc_hull.model.forms.section_bulb import bulb_layout
 from assoc_hull.model.forms.water import water_layout
 from assoc_hull.model.state import Ends
 
@@ -49,6 +53,9 @@ _ACROSS, _UP, _AHEAD = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
 _NONE = (0.0, 0.0, 0.0)
 
 Vector = tuple[float, float, float]
+
+_ROUND = {"bulb": (_ACROSS, None), "round": (_ACROSS, (0.0, -1.0, 0.0))}
+"""The directions in which pieces start and end square to the centre plane."""
 
 _STRAIGHT = {"level": _ACROSS, "upright": _UP, "up": _UP, "down": (0.0, 0.0, -1.0), "ahead": _AHEAD}
 """The direction in which pieces that are straight by their nature run."""
@@ -94,20 +101,23 @@ def _section(forms: Forms, x: float, part: int) -> str:
     heights = forms.contour(x)
     if not heights:
         raise BadInputError("the profile does not reach so far", where, "extend it")
-    if part:
-        raise BadInputError(f"there is no curve {part} without a bulb", where, "leave it out")
+    below = bulb_layout(forms, x, part, heights)
+    if below == "round":
+        return below
     deck = float(forms.value("deck_height", x)[0])
     draught = forms.particulars.draught
-    if not deck > max(draught, heights[0]) + _LEAST:
+    if not deck > max(draught, heights[-1]) + _LEAST:
         raise BadInputError(
             f"the deck edge at z = {deck:g} m is not above the draught and the contour", where,
             "raise deck_height, or let it reach so far",
         )  # fmt: skip
-    if heights[0] > draught - _LEAST:
+    if heights[0] > draught - _LEAST or below == "":
         return "topside"
     if forms.has("bilge_radius") and in_middle_body(forms, x):
         return "level+arc+upright+topside"
     side = float(forms.value("flat_of_side", x)[0])
+    if below:
+        return f"{below}+topside" + ("+wall" if draught + _LEAST < side < deck - _LEAST else "")
     first = _first(forms, x)
     if side < draught - _LEAST:
         return f"{first}curve+upright+topside"
@@ -157,5 +167,7 @@ def ends_for(layout: str) -> Ends:
     """Give the end conditions of a line of a layout: tangent where a straight piece ends it."""
     tokens = [each.partition(":")[0].rstrip("^") for each in layout.split("+")]
     given = [_STRAIGHT.get(token) for token in (tokens[0], tokens[-1])]
+    first, last = _ROUND.get(tokens[0], (None, None))
+    given = [first or given[0], last or given[1]]
     kinds = [EndKind.FREE if each is None else EndKind.TANGENT for each in given]
     return Ends((kinds[0], kinds[1]), (given[0] or _NONE, given[1] or _NONE))

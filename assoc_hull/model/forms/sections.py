@@ -13,6 +13,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_curve import FormEnd
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.pieces import Pieces, SectionShape
+from assoc_hull.model.forms.section_bulb import bulb_pieces
 from assoc_hull.model.forms.stand import Stand
 from assoc_hull.model.forms.topside import topside_pieces
 from assoc_hull.model.forms.underwater import underwater_pieces
@@ -57,7 +58,8 @@ def section_shape(forms: Forms, layout: str, x: FloatArray, ends: FloatArray) ->
     pieces: list[Pieces] = []
     below: FormEnd | None = None
     if lower:
-        pieces, below = underwater_pieces(stand, lower)
+        make = bulb_pieces if lower[0] in ("bulb", "round") else underwater_pieces
+        pieces, below = make(stand, lower)
     if upper:
         pieces = pieces + topside_pieces(stand, upper, below)
     return SectionShape(x, tuple(pieces))

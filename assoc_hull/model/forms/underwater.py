@@ -62,10 +62,11 @@ def underwater_pieces(stand: Stand, tokens: tuple[str, ...]) -> tuple[list[Piece
     pieces: list[Pieces] = []
     corner = stand.start
     if tokens[0] in ("level", "siding"):
-        use = "flat_of_bottom" if tokens[0] == "level" else "half_siding"
-        corner = np.stack([stand.start[:, 0], stand.needed(use)], axis=1)
         if tokens[1] == "arc":
             corner = _arc_start(stand)
+        else:
+            use = "flat_of_bottom" if tokens[0] == "level" else "half_siding"
+            corner = np.stack([stand.start[:, 0], stand.needed(use)], axis=1)
         pieces.append(straight_pieces(stand.start, corner))
     if "arc" in tokens:
         radius = stand.needed("bilge_radius")
@@ -144,7 +145,7 @@ def _curve_ends(
     finish = FormEnd.of(
         top[:, 0], top[:, 1],
         np.zeros(count) if upright else stand.radians("waterline_angle", 0.0),
-        np.zeros(count) if upright else stand.value("waterline_curvature", 0.0),
+        stand.value("waterline_curvature", 0.0),
         0.25 * chord * stand.value("waterline_tangent", _TANGENT),
     )  # fmt: skip
     return start, finish

@@ -68,13 +68,17 @@ USES: Mapping[str, Use] = MappingProxyType(
         "waterline_angle": Use(
             "course", "deg", "angle (flare) at the draught, 0 upright", held=True
         ),
-        "waterline_curvature": Use("course", "1/m", "curvature at the draught", held=True),
+        "waterline_curvature": Use(
+            "course", "1/m", "curvature at the draught, or where the flat of side begins", held=True
+        ),
         "waterline_tangent": Use(
             "course", "", "tangent at the draught, in quarters of the chord", held=True
         ),
         "deck_angle": Use("course", "deg", "angle (flare) at the deck edge, 0 upright", held=True),
         "deck_curvature": Use("course", "1/m", "curvature at the deck edge", held=True),
-        "bulb_area": Use("course", "m2", "area of the whole section of the bulb"),
+        "bulb_area": Use(
+            "course", "m2", "area of the whole section up to the neck, or of the bulb"
+        ),
         "bulb_height": Use("course", "m", "z of the neck, or of the bulb's top ahead of the stem"),
         "bulb_neck": Use("course", "m", "half-breadth of the neck"),
         "bulb_neck_angle": Use("course", "deg", "angle of the section at the neck", held=True),

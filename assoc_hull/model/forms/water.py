@@ -43,7 +43,7 @@ def water_layout(forms: Forms, z: float) -> str:
     """
     if _side(forms, z) is not None:
         return "side"
-    if forms.has("bilge_radius"):
+    if forms.has("bilge_radius") and z <= forms.particulars.draught:
         low, high = span_of(forms)
         if high - low > _LEAST and math.isfinite(breadth_at(forms, z)):
             return "parallel"

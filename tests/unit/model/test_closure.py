@@ -169,3 +169,10 @@ def test_ends_in_the_wrong_order() -> None:
     """The run must end before the entrance begins."""
     with pytest.raises(BadInputError, match=r"run ends at 0.5"):
         close_halves(bulk(run_end=0.5), SHIP, cb=0.75, lcb=2.9)
+
+
+def test_a_centroid_by_fairness_stays_one() -> None:
+    """Where only the fullness is asked for, an entrance without a centroid keeps it free."""
+    closed = close_halves(bulk(), SHIP, cb=0.75)
+    assert closed.value("entrance_centroid") is None
+    assert coefficients(closed, SHIP).block == pytest.approx(0.75, abs=1e-12)
