@@ -53,10 +53,7 @@ __all__ = ["Hull", "to_change"]
 
 
 class Hull:
-    """A ship hull form: lines that follow one another, with its history.
-
-    `adoption` tells how the net was made, if it was made of lines here.
-    """
+    """A ship hull form, with its history; `adoption` tells how it was made of lines, if here."""
 
     def __init__(self, state: HullState | Document) -> None:
         if not isinstance(state, Document):

@@ -7,7 +7,7 @@ and after it, where the update itself has changed the curve.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -33,6 +33,8 @@ _TOLD = 3
 def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
     """Give the attached curves that the modifications of a transaction have edited by hand.
 
+    Those that it has made, or made anew, of definitions are not among them.
+
     Parameters
     ----------
     state : HullState
@@ -42,7 +44,9 @@ def edited(state: HullState, journal: Journal, pending: Pending) -> set[int]:
     pending : Pending
         What is asked for.
     """
-    known = attached(state)
+    fresh = _changed(journal, state.produced.curve)
+    made_so = {state.produced.curve.data[number].curve for number in fresh}
+    known = {c: made for c, made in attached(state).items() if c not in made_so}
     if not known:
         return set()
     moved = _moved(state, journal, pending)
@@ -104,15 +108,19 @@ def off_definitions(state: HullState, curves: Iterable[int]) -> set[int]:
     known = attached(state)
     chosen = [known[curve] for curve in curves if curve in known]
     broken = {made.curve for made in chosen if not whole(state, made)}
-    return broken.union(*(_off(state, made) for made in chosen if made.curve not in broken))
+    return broken | _off(state, [made for made in chosen if made.curve not in broken])
 
 
-def _off(state: HullState, made: GeneratedCurve) -> set[int]:
+def _off(state: HullState, chosen: Sequence[GeneratedCurve]) -> set[int]:
+    """Compare all at once; one by one where some cannot be made at all."""
     try:
-        rows, places = points_given(state, [made])
+        rows, places = points_given(state, chosen)
     except AssocHullError:
-        return {made.curve}
-    return {made.curve} if bits_differ(state.rows.xyz.data[rows], places).any() else set()
+        if len(chosen) == 1:
+            return {chosen[0].curve}
+        return set[int]().union(*(_off(state, [made]) for made in chosen))
+    odd = rows[bits_differ(state.rows.xyz.data[rows], places)]
+    return set(state.rows.curve.data[odd, 0].tolist())
 
 
 def detach(maker: Maker, pending: Pending, curves: Iterable[int]) -> None:
