@@ -52,9 +52,8 @@ def test_points_or_an_error_of_the_family(seed: int) -> None:
             place = float(rng.uniform(-5.0, 182.0 if what != "waterline" else 17.0))
             try:
                 found = points_of(forms, what, place)
-            except AssocHullError as error:
-                assert str(error)
-            else:
-                assert np.isfinite(found).all()
-                made += 1
+            except AssocHullError:
+                continue
+            assert np.isfinite(found).all()
+            made += 1
     assert made > 40
