@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.stability.stability import stability
     from assoc_hull.creation.courses import course, design_waterline, sectional_area
     from assoc_hull.creation.design import Design
+    from assoc_hull.creation.form_curve import FormCurve
     from assoc_hull.errors import (
         AssocHullError,
         BadInputError,
@@ -75,6 +76,7 @@ __all__ = [
     "FileBusyError",
     "FloodingPoint",
     "ForeignPointError",
+    "FormCurve",
     "FormDefinition",
     "FreedomError",
     "Group",
@@ -142,6 +144,7 @@ _HOMES = {
     "analysis.stability.stability": ("stability",),
     "creation.courses": ("course", "design_waterline", "sectional_area"),
     "creation.design": ("Design",),
+    "creation.form_curve": ("FormCurve",),
     "errors": (
         "AssocHullError",
         "BadInputError",

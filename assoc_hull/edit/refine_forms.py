@@ -6,11 +6,16 @@ off, or its area. Marks are only added: what reads a point never loses it so.
 
 from __future__ import annotations
 
+import numpy as np
+
 from assoc_hull.edit.remake import recipe_for, remake
 from assoc_hull.edit.work import Work
 from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.forms.definition import GeneratedCurve
+from assoc_hull.model.forms.generate import marks_suffice
 from assoc_hull.model.generated import attached
 from assoc_hull.model.make import Maker
+from assoc_hull.model.regenerate import ends_of, forms_of, place_of
 
 __all__ = ["refine_forms"]
 
@@ -38,10 +43,8 @@ def refine_forms(work: Work, curves: IntArray) -> list[int]:
     state, maker = work.state, Maker(work.state, work.journal)
     known = attached(state)
     done = {}
-    for curve in curves.tolist():
-        made = known.get(curve)
-        if made is None:
-            continue
+    chosen = [known[curve] for curve in curves.tolist() if curve in known]
+    for made in _not_held(work, chosen):
         recipe = recipe_for(state, made, made.layout)
         if recipe.marks != made.marks:
             done[made.key] = remake(maker, made, recipe)
@@ -49,3 +52,13 @@ def refine_forms(work: Work, curves: IntArray) -> list[int]:
         maker.generated(({each.key: each for each in state.generated} | done).values())
         work.renew()
     return sorted(made.curve for made in done.values())
+
+
+def _not_held(work: Work, made: list[GeneratedCurve]) -> list[GeneratedCurve]:
+    """Give those that their marks do not hold."""
+    state, numbers = work.state, [each.curve for each in made]
+    if not made:
+        return []
+    places = np.array([place_of(state, curve) for curve in numbers])
+    held = marks_suffice(forms_of(state), made, places, ends_of(state, numbers))
+    return [each for each, enough in zip(made, held.tolist(), strict=True) if not enough]

@@ -37,6 +37,7 @@ from assoc_hull.errors.family import (
     UnknownNameError,
     WrongTypeError,
 )
+from assoc_hull.errors.forms import DegenerateEndsError, NoMiddleVertexError
 
 __all__ = [
     "AbsentParameterError",
@@ -44,6 +45,7 @@ __all__ = [
     "BadInputError",
     "CoincidentPointsError",
     "DamagedFileError",
+    "DegenerateEndsError",
     "DependentTargetsError",
     "FileBusyError",
     "FoldError",
@@ -53,6 +55,7 @@ __all__ = [
     "MissingExtraError",
     "NameTakenError",
     "NoMeetingError",
+    "NoMiddleVertexError",
     "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",

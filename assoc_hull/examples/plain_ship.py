@@ -46,11 +46,11 @@ def plain_ship_design() -> Design:
 
 
 def _areas() -> FormDefinition:
-    """The parallel middle body has flats and a bilge of a radius: its area follows."""
+    # The parallel middle body has flats and a bilge of a radius: its area follows.
     midship = 1.0 - (2.0 - 0.5 * math.pi) * BILGE**2 / (SHIP.breadth * SHIP.draught)
     return sectional_area(
         SHIP, cm=midship, cb=0.68, lcb=-0.6,
-        run_start_ordinate=0.02, run_start_angle_deg=25.0, run_area=0.598, run_centroid=-0.424,
+        run_start_ordinate=0.045, run_start_angle_deg=22.0, run_area=0.598, run_centroid=-0.424,
         run_start_tangent=0.1, run_end_tangent=0.25,
         run_end=-0.1, entrance_start=0.15, entrance_end_angle_deg=-40.0,
         entrance_start_tangent=0.25, entrance_end_tangent=0.1,
@@ -66,15 +66,15 @@ def _waterline() -> FormDefinition:
 
 def _boundary() -> list[FormDefinition]:
     contour = {
-        "transom": (-4.0, 7.7, -15.0),
-        "counter": (2.0, 5.6, -25.0),
+        "transom": (-4.0, 6.8, -12.0),
+        "counter": (2.0, 5.2, -25.0),
         "heel": (7.0, 0.0, 0.0),
         "forefoot": (113.0, 0.0, 0.0),
         "stem": (120.0, 7.2, 75.0),
         "top": (121.8, 12.0, 68.0),
     }
     side = {
-        "transom": (-4.0, 7.0, 12.0),
+        "transom": (-4.0, 7.0, 6.0),
         "quarter": (30.0, 9.0, 0.0),
         "shoulder": (95.0, 9.0, 0.0),
         "stem": (121.8, 0.0, -75.0),
@@ -100,8 +100,19 @@ def _angles() -> list[FormDefinition]:
         "transom": (-4.0, 40.0), "run": (15.0, 25.0), "aft": (45.0, 0.0, 0.0),
         "fore": (80.0, 0.0, 0.0), "stem": (121.8, 22.0),
     }  # fmt: skip
+    flat = 0.5 * SHIP.breadth - BILGE
+    bottom = {
+        "run": (20.0, 0.0, 14.0), "aft": (54.0, flat, 0.0), "fore": (69.0, flat, 0.0),
+        "entrance": (100.0, 0.0),
+    }  # fmt: skip
+    side = {
+        "run": (36.0, 9.0), "aft": (54.0, BILGE, 0.0), "fore": (69.0, BILGE, 0.0),
+        "entrance": (87.0, 9.0),
+    }  # fmt: skip
     return [
         course("keel_angle", keel, rule="monotone"),
         course("waterline_angle", flare, rule="monotone"),
+        course("flat_of_bottom", bottom, rule="monotone"),
+        course("flat_of_side", side, rule="monotone"),
         course("bilge_radius", {"body": (60.0, BILGE)}),
     ]

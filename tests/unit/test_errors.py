@@ -60,6 +60,16 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ValueError,
         ["plane x = 400 m", "12.5 m", "choose x below 355 m"],
     ),
+    (
+        errors.DegenerateEndsError("a form-parameter curve", 0.5, 0.25),
+        ValueError,
+        ["a form-parameter curve", "0.5", "0.25", "tangent length"],
+    ),
+    (
+        errors.NoMiddleVertexError("a form-parameter curve", 0.55, -0.3, -0.45, -1e-4),
+        ValueError,
+        ["a form-parameter curve", "area 0.55", "centroid -0.3", "-0.45 down"],
+    ),
     (errors.RingError(("A", "B", "A")), ValueError, ["A -> B -> A", "two-way"]),
     (
         errors.RefusedEditError("fair WL 1", ("gap of 3 mm at ST 7", "gap of 2 mm at ST 8")),

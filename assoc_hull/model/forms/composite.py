@@ -1,4 +1,4 @@
-"""How well the spline through marked points of a shape keeps to the shape.
+"""How well splines through marked points of shapes keep to the shapes.
 
 Examples
 --------
@@ -7,7 +7,7 @@ Examples
 >>> from assoc_hull.model.forms.pieces import ArcPieces, SectionShape
 >>> bilge = ArcPieces(np.array([[0.0, 12.0]]), np.array([2.0]))
 >>> shape = SectionShape(np.array([90.0]), (bilge,))
->>> whole = Composite.of(shape, "arc", [(0, 0.0), (0, 2.0), (0, 4.0)], None)
+>>> whole = Composite.of(shape, "arc", [[(0, 0.0), (0, 2.0), (0, 4.0)]], None)
 >>> whole.deviations().round(3).tolist()
 [0.059, 0.059]
 """
@@ -63,57 +63,79 @@ def given_at(layout: str, marks: Sequence[Mark]) -> tuple[list[int], FloatArray]
 
 @attrs.frozen(eq=False)
 class Composite:
-    """A shape and the spline through its points at marks.
+    """Shapes of one layout, and the splines through their points at marks.
 
     Attributes
     ----------
     shape : Shape
-        Of one curve.
+        Of n curves.
     spline : SplineBatch
-        One.
-    piece : (k,) int
-        Of each interval of the spline.
+        One of each.
+    row, piece : (k,) int
+        Of each interval of the splines.
     low, high : (k,)
         Between which t of the piece.
     """
 
     shape: Shape
     spline: SplineBatch
+    row: IntArray
     piece: IntArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
-    def of(cls, shape: Shape, layout: str, marks: Sequence[Mark], ends: FloatArray | None) -> Self:
-        """Loft through all marks, the first and the last among them; these lie where ends say."""
-        piece = np.array([mark[0] for mark in marks], np.int64)
-        t = np.array([mark[1] for mark in marks])
-        xyz = shape.at(np.zeros(len(t), np.int64), piece, t)
+    def of(
+        cls, shape: Shape, layout: str, marks: Sequence[Sequence[Mark]], ends: FloatArray | None
+    ) -> Self:
+        """Loft curves through all marks, the first and the last among them.
+
+        Parameters
+        ----------
+        shape : Shape
+            Of n curves.
+        layout : str
+            Of all of them.
+        marks : sequence of n sequences of Mark
+            Of each.
+        ends : (n, 2, 3), m, or None
+            Where the ends lie; on the shape if None.
+        """
+        start = np.concatenate([[0], np.cumsum([len(each) for each in marks])]).astype(np.int64)
+        row = np.repeat(np.arange(len(marks)), np.diff(start))
+        flat = [mark for each in marks for mark in each]
+        piece, t = np.array([mark[0] for mark in flat]), np.array([mark[1] for mark in flat])
+        xyz = shape.at(row, piece, t)
         if ends is not None:
-            xyz[[0, -1]] = ends
-        kinds, directions = given_at(layout, marks)
+            xyz[start[:-1]], xyz[start[1:] - 1] = ends[:, 0], ends[:, 1]
+        kinds, directions = given_at(layout, flat)
         finish = ends_for(layout)
-        data = CurveData.single(
-            xyz, kinds, directions, (finish.kind[0], finish.kind[1]), np.array(finish.vector)
-        )
+        data = CurveData(
+            start, xyz, np.array(kinds, np.int8), directions,
+            np.tile(np.array(finish.kind, np.int8), (len(marks), 1)),
+            np.tile(np.array(finish.vector), (len(marks), 1, 1)),
+        )  # fmt: skip
+        inner = row[1:] == row[:-1]
         high = np.where(piece[1:] == piece[:-1], t[1:], 4.0)
-        return cls(shape, loft(data), piece[:-1], t[:-1], high)
+        return cls(
+            shape, loft(data), row[:-1][inner], piece[:-1][inner], t[:-1][inner], high[inner]
+        )
 
     def deviations(self) -> FloatArray:
         """Give the largest distance of each interval from its piece, (k,) m."""
         count = len(self.piece)
         points = self._spline_at(_FRACTIONS)[0].reshape(-1, 3)
-        piece = np.repeat(self.piece, len(_FRACTIONS))
-        low, high = (np.repeat(each, len(_FRACTIONS)) for each in (self.low, self.high))
+        size = len(_FRACTIONS)
+        row, piece = np.repeat(self.row, size), np.repeat(self.piece, size)
+        low, high = np.repeat(self.low, size), np.repeat(self.high, size)
         t = low + (high - low) * np.tile(_FRACTIONS, count)
-        rows = np.zeros(len(t), np.int64)
         for _ in range(_STEPS):
-            along = self.shape.tangent(rows, piece, t)
-            off = points - self.shape.at(rows, piece, t)
+            along = self.shape.tangent(row, piece, t)
+            off = points - self.shape.at(row, piece, t)
             with np.errstate(divide="ignore", invalid="ignore"):
                 step = (off * along).sum(axis=1) / (along * along).sum(axis=1)
             t = np.clip(t + np.nan_to_num(step), low, high)
-        off = points - self.shape.at(rows, piece, t)
+        off = points - self.shape.at(row, piece, t)
         found = np.sqrt((off * off).sum(axis=1)).reshape(count, -1)
         return np.asarray(found.max(axis=1))
 
@@ -132,18 +154,19 @@ class Composite:
         spline = (points[..., 1] * rates[..., 2] * weights).sum(axis=1)
         width = self.high - self.low
         t = (self.low[:, None] + width[:, None] * share).ravel()
-        rows, piece = np.zeros(len(t), np.int64), np.repeat(self.piece, len(share))
-        y = self.shape.at(rows, piece, t)[:, 1].reshape(-1, len(share))
-        dz = self.shape.tangent(rows, piece, t)[:, 2].reshape(-1, len(share))
+        row, piece = np.repeat(self.row, len(share)), np.repeat(self.piece, len(share))
+        y = self.shape.at(row, piece, t)[:, 1].reshape(-1, len(share))
+        dz = self.shape.tangent(row, piece, t)[:, 2].reshape(-1, len(share))
         exact = (y * dz * weights).sum(axis=1) * width
         return np.where(counts, exact, 0.0), np.where(counts, spline, 0.0)
 
     def _spline_at(self, share: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give points and derivatives by the share of each interval, (k, len(share), 3)."""
         one = self.spline
-        width = np.diff(one.knot)[:, None]
-        start, finish = one.xyz[:-1], one.xyz[1:]
-        leave, arrive = width * one.leave[:-1], width * one.arrive[1:]
+        begin = np.delete(np.arange(len(one.knot)), one.start[1:] - 1)
+        width = (one.knot[begin + 1] - one.knot[begin])[:, None]
+        start, finish = one.xyz[begin], one.xyz[begin + 1]
+        leave, arrive = width * one.leave[begin], width * one.arrive[begin + 1]
         c2 = 3.0 * (finish - start) - 2.0 * leave - arrive
         c3 = 2.0 * (start - finish) + leave + arrive
         a, b, c, d = (each[:, None] for each in (start, leave, c2, c3))

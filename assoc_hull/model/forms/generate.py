@@ -14,24 +14,25 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.model.forms.composite import given_at
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.model.forms.composite import Composite, given_at
 from assoc_hull.model.forms.course_layout import course_shape, deck_shape
 from assoc_hull.model.forms.definition import GeneratedCurve, Mark
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.layout import COURSES, ends_for, layout_at
-from assoc_hull.model.forms.marks import finer, first_marks
+from assoc_hull.model.forms.marks import finer, first_marks, near_enough
 from assoc_hull.model.forms.pieces import Shape
 from assoc_hull.model.forms.sections import parted, section_shape
 from assoc_hull.model.forms.water import water_points
 from assoc_hull.model.state import Ends
 
-__all__ = ["generated_points", "layout_at", "marks_for", "reads"]
+__all__ = ["generated_points", "layout_at", "marks_for", "marks_suffice", "reads"]
 
 _BY_PIECE = {
     "level": ("flat_of_bottom",),
@@ -133,11 +134,11 @@ def marks_for(
         return marks, tangent, np.tile((1.0, 0.0, 0.0), (len(marks), 1)), Ends()
     held = None if ends is None or what != "section" else np.asarray(ends, np.float64)[None]
     shape = _shape(forms, what, layout, np.array([place]), held)
-    under = len(parted(layout)[0]) if what in ("section", "transom") else 0
+    under = _under(what, layout)
     begin = first_marks(layout)
     start = sorted({begin[0], begin[-1], *known}) if known else begin
     where = f"on the {what}" + (f" x = {place:g} m" if under else "")
-    found = finer(shape, layout, start, None if held is None else held[0], under, where)
+    found = finer(shape, layout, start, held, under, where)
     chosen = tuple(found[1:-1] if what == "section" else found)
     kinds, directions = given_at(layout, chosen)
     return chosen, tuple(kinds), directions, ends_for(layout)
@@ -170,24 +171,72 @@ def generated_points(
         A curve that cannot be made, with its place and what would do.
     """
     found: list[FloatArray] = [np.zeros((0, 3))] * len(curves)
-    groups: dict[tuple[str, str], list[int]] = {}
-    for number, curve in enumerate(curves):
-        groups.setdefault((curve.what, curve.layout), []).append(number)
-    for (what, layout), numbers in groups.items():
-        chosen = np.array(numbers, np.int64)
+    for (what, layout), numbers in _groups(curves):
         if what == "waterline":
-            for number in numbers:
+            for number in numbers.tolist():
                 found[number] = _on_water(forms, curves[number], float(places[number]))
             continue
-        shape = _shape(forms, what, layout, places[chosen], ends[chosen])
-        marks = [curves[number].marks for number in numbers]
+        shape = _shape(forms, what, layout, places[numbers], ends[numbers])
+        marks = [curves[number].marks for number in numbers.tolist()]
         row = np.repeat(np.arange(len(numbers)), [len(each) for each in marks])
         flat = [mark for each in marks for mark in each]
         piece = np.array([mark[0] for mark in flat], np.int64)
         points = shape.at(row, piece, np.array([mark[1] for mark in flat], np.float64))
-        for place, number in enumerate(numbers):
+        for place, number in enumerate(numbers.tolist()):
             found[number] = points[row == place]
     return found
+
+
+def marks_suffice(
+    forms: Forms, curves: Sequence[GeneratedCurve], places: FloatArray, ends: FloatArray
+) -> NDArray[np.bool_]:
+    """Tell which generated curves their marks hold: `marks_for` would give no others.
+
+    Parameters
+    ----------
+    forms : Forms
+        The definitions.
+    curves : sequence of GeneratedCurve
+        m curves.
+    places, ends : (m,), (m, 2, 3)
+        As of `generated_points`.
+
+    Returns
+    -------
+    (m,) bool
+
+    Raises
+    ------
+    OutOfRangeError, BadInputError
+        A curve that cannot be made.
+    """
+    found = np.ones(len(curves), np.bool_)
+    for (what, layout), numbers in _groups(curves):
+        if what == "waterline":
+            continue
+        shape = _shape(forms, what, layout, places[numbers], ends[numbers])
+        own = ends[numbers] if what == "section" else None
+        first, *_, last = first_marks(layout)
+        marks = [sorted({first, last, *curves[number].marks}) for number in numbers.tolist()]
+        whole = Composite.of(shape, layout, marks, own)
+        found[numbers] = near_enough(whole, _under(what, layout), len(numbers))
+    return found
+
+
+def _groups(
+    curves: Sequence[GeneratedCurve],
+) -> Iterator[tuple[tuple[str, str], IntArray]]:
+    """Give the numbers of the curves that are made alike."""
+    found: dict[tuple[str, str], list[int]] = {}
+    for number, curve in enumerate(curves):
+        found.setdefault((curve.what, curve.layout), []).append(number)
+    for kind, numbers in found.items():
+        yield kind, np.array(numbers, np.int64)
+
+
+def _under(what: str, layout: str) -> int:
+    """Give the number of pieces below the draught, whose area counts."""
+    return len(parted(layout)[0]) if what in ("section", "transom") else 0
 
 
 def _shape(

@@ -24,7 +24,7 @@ from assoc_hull.model.forms.composite import Composite
 from assoc_hull.model.forms.definition import Mark
 from assoc_hull.model.forms.pieces import Shape
 
-__all__ = ["AREA_WITHIN", "WITHIN", "finer", "first_marks"]
+__all__ = ["AREA_WITHIN", "WITHIN", "finer", "first_marks", "near_enough"]
 
 WITHIN = 9e-4
 """So far (m) the spline may pass the pieces where it is measured: between, it stays within 1 mm."""
@@ -83,7 +83,7 @@ def finer(
         Its layout.
     marks : sequence of Mark
         Those to begin with, both ends among them.
-    ends : (2, 3), m, or None
+    ends : (1, 2, 3), m, or None
         Where the ends lie; on the shape if None.
     under : int
         The number of pieces below the draught, whose area counts.
@@ -101,7 +101,7 @@ def finer(
     """
     found = list(marks)
     for _ in range(_ROUNDS):
-        whole = Composite.of(shape, layout, found, ends)
+        whole = Composite.of(shape, layout, [found], ends)
         halved = _to_halve(whole, under)
         if halved is None:
             return found
@@ -117,16 +117,40 @@ def finer(
     )  # fmt: skip
 
 
+def near_enough(whole: Composite, under: int, count: int) -> NDArray[np.bool_]:
+    """Tell which curves keep to their shapes.
+
+    Parameters
+    ----------
+    whole : Composite
+        The curves.
+    under : int
+        The number of pieces below the draught, whose area counts.
+    count : int
+        The number of curves.
+
+    Returns
+    -------
+    (count,) bool
+    """
+    found = np.ones(count, np.bool_)
+    found[whole.row[whole.deviations() > WITHIN]] = False
+    if under:
+        exact, spline = whole.areas(under)
+        off, area = (
+            np.bincount(whole.row, each, minlength=count) for each in (spline - exact, exact)
+        )
+        found &= np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA)
+    return found
+
+
 def _to_halve(whole: Composite, under: int) -> NDArray[np.bool_] | None:
-    """Tell which intervals to halve; None where all is near enough."""
+    """Tell which intervals of one curve to halve; None where all is near enough."""
+    if near_enough(whole, under, 1)[0]:
+        return None
     far = whole.deviations() > WITHIN
     if far.any():
         return far
-    if not under:
-        return None
     exact, spline = whole.areas(under)
-    off = spline - exact
-    if abs(off.sum()) <= AREA_WITHIN * max(float(exact.sum()), _LEAST_AREA):
-        return None
-    off = np.where(whole.high - whole.low > _SHORTEST, np.abs(off), 0.0)
+    off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
     return np.asarray(off > 0.5 * off.max())

@@ -15,7 +15,13 @@ from assoc_hull.geometry.form_curve import form_integrals
 from assoc_hull.geometry.spline import evaluate, loft
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, layout_at, marks_for, reads
+from assoc_hull.model.forms.generate import (
+    generated_points,
+    layout_at,
+    marks_for,
+    marks_suffice,
+    reads,
+)
 from assoc_hull.model.forms.pieces import CurvePieces, SectionShape
 from assoc_hull.model.forms.sections import parted, section_shape
 from tests.form_ship import AREAS, PARTICULARS, WATERLINE, course, plain_ship
@@ -274,6 +280,9 @@ def test_known_marks_stay(ship: Forms) -> None:
     assert again == curve.marks
     more = marks_for(ship, "section", curve.layout, 36.0, ends, curve.marks[::3])[0]
     assert set(curve.marks[::3]) < set(more)
+    both = [curve, curve.evolve(marks=curve.marks[::3])]
+    suffice = marks_suffice(ship, both, np.full(2, 36.0), np.stack([ends, ends]))
+    assert suffice.tolist() == [True, False]
 
 
 def test_layouts(ship: Forms) -> None:
