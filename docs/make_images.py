@@ -17,6 +17,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
+from drawings.sections import generated_sections
 from drawings.shifts import section_shifts
 from drawings.stern import bulk_carrier, carrier_combs, counter
 from drawings.story import bossing_lines, bossing_profile
@@ -112,6 +113,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "variation_fields": variation_fields,
     "rounded_hat": rounded_hat,
     "section_shifts": section_shifts,
+    "generated_sections": generated_sections,
     "comparison": comparison,
     "variant_areas": variant_areas,
     "variant_plan": variant_plan,

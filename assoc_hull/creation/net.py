@@ -95,6 +95,15 @@ def _hand_over(state: HullState, design: Design, drawn: Sequence[Drawn]) -> None
                 state.curves.key.data[curve], curve, state.curves.rows.data[curve].tolist()
             )
         )
+    parts: dict[int, list[Drawn]] = {}
+    for each in drawn:
+        line = lines[names[each.source.group], each.source.name]
+        parts.setdefault(line, []).append(each)
+    made = []
+    for line, several in parts.items():
+        for each, curve in zip(several, _from_below(maker, line), strict=True):
+            rows_of = state.curves.rows.data[curve].tolist()
+            made.append(each.generated(state.curves.key.data[curve], curve, rows_of))
     rows = np.array(sorted(row for each in made for row in each.rows), np.int64)
     maker.journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
     maker.generated(made)
@@ -108,3 +117,14 @@ def _drawn_as(state: HullState, curves: Sequence[int], drawn: Drawn) -> int:
         for curve in curves
     ]
     return curves[int(np.argmin(off))]
+def _from_below(maker: Maker, line: int) -> list[int]:
+    """Give the curves of a line from below, and let their order and their keys be this one."""
+    state = maker.state
+    curves: tuple[int, ...] = state.lines.curves.data[line]
+    foot = [float(state.rows.xyz.data[state.curves.rows.data[curve][0], 2]) for curve in curves]
+    ordered = [curve for _, curve in sorted(zip(foot, curves, strict=True))]
+    if tuple(ordered) != curves:
+        keys = sorted(state.curves.key.data[curve] for curve in curves)
+        maker.journal.set(state.curves.key, ordered, keys)
+        maker.journal.set(state.lines.curves, [line], [tuple(ordered)])
+    return ordered

@@ -55,38 +55,38 @@ AREAS = {
 """The curve of areas, in the frame of the ship: -1 at AP, 1 at FP, 1 the midship section."""
 
 WATERLINE = {
-    "run_start": -1.049,
-    "run_start_angle_deg": 83.5,
-    "run_start_tangent": 0.187,
-    "run_end": -0.441,
-    "run_end_tangent": 0.151,
-    "run_area": 0.3868,
-    "run_centroid": -0.6651,
+    "run_start": -1.05,
+    "run_start_angle_deg": 83.0,
+    "run_start_tangent": 0.17,
+    "run_end": -0.44,
+    "run_end_tangent": 0.156,
+    "run_area": 0.3863,
+    "run_centroid": -0.664,
     "entrance_start": 0.52,
-    "entrance_start_tangent": 0.081,
+    "entrance_start_tangent": 0.076,
     "entrance_end_angle_deg": -80.0,
-    "entrance_end_tangent": 0.0815,
-    "entrance_area": 0.3062,
-    "entrance_centroid": 0.6957,
+    "entrance_end_tangent": 0.064,
+    "entrance_area": 0.3065,
+    "entrance_centroid": 0.6946,
 }
 """The waterline at the design draught, 1 half the breadth. It begins abaft AP."""
 
 _RUN, _ENTRANCE = 71.28, 120.6
 """The parallel middle body lies between these x: where the curve of areas is full."""
 
-_SIDE_AFT, _SIDE_FORE = 50.31, 136.8
+_SIDE_AFT, _SIDE_FORE = 50.4, 136.8
 """Between these x the waterline at the design draught is full."""
 
 _DECK_AFT, _DECK_FORE = 42.0, 142.0
 """Between these x the deck edge is."""
 
-_POST = -77.29
+_POST = -77.26
 """Angle of the stern post, from the arch of the aperture down to the heel."""
 
 PROFILE = {
     "transom": {"x": -5.0, "y": 11.1, "angle_deg": -50.0},
-    "overhang": {"x": -4.41, "y": 10.5, "angle_deg": -32.0},
-    "arch": {"x": 5.22, "y": 5.67, "angle_deg": -30.0, "leave_angle_deg": _POST},
+    "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -30.0},
+    "arch": {"x": 5.2, "y": 5.75, "angle_deg": -30.0, "leave_angle_deg": _POST},
     "heel": {"x": 6.5, "y": 0.0, "angle_deg": _POST, "leave_angle_deg": 0.0},
     "forefoot": {"x": 175.5, "y": 0.0, "angle_deg": 0.0, "tangent": 0.9},
     "FP": {"x": 180.0, "y": 10.5, "angle_deg": 82.0, "tangent": 0.6},
@@ -95,10 +95,10 @@ PROFILE = {
 
 FLAT_OF_SIDE = {
     "deck aft": {"x": _DECK_AFT, "y": 15.8, "angle_deg": -40.0},
-    "draught aft": {"x": _SIDE_AFT, "y": 10.5, "angle_deg": -20.9, "tangent": 0.68},
-    "bilge aft": {"x": _RUN, "y": BILGE, "angle_deg": 0.0, "tangent": 0.92},
-    "bilge fore": {"x": _ENTRANCE, "y": BILGE, "angle_deg": 0.0, "tangent": 1.22},
-    "draught fore": {"x": _SIDE_FORE, "y": 10.5, "angle_deg": 21.6, "tangent": 0.54},
+    "draught aft": {"x": _SIDE_AFT, "y": 10.5, "angle_deg": -20.6, "tangent": 0.675},
+    "bilge aft": {"x": _RUN, "y": BILGE, "angle_deg": 0.0, "tangent": 0.93},
+    "bilge fore": {"x": _ENTRANCE, "y": BILGE, "angle_deg": 0.0, "tangent": 1.23},
+    "draught fore": {"x": _SIDE_FORE, "y": 10.5, "angle_deg": 21.2, "tangent": 0.51},
     "deck fore": {"x": _DECK_FORE, "y": 15.85, "angle_deg": 50.0},
 }
 """z of its lower border."""
@@ -106,53 +106,55 @@ FLAT_OF_SIDE = {
 _FLAT = 0.5 * 28.0 - BILGE
 
 FLAT_OF_BOTTOM = {
-    "aft": {"x": 26.0, "y": 0.0, "angle_deg": 5.0, "tangent": 0.61},
-    "bilge aft": {"x": _RUN, "y": _FLAT, "angle_deg": 0.0, "tangent": 1.01},
-    "bilge fore": {"x": _ENTRANCE, "y": _FLAT, "angle_deg": 0.0, "tangent": 0.92},
-    "fore": {"x": 167.5, "y": 0.0, "angle_deg": -6.4, "tangent": 0.6},
+    "aft": {"x": 26.0, "y": 0.0, "angle_deg": 5.6, "tangent": 0.605},
+    "bilge aft": {"x": _RUN, "y": _FLAT, "angle_deg": 0.0, "tangent": 1.0},
+    "bilge fore": {"x": _ENTRANCE, "y": _FLAT, "angle_deg": 0.0, "tangent": 0.91},
+    "fore": {"x": 167.5, "y": 0.0, "angle_deg": -6.2, "tangent": 0.58},
 }
 """Its half-breadth."""
 
 KEEL_ANGLE = {
-    "transom": (-5.0, 42.0), "AP": (0.0, 23.5), "ST 0.5": (5.0, 48.0), "post": (7.0, 16.0),
-    "ST 1": (9.0, 25.0), "ST 1.5": (13.5, 50.0), "ST 2": (18.0, 71.0), "bottom aft": (26.0, 90.0),
-    "bottom fore": (167.5, 90.0), "ST 19": (172.0, 70.5), "ST 19.5": (176.0, 33.5),
-    "FP": (180.0, 0.0),
+    "transom": (-5.0, 55.0), "AP": (0.0, 45.0), "ST 0.5": (5.0, 40.0), "post": (7.0, 2.0),
+    "ST 1": (9.0, 9.5), "ST 1.25": (11.25, 21.0), "ST 1.5": (13.5, 37.0), "ST 2": (18.0, 68.0),
+    "bottom aft": (26.0, 90.0), "bottom fore": (167.5, 90.0), "ST 19": (172.0, 72.0),
+    "ST 19.5": (176.0, 36.0), "FP": (180.0, 0.0),
 }  # fmt: skip
 """0 where the section leaves the contour upright, 90 level."""
 
 WATERLINE_ANGLE = {
-    "overhang": (-4.0, 44.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 40.0), "ST 1": (9.0, 36.0),
-    "ST 2": (18.0, 26.0), "ST 3": (27.0, 15.0), "ST 4": (36.0, 6.9), "ST 5": (45.0, 0.8),
-    "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 1.0),
-    "ST 17": (150.0, 2.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
+    "overhang": (-4.0, 55.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 36.5), "ST 1": (9.0, 35.0),
+    "ST 2": (18.0, 26.0), "ST 3": (27.0, 16.2), "ST 4": (36.0, 8.5), "ST 5": (45.0, 3.0),
+    "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 3.0),
+    "ST 17": (153.0, 5.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
 }  # fmt: skip
 """Flare at the design draught."""
 
 _BEND = -1.0 / BILGE
 
 KEEL_CURVATURE = {
-    "ST 4": (36.0, 0.0), "ST 7": (63.28, -0.29), "bilge aft": (_RUN, _BEND),
+    "ST 4": (36.0, 0.0), "ST 7": (63.0, -0.3), "bilge aft": (_RUN, _BEND),
     "bilge fore": (_ENTRANCE, _BEND), "ST 14": (128.6, -0.5), "ST 17": (150.0, 0.0),
 }  # fmt: skip
 """At the parallel middle body the curves are to leave the flats as its bilge does."""
 
 WATERLINE_CURVATURE = {
-    "side aft": (_SIDE_AFT, 0.0), "ST 7": (63.28, 0.0), "bilge aft": (_RUN, _BEND),
+    "side aft": (_SIDE_AFT, 0.0), "ST 7": (63.0, 0.0), "bilge aft": (_RUN, _BEND),
     "bilge fore": (_ENTRANCE, _BEND), "ST 14": (128.6, 0.0), "side fore": (_SIDE_FORE, 0.0),
 }  # fmt: skip
 
 KEEL_TANGENT = {
-    "transom": (-5.0, 0.36), "AP": (0.0, 0.40), "ST 0.5": (5.0, 0.44), "ST 1": (9.0, 0.35),
-    "ST 3": (30.0, 0.36), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
-    "ST 17": (150.0, 0.39), "FP": (180.0, 0.3),
+    "transom": (-5.0, 0.35), "AP": (0.0, 0.4), "ST 0.5": (5.0, 0.5), "ST 1": (9.0, 0.35),
+    "ST 3": (30.0, 0.35), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
+    "ST 17": (150.0, 0.46), "FP": (180.0, 0.3),
 }  # fmt: skip
 
+
 WATERLINE_TANGENT = {
-    "transom": (-5.0, 0.43), "AP": (0.0, 0.43), "ST 0.5": (5.0, 0.66), "ST 1": (9.0, 0.685),
-    "ST 3": (30.0, 0.945), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
-    "ST 17": (150.0, 0.595), "FP": (180.0, 0.3),
+    "transom": (-5.0, 0.53), "AP": (0.0, 0.54), "ST 0.5": (5.0, 0.6), "ST 1": (9.0, 0.57),
+    "ST 3": (30.0, 0.935), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
+    "ST 17": (150.0, 0.58), "FP": (180.0, 0.3),
 }  # fmt: skip
+
 
 DECK_SIDE = {
     "transom": {"x": -5.0, "y": 6.0, "angle_deg": 21.5, "tangent": 0.74},

@@ -153,7 +153,7 @@ def _roots(
     two = np.where(line.linear, np.nan, q / c2)
     one = np.where(line.linear, -c0 / c1, np.where(q == 0.0, two, c0 / q))
     swap = np.abs(two - best) < np.abs(one - best)
-    near = np.where(met & ~(disc > 0.0), best, np.where(swap, two, one))
+    near = np.where(met, best, np.where(swap, two, one))
     return near, np.where(swap, one, two), np.where(met, np.maximum(disc, 0.0), disc)
 
 

@@ -107,13 +107,13 @@ def _from_contour(stand: Stand) -> FormEnd:
 
 
 def _deck(stand: Stand, start: FormEnd) -> FormEnd:
-    """Give the ends at the deck edge; an angle that is not given is that of an arc."""
+    """Give the ends at the deck edge; the angle of a cubic not bent there where none is given."""
     z, y = stand.finish.T
     along = [
         math.atan2(dy, dz)
         for dz, dy in zip((z - start.x).tolist(), (y - start.y).tolist(), strict=True)
     ]
-    arc = 2.0 * np.array(along) - start.angle
+    free = 1.5 * np.array(along) - 0.5 * start.angle
     angle = stand.radians("deck_angle", math.nan)
-    angle = np.where(np.isnan(angle), arc, angle)
+    angle = np.where(np.isnan(angle), free, angle)
     return FormEnd.of(z, y, angle, stand.value("deck_curvature", 0.0))
