@@ -86,15 +86,6 @@ def _hand_over(state: HullState, design: Design, drawn: Sequence[Drawn]) -> None
         (int(state.lines.group.data[line]), state.lines.name.data[line]): line
         for line in state.live("lines").tolist()
     }
-    made = []
-    for each in drawn:
-        line = lines[names[each.source.group], each.source.name]
-        curve = _drawn_as(state, state.lines.curves.data[line], each)
-        made.append(
-            each.generated(
-                state.curves.key.data[curve], curve, state.curves.rows.data[curve].tolist()
-            )
-        )
     parts: dict[int, list[Drawn]] = {}
     for each in drawn:
         line = lines[names[each.source.group], each.source.name]
@@ -109,14 +100,6 @@ def _hand_over(state: HullState, design: Design, drawn: Sequence[Drawn]) -> None
     maker.generated(made)
 
 
-def _drawn_as(state: HullState, curves: Sequence[int], drawn: Drawn) -> int:
-    """Give the curve of a line that ends where a drawn one does."""
-    ends = drawn.source.points[[0, -1]]
-    off = [
-        float(np.abs(state.rows.xyz.data[state.curves.rows.data[curve][[0, -1]]] - ends).max())
-        for curve in curves
-    ]
-    return curves[int(np.argmin(off))]
 def _from_below(maker: Maker, line: int) -> list[int]:
     """Give the curves of a line from below, and let their order and their keys be this one."""
     state = maker.state
