@@ -60,6 +60,20 @@ def polynomial(spline: SplineBatch) -> PPoly:
     return PPoly(np.array([cubic, square, u, p]), spline.knot)
 
 
+@lru_cache(maxsize=1024)
+def _slope(spline: SplineBatch) -> PPoly:
+    return polynomial(spline).derivative()
+
+
+@lru_cache(maxsize=4096)
+def _heights(
+    spline: SplineBatch, normal: tuple[float, float, float]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give a spline's height over a plane through the origin, and what each segment lies within."""
+    around = _bezier(spline) @ np.array(normal)
+    return polynomial(spline).c @ normal, around.min(axis=0) - _SAME, around.max(axis=0) + _SAME
+
+
 def roots(spline: SplineBatch, normal: FloatArray, offset: float) -> tuple[Root, ...]:
     """Meet a spline with a plane; touching it without passing is no meeting."""
     return _roots(spline, tuple(normal.tolist()), offset)
@@ -69,18 +83,28 @@ def roots(spline: SplineBatch, normal: FloatArray, offset: float) -> tuple[Root,
 def _roots(
     spline: SplineBatch, normal: tuple[float, float, float], offset: float
 ) -> tuple[Root, ...]:
-    """Kept, as most splines of a hull are the very same after an edit."""
+    """Kept, as most splines of a hull are the very same after an edit.
+
+    A segment whose Bezier points lie on one side of the plane is not looked at.
+    """
     curve = polynomial(spline)
-    height = curve.c @ normal
-    height[3] -= offset
-    found = PPoly(height, curve.x).roots(discontinuity=False, extrapolate=False)
-    exact = spline.knot[spline.xyz @ normal == offset]
-    at = np.sort(np.concatenate([found[np.isfinite(found)], exact]))
+    height, low, high = _heights(spline, normal)
+    near = np.flatnonzero((low <= offset) & (high >= offset)).tolist()
+    if not near:
+        return ()
+    found = [spline.knot[spline.xyz @ normal == offset]]
+    for i in near:
+        segment = height[:, i : i + 1].copy()
+        segment[3] -= offset
+        part = PPoly.construct_fast(segment, curve.x[i : i + 2])
+        found.append(part.roots(discontinuity=False, extrapolate=False))
+    at = np.sort(np.concatenate(found))
+    at = at[np.isfinite(at)]
     at = at[np.concatenate([[True], np.diff(at) > _SAME])] if len(at) else at
     if not len(at):
         return ()
-    slope = curve.derivative()(at)
-    length = np.linalg.norm(slope, axis=1)
+    slope = _slope(spline)(at)
+    length = np.sqrt((slope * slope).sum(axis=1))
     places = curve(at)
     return tuple(
         Root(place, part / size)
@@ -111,10 +135,17 @@ def distance(spline: SplineBatch, place: FloatArray) -> float:
 
 def _boxes(spline: SplineBatch) -> tuple[FloatArray, FloatArray]:
     """Give the lowest and highest corner of the box round each segment, (n - 1, 3) each, m."""
+    around = _bezier(spline)
+    return np.min(around, axis=0) - _SAME, np.max(around, axis=0) + _SAME
+
+
+def _bezier(spline: SplineBatch) -> FloatArray:
+    """Give the Bezier points of each segment, (4, n - 1, 3)."""
     third = np.diff(spline.knot)[:, None] / 3.0
     first, last = spline.xyz[:-1], spline.xyz[1:]
-    around = [first, first + third * spline.leave[:-1], last - third * spline.arrive[1:], last]
-    return np.min(around, axis=0) - _SAME, np.max(around, axis=0) + _SAME
+    return np.array(
+        [first, first + third * spline.leave[:-1], last - third * spline.arrive[1:], last]
+    )
 
 
 def gap_between(one: Root, other: Root) -> float:

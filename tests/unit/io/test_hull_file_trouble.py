@@ -105,7 +105,7 @@ def test_flipped_bytes_are_noticed_or_do_no_harm(
     """Wherever a byte flips: a one-line error, or a hull that is the same to the bit."""
     whole, expected = file.read_bytes(), ah.open(file).fingerprint
     noticed = 0
-    for place in range(0, len(whole), 197):
+    for place in range(0, len(whole), 397):
         file.write_bytes(whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :])
         hull = opened(file)
         if hull is None:
@@ -118,7 +118,7 @@ def test_flipped_bytes_are_noticed_or_do_no_harm(
             hull.redo(2)
             assert hull.fingerprint == expected
         hull.close()
-    assert noticed > 50
+    assert noticed > 25
     capfd.readouterr()
 
 
@@ -228,8 +228,9 @@ os._exit(0)
 @pytest.mark.parametrize("room", [0, 20_000, 100_000])
 def test_a_full_disk_loses_the_edit_and_nothing_else(file: Path, room: int) -> None:
     """The limit on the size of files is what fills; what was committed before is all there."""
+    # -B: a compiled module that is cut off at the limit would be kept, and fail the next Python.
     found = subprocess.run(
-        [sys.executable, "-c", FULL, str(file), str(room), POINT],
+        [sys.executable, "-B", "-c", FULL, str(file), str(room), POINT],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     steps, print_, told = found.stdout.strip().split(" ", 2)
