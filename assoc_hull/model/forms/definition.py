@@ -139,6 +139,11 @@ class FormDefinition:
                 raise BadInputError(f"{name!r} is not one of its values", where, f"use {known}")
         object.__setattr__(self, "values", _values({n: self.values.get(n) for n in known}))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (
+            self.name, self.use, self.kind, dict(self.values), self.rule, self.nodes
+        )  # fmt: skip
+
     @property
     def key(self) -> str:
         """Its identity."""
