@@ -60,6 +60,27 @@ class Examples:
         hull.adoption = report
         return hull
 
+    def bulk_carrier_180m(self) -> Hull:
+        """Create a bulk carrier by form parameters; see `assoc_hull.examples.bulk_carrier_180m`."""
+        from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
+
+        return create(bulk_carrier_180m_design())
+
+    def container_ship_225m(self) -> Hull:
+        """Create a container ship by form parameters, with a bulb.
+
+        See `assoc_hull.examples.container_ship_225m`.
+        """
+        from assoc_hull.examples.container_ship_225m import container_ship_225m_design
+
+        return create(container_ship_225m_design())
+
+    def plain_ship(self) -> Hull:
+        """Create a plain cargo ship of few definitions; see `assoc_hull.examples.plain_ship`."""
+        from assoc_hull.examples.plain_ship import plain_ship_design
+
+        return create(plain_ship_design())
+
 
 examples = Examples()
 

@@ -32,6 +32,9 @@ _EXAMPLES = {
     "series60-060": lambda: examples.series60(0.60),
     "series60-070": lambda: examples.series60(0.70),
     "bulk-carrier-207k": lambda: examples.bulk_carrier_207k(),
+    "bulk-carrier-180m": lambda: examples.bulk_carrier_180m(),
+    "container-ship-225m": lambda: examples.container_ship_225m(),
+    "plain-ship": lambda: examples.plain_ship(),
 }
 
 

@@ -86,25 +86,28 @@ def _hand_over(state: HullState, design: Design, drawn: Sequence[Drawn]) -> None
         (int(state.lines.group.data[line]), state.lines.name.data[line]): line
         for line in state.live("lines").tolist()
     }
-    made = []
+    parts: dict[int, list[Drawn]] = {}
     for each in drawn:
         line = lines[names[each.source.group], each.source.name]
-        curve = _drawn_as(state, state.lines.curves.data[line], each)
-        made.append(
-            each.generated(
-                state.curves.key.data[curve], curve, state.curves.rows.data[curve].tolist()
-            )
-        )
+        parts.setdefault(line, []).append(each)
+    made = []
+    for line, several in parts.items():
+        for each, curve in zip(several, _from_below(maker, line), strict=True):
+            rows_of = state.curves.rows.data[curve].tolist()
+            made.append(each.generated(state.curves.key.data[curve], curve, rows_of))
     rows = np.array(sorted(row for each in made for row in each.rows), np.int64)
     maker.journal.put(state.rows.sort, rows, int(Sort.ADOPTED))
     maker.generated(made)
 
 
-def _drawn_as(state: HullState, curves: Sequence[int], drawn: Drawn) -> int:
-    """Give the curve of a line that ends where a drawn one does."""
-    ends = drawn.source.points[[0, -1]]
-    off = [
-        float(np.abs(state.rows.xyz.data[state.curves.rows.data[curve][[0, -1]]] - ends).max())
-        for curve in curves
-    ]
-    return curves[int(np.argmin(off))]
+def _from_below(maker: Maker, line: int) -> list[int]:
+    """Give the curves of a line from below, and let their order and their keys be this one."""
+    state = maker.state
+    curves: tuple[int, ...] = state.lines.curves.data[line]
+    foot = [float(state.rows.xyz.data[state.curves.rows.data[curve][0], 2]) for curve in curves]
+    ordered = [curve for _, curve in sorted(zip(foot, curves, strict=True))]
+    if tuple(ordered) != curves:
+        keys = sorted(state.curves.key.data[curve] for curve in curves)
+        maker.journal.set(state.curves.key, ordered, keys)
+        maker.journal.set(state.lines.curves, [line], [tuple(ordered)])
+    return ordered

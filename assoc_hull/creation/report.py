@@ -1,8 +1,8 @@
 """What became of definitions: closure and net side by side, and section by section.
 
 The closure is what the definitions say; the net is measured: its volume and waterplane are those of
-the surface through its lines, from where the curves of the definitions begin. What lies abaft
-of that, as a short overhang abaft AP, is left out.
+the surface through its lines, between the ends of the curves of the definitions. What lies beyond
+these, as a short overhang abaft AP or a bulb ahead of FP, is left out.
 """
 
 from __future__ import annotations
@@ -181,7 +181,7 @@ def _of_areas(
 ) -> list[FormFigure]:
     ship = state.particulars
     closed = coefficients(areas, ship)
-    met = _from(body, plane, _begin(areas, ship.length))
+    met = _between(body, plane, areas, ship.length)
     volume = float(met.volume[0])
     full = half_number(areas, "full")
     centre = float(met.moment_x[0]) / volume - 0.5 * ship.length
@@ -199,7 +199,7 @@ def _of_waterline(
 ) -> list[FormFigure]:
     ship = state.particulars
     closed: Coefficients = coefficients(line, ship)
-    met = _from(body, plane, _begin(line, ship.length))
+    met = _between(body, plane, line, ship.length)
     area = float(met.area[0])
     centre = float(met.area_x[0]) / area - 0.5 * ship.length
     full = 2.0 * half_number(line, "full")
@@ -209,17 +209,20 @@ def _of_waterline(
     ]
 
 
-def _begin(definition: FormDefinition, length: float) -> float:
-    """Give where a curve of two halves begins, m from AP."""
-    return 0.5 * length * (1.0 + half_number(definition, "run_start"))
+def _between(body: Flotation, plane: Planes, definition: FormDefinition, length: float) -> Immersed:
+    """Measure what lies between the ends of a curve of two halves.
 
-
-def _from(body: Flotation, plane: Planes, x: float) -> Immersed:
-    """Measure what lies forward of a place where a station stands; else the whole."""
+    An end at which no station stands is that of the hull.
+    """
     stations = stands(body.net)
-    if len(stations) and float(np.abs(stations - x).min()) <= _ON:
-        return between_stations(body, x, np.inf, plane)
-    return body.measure(plane)
+    ends = []
+    for name, beyond in (("run_start", -np.inf), ("entrance_end", np.inf)):
+        x = 0.5 * length * (1.0 + half_number(definition, name))
+        there = len(stations) > 0 and float(np.abs(stations - x).min()) <= _ON
+        ends.append(x if there else beyond)
+    if np.isinf(ends).all():
+        return body.measure(plane)
+    return between_stations(body, ends[0], ends[1], plane)
 
 
 def _sections(state: HullState, body: Flotation, plane: Planes) -> list[SectionFigures]:
