@@ -39,7 +39,9 @@ def whole(values: np.ndarray) -> list[int]:
 def _tables() -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int, int]]]:
     """The entries of both tables that are not nil, as whole numbers."""
     area = [
-        (i, j, int(each * _AREA)) for i, row in enumerate(area_table()) for j, each in enumerate(row)
+        (i, j, int(each * _AREA))
+        for i, row in enumerate(area_table())
+        for j, each in enumerate(row)
     ]
     moment = [
         (i, j, k, int(each * _MOMENT))

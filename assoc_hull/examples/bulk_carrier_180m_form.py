@@ -80,13 +80,13 @@ _SIDE_AFT, _SIDE_FORE = 50.4, 136.8
 _DECK_AFT, _DECK_FORE = 42.0, 142.0
 """Between these x the deck edge is."""
 
-_POST = -77.04
+_POST = -77.26
 """Angle of the stern post, from the arch of the aperture down to the heel."""
 
 PROFILE = {
     "transom": {"x": -5.0, "y": 11.1, "angle_deg": -50.0},
     "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -30.0},
-    "arch": {"x": 5.2, "y": 5.65, "angle_deg": -30.0, "leave_angle_deg": _POST},
+    "arch": {"x": 5.2, "y": 5.75, "angle_deg": -30.0, "leave_angle_deg": _POST},
     "heel": {"x": 6.5, "y": 0.0, "angle_deg": _POST, "leave_angle_deg": 0.0},
     "forefoot": {"x": 175.5, "y": 0.0, "angle_deg": 0.0, "tangent": 0.9},
     "FP": {"x": 180.0, "y": 10.5, "angle_deg": 82.0, "tangent": 0.6},
@@ -114,18 +114,18 @@ FLAT_OF_BOTTOM = {
 """Its half-breadth."""
 
 KEEL_ANGLE = {
-    "transom": (-5.0, 42.0), "AP": (0.0, 20.0), "ST 0.5": (5.0, 44.0), "post": (7.0, 2.0),
-    "ST 1": (9.0, 9.5), "ST 1.25": (11.25, 24.0), "ST 1.5": (13.5, 41.0), "ST 2": (18.0, 68.0),
+    "transom": (-5.0, 55.0), "AP": (0.0, 45.0), "ST 0.5": (5.0, 40.0), "post": (7.0, 2.0),
+    "ST 1": (9.0, 9.5), "ST 1.25": (11.25, 21.0), "ST 1.5": (13.5, 37.0), "ST 2": (18.0, 68.0),
     "bottom aft": (26.0, 90.0), "bottom fore": (167.5, 90.0), "ST 19": (172.0, 72.0),
     "ST 19.5": (176.0, 36.0), "FP": (180.0, 0.0),
 }  # fmt: skip
 """0 where the section leaves the contour upright, 90 level."""
 
 WATERLINE_ANGLE = {
-    "overhang": (-4.0, 44.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 40.0), "ST 1": (9.0, 36.0),
-    "ST 2": (18.0, 26.0), "ST 3": (27.0, 16.2), "ST 4": (36.0, 7.7), "ST 5": (45.0, 0.9),
-    "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 1.0),
-    "ST 17": (150.0, 2.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
+    "overhang": (-4.0, 55.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 36.5), "ST 1": (9.0, 35.0),
+    "ST 2": (18.0, 26.0), "ST 3": (27.0, 16.2), "ST 4": (36.0, 8.5), "ST 5": (45.0, 3.0),
+    "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 3.0),
+    "ST 17": (153.0, 5.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
 }  # fmt: skip
 """Flare at the design draught."""
 
@@ -150,7 +150,7 @@ KEEL_TANGENT = {
 
 
 WATERLINE_TANGENT = {
-    "transom": (-5.0, 0.53), "AP": (0.0, 0.54), "ST 0.5": (5.0, 0.67), "ST 1": (9.0, 0.57),
+    "transom": (-5.0, 0.53), "AP": (0.0, 0.54), "ST 0.5": (5.0, 0.6), "ST 1": (9.0, 0.57),
     "ST 3": (30.0, 0.935), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
     "ST 17": (150.0, 0.58), "FP": (180.0, 0.3),
 }  # fmt: skip

@@ -29,7 +29,7 @@ def area_limits(start: Place, finish: Place) -> tuple[float, float]:
 
 
 def centroid_box(start: Place, finish: Place, area: float) -> tuple[float, float]:
-    """Give the centroids between which the moment about the start fits into the box of both ends.
+    """Give the centroids between which the moment about the lower end fits into the box of both.
 
     Parameters
     ----------
@@ -38,9 +38,11 @@ def centroid_box(start: Place, finish: Place, area: float) -> tuple[float, float
     area : float
         Above 0.
     """
-    length = finish[0] - start[0]
-    low, high = (start[0] + 0.5 * y * length * length / area for y in sorted((start[1], finish[1])))
-    return low, high
+    if finish[1] < start[1]:
+        low, high = centroid_box((-finish[0], finish[1]), (-start[0], start[1]), area)
+        return -high, -low
+    half = 0.5 * (finish[0] - start[0]) ** 2 / area
+    return start[0] + half * start[1], start[0] + half * finish[1]
 
 
 def centroid_limits(start: Place, finish: Place, area: float) -> tuple[float, float]:

@@ -148,7 +148,8 @@ def fairest_tangents(
     for _ in range(_ROUNDS):
         around = best[:, None] + half[:, None, None] * window
         at, found, place = _best(task, np.clip(around, low, high))
-        better = found < least
+        # A curve that has settled stays: it must not depend on the others.
+        better = (found < least) & (half >= _SMALLEST)
         best, least = np.where(better[:, None], at, best), np.where(better, found, least)
         outside = better & (np.abs(window[0, place]).max(axis=1) == 1.0)
         half = np.where(outside, half, 0.5 * half)

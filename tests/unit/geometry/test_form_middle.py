@@ -55,6 +55,7 @@ class Drawn:
 
 @pytest.fixture(scope="module")
 def drawn() -> Drawn:
+    """The same curves for all tests."""
     return Drawn(4)
 
 
