@@ -30,6 +30,7 @@ from assoc_hull.model.forms.uses import USES
 
 __all__ = [
     "FORM_KINDS",
+    "GENERATED",
     "HALVES",
     "NODE_FIELDS",
     "RULES",
@@ -67,6 +68,12 @@ course) may be None: the rule then gives it. ``leave_...`` are set where the cou
 RULES = ("straight", "monotone", "form")
 """How the pieces of a course run where nothing is given: straight; as a cubic without overshoot
 (Fritsch & Carlson 1980); as a form-parameter curve of least int |Q'''|^2 dt."""
+
+GENERATED = (
+    "section", "transom", "profile", "deck edge", "deck centre", "flat of side", "flat of bottom",
+    "waterline",
+)  # fmt: skip
+"""What may be generated; of a waterline, where it comes onto a flat and leaves it."""
 
 Mark = tuple[int, float]
 """A piece of a generated curve, and t (0 to 4) on it."""
