@@ -45,12 +45,9 @@ def place_of(state: HullState, curve: int) -> float:
 
 
 def part_of(state: HullState, curve: int) -> int:
-    """Tell as which curve of its line one stands: from 0, from below."""
+    """Tell as which curve of its line one stands, from 0."""
     mine: Sequence[int] = state.lines.curves.data[state.line_of(curve)]
     live = [each for each in mine if state.curves.alive.data[each]]
-    if len(live) > 1:
-        ends = ends_of(state, live)[..., 2].min(axis=1).tolist()
-        live = [each for _, each in sorted(zip(ends, live, strict=True))]
     return live.index(curve)
 
 
