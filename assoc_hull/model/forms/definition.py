@@ -86,9 +86,7 @@ def _values(given: Mapping[str, float | None]) -> Mapping[str, float | None]:
     values = instance(given, Mapping, "values", _CALL)  # type: ignore[type-abstract]
     return MappingProxyType(
         {
-            text(name, "a name", _CALL): None
-            if value is None
-            else number(value, name, _CALL) + 0.0
+            text(name, "a name", _CALL): None if value is None else number(value, name, _CALL) + 0.0
             for name, value in values.items()
         }
     )
