@@ -75,7 +75,7 @@ def _definitions() -> list[FormDefinition]:
             "b": (45.0, 50.0), "flat": (60.0, 90.0), "fore": (198.0, 90.0), "stem": (225.0, 22.0), "c": (228.0, 38.0), "d": (231.0, 55.0), "bow": (233.5, 75.0),
         }, rule="monotone"),
         course("keel_curvature", {"aft": (80.0, 0.0), "body_aft": (105.75, -1 / _RADIUS), "body_fore": (114.75, -1 / _RADIUS), "fore": (140.0, 0.0)}, rule="monotone"),
-        course("keel_tangent", {"transom": (-4.2, 1.4), "over": (-0.3, 1.4), "AP": (0.0, 0.6), "skeg": (25.0, 0.5), "run": (60.0, 0.6), "side": (66.375, 1.11), "side_fore": (147.375, 1.11), "shoulder": (152.0, 0.6), "fore": (180.0, 0.6), "V": (195.0, .72)}, rule="monotone"),
+        course("keel_tangent", {"transom": (-4.2, 1.7), "over": (-0.3, 1.7), "AP": (0.0, 0.6), "skeg": (25.0, 0.5), "run": (60.0, 0.6), "side": (66.375, 1.11), "side_fore": (147.375, 1.11), "shoulder": (152.0, 0.6), "fore": (180.0, 0.6), "V": (195.0, .72)}, rule="monotone"),
         course("waterline_angle", {"n1": (-4.2, 85), "n2": (0, 80), "n3": (10, 62), "n4": (25, 38), "n5": (40, 13), "n6": (45, 8), "n7": (50, 5), "n8": (56.25, 2.4), "n9": (66.375, 0), "n10": (147.375, 0), "n11": (158, 3.5), "n12": (163, 9), "n13": (168.75, 15), "n14": (180, 20), "n15": (190, 26), "n16": (200, 29.5), "n17": (208, 27.5), "n18": (215, 23), "n19": (220, 21), "n20": (225, 22)}, rule="monotone"),
         course("waterline_curvature", {"aft": (66.375, 0.0), "a": (85.0, -0.08), "body_aft": (105.75, -1 / _RADIUS), "body_fore": (114.75, -1 / _RADIUS), "b": (132.0, -0.08), "fore": (147.375, 0.0)}, rule="monotone"),
         course("waterline_tangent", {"aft": (60.0, 0.6), "side": (66.375, 1.11), "side_fore": (147.375, 1.11), "fore": (152.0, 0.6)}, rule="monotone"),
