@@ -154,8 +154,10 @@ def course(
 
     Raises
     ------
+    UnknownNameError
+        Of a use, or of a value of a node.
     BadInputError
-        A use or rule that is unknown, fewer than one node, or a node that is none of these.
+        A rule that is unknown, fewer than one node, or a node that is none of these.
     """
     if text(use, "use", "in a course") not in USES:
         raise UnknownNameError("use of a definition", use, tuple(USES))
