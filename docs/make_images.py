@@ -137,6 +137,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
 DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
        "comparison": 110, "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
+COLOURS = {**dict.fromkeys(PLANS, 16), "form_curve": 256}
 
 
 def write(name: str) -> int:
@@ -146,7 +147,7 @@ def write(name: str) -> int:
     dpi = DPI.get(name, 120)
     figure.savefig(path, dpi=dpi, facecolor="white", bbox_inches=None)
     plt.close(figure)
-    colours = 16 if name in PLANS else 64
+    colours = COLOURS.get(name, 64)
     with Image.open(path) as image:
         image.convert("RGB").quantize(colours).save(path, optimize=True)
     return path.stat().st_size
