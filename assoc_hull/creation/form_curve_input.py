@@ -27,7 +27,12 @@ from assoc_hull.geometry.form_tangents import (
 
 __all__ = [
     "PARAMETER_NAMES",
-    "angles_of", "Tangents", "kept_of", "made", "parameters_of", "plane_place",
+    "Tangents",
+    "angles_of",
+    "kept_of",
+    "made",
+    "parameters_of",
+    "plane_place",
     "vertices_of",
 ]  # fmt: skip
 
