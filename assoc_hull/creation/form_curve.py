@@ -37,8 +37,10 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import choice, integer, numbers, positive
 from assoc_hull.creation.form_curve_input import (
     Tangents,
+    angles_of,
     kept_of,
     made,
+    notes_of,
     parameters_of,
     plane_place,
     vertices_of,
@@ -91,8 +93,8 @@ class FormCurve:
     """
 
     vertices: FloatArray = attrs.field(converter=_frozen)
-    notes: tuple[FormMessage, ...] = ()
-    angles: tuple[float, float] | None = None
+    notes: tuple[FormMessage, ...] = attrs.field(default=(), converter=notes_of)
+    angles: tuple[float, float] | None = attrs.field(default=None, converter=angles_of)
 
     @classmethod
     def of(

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, Literal
 
 import numpy as np
 
-from assoc_hull.arguments import choice, number, numbers, positive, shown
+from assoc_hull.arguments import all_of, choice, number, numbers, positive, shown
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_checks import FormMessage
@@ -26,7 +26,13 @@ from assoc_hull.geometry.form_tangents import (
 )
 
 __all__ = [
-    "PARAMETER_NAMES", "Tangents", "kept_of", "made", "parameters_of", "plane_place",
+    "PARAMETER_NAMES",
+    "Tangents",
+    "angles_of",
+    "kept_of",
+    "made",
+    "parameters_of",
+    "plane_place",
     "vertices_of",
 ]  # fmt: skip
 
@@ -53,6 +59,16 @@ def vertices_of(given: object) -> FloatArray:
 
 def _truth(given: object) -> bool:
     return np.asarray(given).dtype == bool
+
+
+def notes_of(given: Iterable[FormMessage]) -> tuple[FormMessage, ...]:
+    """Take remarks about a curve."""
+    return tuple(all_of(given, FormMessage, "notes", _WHERE))
+
+
+def angles_of(given: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Take the angles of both ends, rad."""
+    return None if given is None else plane_place(given, "angles")
 
 
 def plane_place(given: object, name: str, where: str = _WHERE) -> tuple[float, float]:
@@ -134,8 +150,6 @@ def _checked(values: Mapping[str, Any]) -> FormParameters:
         raise BadInputError("a centroid is given without an area", _WHERE, "give the area as well")
     if found["area"] == 0.0 and not math.isnan(found["centroid"]):
         raise BadInputError("an area of 0 has no centroid", _WHERE, "leave the centroid out")
-    if (found["start_x"], found["start_y"]) == (found["finish_x"], found["finish_y"]):
-        raise BadInputError("start and finish are one place", _WHERE, "give ends that differ")
     return FormParameters(**found)
 
 
@@ -147,6 +161,9 @@ def _tangents(
     energy: str,
 ) -> tuple[FloatArray, tuple[FormMessage, ...]]:
     """Give the tangent lengths, (1, 2), and what is to be said of them."""
+    if (given is None or isinstance(given, str)) and not chords(start, finish)[0] > 0.0:
+        remedy = "give ends that differ, or tangents"
+        raise BadInputError("start and finish are one place", _WHERE, remedy)
     if given is None or (isinstance(given, str) and given == "default"):
         return usual_tangents(start, finish), ()
     if isinstance(given, str):

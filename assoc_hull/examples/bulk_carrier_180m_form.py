@@ -84,8 +84,8 @@ _POST = -77.26
 """Angle of the stern post, from the arch of the aperture down to the heel."""
 
 PROFILE = {
-    "transom": {"x": -5.0, "y": 11.1, "angle_deg": -50.0},
-    "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -30.0},
+    "transom": {"x": -5.0, "y": 10.9, "angle_deg": -40.0},
+    "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -33.0},
     "arch": {"x": 5.2, "y": 5.75, "angle_deg": -30.0, "leave_angle_deg": _POST},
     "heel": {"x": 6.5, "y": 0.0, "angle_deg": _POST, "leave_angle_deg": 0.0},
     "forefoot": {"x": 175.5, "y": 0.0, "angle_deg": 0.0, "tangent": 0.9},
@@ -122,7 +122,7 @@ KEEL_ANGLE = {
 """0 where the section leaves the contour upright, 90 level."""
 
 WATERLINE_ANGLE = {
-    "overhang": (-4.0, 55.0), "AP": (0.0, 44.0), "ST 0.5": (4.5, 36.5), "ST 1": (9.0, 35.0),
+    "overhang": (-4.0, 55.0), "AP": (0.0, 47.0), "ST 0.5": (4.5, 37.0), "ST 1": (9.0, 35.0),
     "ST 2": (18.0, 26.0), "ST 3": (27.0, 16.2), "ST 4": (36.0, 8.5), "ST 5": (45.0, 3.0),
     "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 3.0),
     "ST 17": (153.0, 5.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),

@@ -9,7 +9,7 @@ first. C0 to C6 look at parameters alone, the rest at the curve that they make:
 | C1 | end angles within 0 and 90 degrees |
 | C2 | curvature at a level or upright end does not lead out of the box of both ends |
 | C3 | the area fits into that box |
-| C4 | so does the moment, about the lower end: about x = 0 the bound would hold for x above 0 only |
+| C4 | so does the moment about the lower end; about x = 0 that would hold for x above 0 only |
 | C4s | the centroid is that of some rising curve of this area: a sharp bound |
 | C5.1, C5.2, C5.3 | the start below, above or along the chord: what must hold without inflection |
 | C6 | the area lies between the chord and the two end tangents: so does one without inflection |

@@ -30,6 +30,8 @@ __all__ = ["FormValues", "end_of", "form_values"]
 
 _STILL = 1e-12
 """Of the size of a curve: a shorter tangent has no direction."""
+_TINY = 1e-100
+"""A tangent whose square is hardly a number has none either."""
 _EMPTY = 1e-12
 """Of the square of the size: a smaller area has no centroid."""
 
@@ -67,7 +69,7 @@ def end_of(vertices: FloatArray, angle: FloatArray | None = None) -> FormEnd:
     a, b, c = (vertices[:, each] for each in range(3))
     point, first, second = (a + 4.0 * b + c) / 6.0, (c - a) / 2.0, a - 2.0 * b + c
     tangent = np.array([math.hypot(x, y) for x, y in first.tolist()])
-    still = tangent <= _STILL * np.abs(vertices).max(axis=(1, 2))
+    still = tangent <= np.maximum(_STILL * np.abs(vertices).max(axis=(1, 2)), _TINY)
     turn = np.array([math.atan2(y, x) for x, y in first.tolist()])
     turn = np.where(still, np.nan if angle is None else angle, turn)
     cos = np.array([math.cos(each) for each in turn.tolist()])

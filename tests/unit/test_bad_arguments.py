@@ -20,6 +20,7 @@ from assoc_hull.sources import Examples
 
 POINT, LINE, CURVE = "WL 2.5 x ST 3", "WL 2.5", "ST 3"
 PLACE = (40.0, 3.0, 2.5)
+BENT = [(0.0, 0.0), (1.0, 0.1), (2.0, 0.4), (3.0, 0.9), (4.0, 1.6), (5.0, 2.5), (6.0, 3.6)]
 
 BAD: dict[str, Any] = {
     "None": None,
@@ -165,7 +166,27 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "ends": None, "placed": False, "tolerance": 0.005,
         },
     ),
+    "FormCurve": (ah.FormCurve, {"vertices": BENT, "notes": (), "angles": (0.0, 0.0)}),
+    "FormCurve.from_parameters": (
+        ah.FormCurve.from_parameters, {"parameters": dict(ah.FormCurve(BENT).parameters)},
+    ),
+    "FormCurve.of": (
+        ah.FormCurve.of,
+        {
+            "start": (0.0, 0.0), "finish": (4.0, 2.0), "start_angle_deg": 0.0,
+            "finish_angle_deg": 40.0, "start_curvature": 0.0, "finish_curvature": 0.0,
+            "area": 3.5, "centroid": None, "tangents": "default", "start_stretch": 0.0,
+            "finish_stretch": 0.0, "energy": "E3",
+        },
+    ),
 }  # fmt: skip
+FORM_CURVES: dict[str, Given] = {
+    "at": {"t": 1.0},
+    "curvature": {"t": 1.0},
+    "energy": {"kind": "E3"},
+    "drag": {"vertex": 1, "to": (0.1, 0.2), "keep": ("area", "centroid")},
+    "scaled": {"a": 2.0, "b": 3.0},
+}
 
 TERMS: Given = {
     "heel_deg": 0.0,
@@ -338,6 +359,24 @@ def test_a_curve_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, n
         with trial as bad:
             call(getattr(curve, method), bad)
     assert hull.fingerprint == before
+
+
+@pytest.mark.parametrize(("method", "given", "name"), cases(FORM_CURVES))
+def test_a_form_curve_takes_nothing_amiss(method: str, given: Given, name: str) -> None:
+    """Nor do single values of its parameters."""
+    curve = ah.FormCurve(BENT)
+    assert not call(getattr(curve, method), given)
+    for trial in spoilt(given, name):
+        with trial as bad:
+            call(getattr(curve, method), bad)
+
+
+@pytest.mark.parametrize("name", ah.FormCurve(BENT).parameters)
+def test_parameters_of_a_form_curve_are_numbers(name: str) -> None:
+    """Or left to the curve, where that is possible."""
+    for trial in spoilt(dict(ah.FormCurve(BENT).parameters), name):
+        with trial as bad:
+            call(lambda bad=bad: ah.FormCurve.from_parameters(bad), {})
 
 
 @pytest.mark.parametrize(("method", "given", "name"), cases(LINES))

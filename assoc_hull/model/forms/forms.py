@@ -73,6 +73,10 @@ class Forms:
             found[each.use] = each
         return cls(MappingProxyType(found), particulars)
 
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        """Let other processes have them: a read-only mapping is not taken along."""
+        return Forms.of, (tuple(self.definitions.values()), self.particulars)
+
     def has(self, use: str) -> bool:
         """Tell whether there is a definition for a use."""
         return use in self.definitions
