@@ -61,7 +61,8 @@ def take_up_forms(state: HullState, journal: Journal, pending: Pending) -> IntAr
 
 
 def _refuse_both(state: HullState, pending: Pending, left: set[int]) -> None:
-    for curve in sorted(left):
+    asked = {int(state.rows.curve.data[row, 0]) for row in pending.values}
+    for curve in sorted(left | asked | {each for _, each in pending.by_hand if each >= 0}):
         line = state.line_of(curve)
         if line in pending.attach:
             raise BadInputError(

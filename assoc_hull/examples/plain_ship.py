@@ -76,8 +76,9 @@ def _boundary() -> list[FormDefinition]:
     side = {
         "transom": (-4.0, 7.0, 6.0),
         "quarter": (30.0, 9.0, 0.0),
-        "shoulder": (95.0, 9.0, 0.0),
-        "stem": (121.8, 0.0, -75.0),
+        "shoulder": (84.0, 9.0, 0.0),
+        "flare": (108.0, 7.8, -6.5),
+        "stem": (121.8, 0.0, -60.0),
     }
     sheer = {
         "aft": (-4.0, 11.0), "waist": (35.0, 10.5, 0.0), "fore": (80.0, 10.5, 0.0),
@@ -102,12 +103,12 @@ def _angles() -> list[FormDefinition]:
     }  # fmt: skip
     flat = 0.5 * SHIP.breadth - BILGE
     bottom = {
-        "run": (20.0, 0.0, 14.0), "aft": (54.0, flat, 0.0), "fore": (69.0, flat, 0.0),
-        "entrance": (100.0, 0.0),
+        "run": (20.0, 0.0), "quarter": (42.0, 6.2), "aft": (54.0, flat, 0.0),
+        "fore": (69.0, flat, 0.0), "shoulder": (78.0, 6.2), "entrance": (100.0, 0.0),
     }  # fmt: skip
     side = {
-        "run": (36.0, 9.0), "aft": (54.0, BILGE, 0.0), "fore": (69.0, BILGE, 0.0),
-        "entrance": (87.0, 9.0),
+        "run": (36.5, 8.5), "quarter": (42.0, 3.4), "aft": (54.0, BILGE, 0.0),
+        "fore": (69.0, BILGE, 0.0), "shoulder": (78.0, 2.8), "entrance": (87.0, 9.0),
     }  # fmt: skip
     return [
         course("keel_angle", keel, rule="monotone"),

@@ -22,6 +22,7 @@ from assoc_hull.edit.keeper import Label
 from assoc_hull.edit.step import Step
 from assoc_hull.geometry.curves import IntArray, PointKind
 from assoc_hull.model.family import FAMILIES, BoundaryKind, Role, Sort, State
+from assoc_hull.model.forms.definition import GENERATED
 from assoc_hull.model.state import HullState
 
 __all__ = ["require_sound", "require_whole"]
@@ -149,6 +150,8 @@ def _generated(state: HullState) -> Iterator[str]:
     for each in made:
         if each.curve not in curves or state.curves.key.data[each.curve] != each.key:
             yield f"the generated curve {each.key!r} does not exist"
+        if each.what not in GENERATED:
+            yield f"the generated curve {each.key!r} is of no known sort"
         there = live if each.attached else range(state.rows.count)
         if len(each.marks) != len(each.rows) or any(row not in there for row in each.rows):
             yield f"the generated curve {each.key!r} lacks points"

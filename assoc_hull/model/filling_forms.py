@@ -23,7 +23,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.family import Sort
 from assoc_hull.model.filling import Keys, wrong
-from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.definition import GENERATED, FormDefinition, GeneratedCurve
 from assoc_hull.model.make import Maker
 from assoc_hull.model.state import HullState
 
@@ -78,6 +78,8 @@ def _curve(state: HullState, record: Record, keys: Keys) -> GeneratedCurve:
     key = record["curve"]
     where = f"at the generated curve {key!r}"
     curve = keys.find("curves", key, "the generated curves")
+    if record["what"] not in GENERATED:
+        raise wrong(f"{record['what']!r} cannot be generated", where)
     rows = tuple(keys.find("points", point, key) for point in record["points"])
     marks = tuple(_mark(mark, where) for mark in record["marks"])
     attached = bool(record.get("attached", True))

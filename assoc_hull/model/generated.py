@@ -12,7 +12,6 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 
 import numpy as np
 
@@ -73,6 +72,6 @@ def _known(state: HullState) -> _Known:
         every = [row for each in objects if isinstance(each, GeneratedCurve) for row in each.rows]
         kept = np.array(sorted(every), np.int64)
         freeze(rows, kept)
-        known = objects, MappingProxyType(dict(sorted(curves.items()))), rows, kept
+        known = objects, dict(sorted(curves.items())), rows, kept
         state.kept["attached"] = known
     return known

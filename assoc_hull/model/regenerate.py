@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
@@ -87,6 +88,15 @@ def points_given(
         return np.zeros(0, np.int64), np.zeros((0, 3))
     places = np.array([place_of(state, curve) for curve in numbers])
     known = forms_of(state) if forms is None else forms
-    found = generated_points(known, chosen, places, ends_of(state, numbers))
+    try:
+        found = generated_points(known, chosen, places, ends_of(state, numbers))
+    except (LookupError, ValueError) as error:
+        if isinstance(error, AssocHullError):
+            raise
+        keys = ", ".join(each.key for each in chosen[:3])
+        what = f"pieces or marks that there are not ({type(error).__name__}: {error})"
+        raise BadInputError(
+            what, f"among {keys}", "take the hull from where it was kept"
+        ) from error
     rows = np.array([row for each in chosen for row in each.rows], np.int64)
     return rows, np.ascontiguousarray(np.concatenate([np.zeros((0, 3)), *found])) + 0.0

@@ -41,7 +41,7 @@ from assoc_hull.model.form import (
     told,
     tuple_of,
 )
-from assoc_hull.model.forms.definition import FORM_KINDS, RULES
+from assoc_hull.model.forms.definition import FORM_KINDS, GENERATED, RULES
 from assoc_hull.model.state import DECKS, Particulars
 from assoc_hull.tolerance import Tolerances
 
@@ -145,7 +145,7 @@ _FORM = record(
 _MADE = record(
     {
         "curve": told(TEXT, "key of the curve"),
-        "what": told(NAME, "what is generated"),
+        "what": told(one_of(GENERATED), "what is generated"),
         "layout": told(TEXT, "of which pieces"),
         "points": told(listed(TEXT), "keys of its generated points, along the curve"),
         "marks": told(

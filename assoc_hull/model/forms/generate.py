@@ -85,8 +85,8 @@ def reads(curve: GeneratedCurve) -> tuple[str, ...]:
             found += ["profile", "deck_side", "deck_height"]
         return tuple(dict.fromkeys(found))
     if curve.what == "waterline":
-        return _BY_LINE[f"waterline {curve.layout}"] if curve.layout else ()
-    return _BY_LINE.get(curve.what) or (COURSES[curve.what],)
+        return _BY_LINE.get(f"waterline {curve.layout}", ())
+    return _BY_LINE.get(curve.what) or ((COURSES[curve.what],) if curve.what in COURSES else ())
 
 
 def marks_for(
