@@ -136,21 +136,27 @@ def near_enough(whole: Composite, under: int, count: int) -> NDArray[np.bool_]:
     found = np.ones(count, np.bool_)
     found[whole.row[whole.deviations() > WITHIN]] = False
     if under:
-        exact, spline = whole.areas(under)
-        off, area = (
-            np.bincount(whole.row, each, minlength=count) for each in (spline - exact, exact)
-        )
-        found &= np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA)
+        found &= _enough_area(whole, *whole.areas(under), count)
     return found
+
+
+def _enough_area(
+    whole: Composite, exact: FloatArray, spline: FloatArray, count: int
+) -> NDArray[np.bool_]:
+    """Tell which curves have the area of their pieces."""
+    off, area = (np.bincount(whole.row, each, minlength=count) for each in (spline - exact, exact))
+    return np.asarray(np.abs(off) <= AREA_WITHIN * np.maximum(area, _LEAST_AREA))
 
 
 def _to_halve(whole: Composite, under: int) -> NDArray[np.bool_] | None:
     """Tell which intervals of one curve to halve; None where all is near enough."""
-    if near_enough(whole, under, 1)[0]:
-        return None
     far = whole.deviations() > WITHIN
     if far.any():
         return far
+    if not under:
+        return None
     exact, spline = whole.areas(under)
+    if _enough_area(whole, exact, spline, 1)[0]:
+        return None
     off = np.where(whole.high - whole.low > _SHORTEST, np.abs(spline - exact), 0.0)
     return np.asarray(off > 0.5 * off.max())

@@ -169,8 +169,6 @@ def test_held_and_ended() -> None:
         ),
         pytest.param(course("deck_side", {}), "no nodes", id="no nodes"),
         pytest.param(course("deck_side", {"a": (0.0,)}), "a_y is None", id="half a node"),
-        pytest.param(course("no_such_use", {"a": (0.0, 0.0)}), "is unknown", id="unknown use"),
-        pytest.param(course("sectional_area", {"a": (0.0, 0.0)}), "is of kind", id="wrong kind"),
     ],
 )  # fmt: skip
 def test_refused_courses(definition: FormDefinition, text: str) -> None:
