@@ -1,5 +1,8 @@
 """set_form: a definition takes other values, and what is generated from it follows."""
 
+import contextlib
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,6 +12,7 @@ from assoc_hull.model.definition import definition
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
 from tests.formed import formed
+from tests.unit.test_bad_arguments import BAD
 
 
 @pytest.fixture(scope="module")
@@ -225,4 +229,16 @@ def test_keep_going_refuses_what_no_definition_gives(hull: ah.Hull) -> None:
     with pytest.raises(ah.RefusedEditError, match="outside the box"), edit:
         edit.set_form("waterline", full=5.0)
     assert hull.fingerprint == before
+    assert hull.verify() == ()
+
+
+@pytest.mark.parametrize("value", BAD.values(), ids=BAD)
+def test_bad_values_are_errors_of_the_family(hull: ah.Hull, value: Any) -> None:
+    """Whatever stands for a number, or for a definition."""
+    for name, given in (("flare", {"AP_y": value}), (value, {"AP_y": 20.0})):
+        with contextlib.suppress(ah.AssocHullError), hull.edit("bad") as edit:
+            edit.set_form(name, **given)
+    for name in ("cb", "lcb"):
+        with contextlib.suppress(ah.AssocHullError), hull.edit("bad") as edit:
+            edit.set_form("areas", **{name: value})
     assert hull.verify() == ()
