@@ -83,6 +83,9 @@ def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
         "series60_60": partial(examples.series60, 0.60),
         "series60_70": partial(examples.series60, 0.70),
         "bulk_carrier": examples.bulk_carrier_207k,
+        "bulk_carrier_180m": examples.bulk_carrier_180m,
+        "container_ship_225m": examples.container_ship_225m,
+        "plain_ship": examples.plain_ship,
     }
 
     @cache
@@ -106,6 +109,8 @@ def made_already(shipped: Shipped, monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(Examples, "series60", series60)
     monkeypatch.setattr(Examples, "bulk_carrier_207k", lambda _: shipped("bulk_carrier"))
+    for name in ("bulk_carrier_180m", "container_ship_225m", "plain_ship"):
+        monkeypatch.setattr(Examples, name, lambda _, name=name: shipped(name))
 
 
 @pytest.fixture(scope="session")

@@ -117,7 +117,7 @@ KEEL_ANGLE = {
     "transom": (-5.0, 55.0), "AP": (0.0, 45.0), "ST 0.5": (5.0, 40.0), "post": (7.0, 2.0),
     "ST 1": (9.0, 9.5), "ST 1.25": (11.25, 21.0), "ST 1.5": (13.5, 37.0), "ST 2": (18.0, 68.0),
     "bottom aft": (26.0, 90.0), "bottom fore": (167.5, 90.0), "ST 19": (172.0, 72.0),
-    "ST 19.5": (176.0, 36.0), "FP": (180.0, 0.0),
+    "ST 19.5": (176.0, 36.0), "FP": (180.0, 0.0), "head": (184.5, 18.0),
 }  # fmt: skip
 """0 where the section leaves the contour upright, 90 level."""
 
@@ -170,6 +170,16 @@ DECK_HEIGHT = {
     "head": (184.5, 18.2, 5.0),
 }
 
+DECK_ANGLE = {
+    "transom": (-5.0, 40.0), "AP": (0.0, 37.0), "ST 0.25": (2.25, 44.0), "ST 0.5": (4.5, 49.0),
+    "ST 1.5": (13.5, 51.0), "ST 2.5": (22.5, 45.0), "ST 3.5": (31.5, 28.0), "ST 4": (36.0, 16.0),
+    "ST 4.5": (40.5, 5.0), "full aft": (_DECK_AFT, 0.0), "full fore": (_DECK_FORE, 0.0),
+    "ST 16": (144.0, 4.5), "ST 16.5": (148.5, 15.5), "ST 17.5": (157.5, 38.0),
+    "ST 18.5": (166.5, 51.0), "ST 19": (171.0, 51.0), "ST 19.5": (175.5, 46.0),
+    "FP": (180.0, 35.0), "head": (184.5, 45.0),
+}  # fmt: skip
+"""Flare at the deck edge."""
+
 
 def definitions() -> list[FormDefinition]:
     """Give the definitions, the curve of areas first.
@@ -182,7 +192,7 @@ def definitions() -> list[FormDefinition]:
     smooth = {
         "keel_angle": KEEL_ANGLE, "keel_curvature": KEEL_CURVATURE, "keel_tangent": KEEL_TANGENT,
         "waterline_angle": WATERLINE_ANGLE, "waterline_curvature": WATERLINE_CURVATURE,
-        "waterline_tangent": WATERLINE_TANGENT,
+        "waterline_tangent": WATERLINE_TANGENT, "deck_angle": DECK_ANGLE,
     }  # fmt: skip
     return [
         sectional_area(SHIP, cm=cm, cb=CB, lcb=LCB, **AREAS),

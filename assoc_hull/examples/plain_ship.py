@@ -77,7 +77,7 @@ def _boundary() -> list[FormDefinition]:
         "transom": (-4.0, 7.0, 6.0),
         "quarter": (30.0, 9.0, 0.0),
         "shoulder": (84.0, 9.0, 0.0),
-        "flare": (108.0, 7.8, -13.0),
+        "flare": (108.0, 7.8, -6.5),
         "stem": (121.8, 0.0, -60.0),
     }
     sheer = {

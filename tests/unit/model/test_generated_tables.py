@@ -1,5 +1,7 @@
 """Definitions and generated curves in the tables, the definition, the fingerprint and the files."""
 
+import copy
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +12,10 @@ import assoc_hull as ah
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model import index
 from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition import definition, published
+from assoc_hull.model.definition import definition, fingerprint, published
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.generated import attached, attached_rows, generated_on
+from assoc_hull.model.regenerate import points_given
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState, form_node, form_of
 from tests.formed import STATIONS, formed, formed_definitions
@@ -169,3 +172,12 @@ def test_values_are_none_or_numbers_in_every_form(made: HullState) -> None:
     found = {each.use: each for each in again.definitions}
     assert isinstance(found["design_waterline"], FormDefinition)
     assert found["design_waterline"].value("run_area") is None
+
+
+def test_a_hull_with_definitions_goes_through_a_pipe(made: HullState) -> None:
+    """Studies hand tables to other processes; what is kept with them goes along."""
+    points_given(made, made.generated)
+    again = pickle.loads(pickle.dumps(made))
+    assert again.definitions == made.definitions
+    assert fingerprint(copy.deepcopy(again)) == fingerprint(made)
+    points_given(again, again.generated)
