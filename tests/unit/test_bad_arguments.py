@@ -168,7 +168,10 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "FormCurve": (ah.FormCurve, {"vertices": BENT, "notes": (), "angles": (0.0, 0.0)}),
     "FormCurve.from_parameters": (
-        ah.FormCurve.from_parameters, {"parameters": dict(ah.FormCurve(BENT).parameters)},
+        ah.FormCurve.from_parameters,
+        {
+            "parameters": dict(ah.FormCurve(BENT).parameters), "tangents": None, "energy": "E3",
+        },
     ),
     "FormCurve.of": (
         ah.FormCurve.of,
