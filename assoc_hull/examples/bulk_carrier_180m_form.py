@@ -20,6 +20,8 @@ Examples
 
 from __future__ import annotations
 
+from typing import Any
+
 from assoc_hull.creation.courses import course, design_waterline, sectional_area
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.state import Particulars
@@ -37,7 +39,7 @@ FULL = 292.59
 BILGE = 1.8125
 """Radius (m) of the bilge amidships."""
 
-AREAS = {
+AREAS: dict[str, Any] = {
     "run_start_ordinate": 6.08 / FULL,
     "run_start_angle_deg": 25.0,
     "run_start_curvature": 0.0,
@@ -54,7 +56,7 @@ AREAS = {
 }
 """The curve of areas, in the frame of the ship: -1 at AP, 1 at FP, 1 the midship section."""
 
-WATERLINE = {
+WATERLINE: dict[str, Any] = {
     "run_start": -1.05,
     "run_start_angle_deg": 83.0,
     "run_start_tangent": 0.17,
