@@ -13,6 +13,7 @@ from pathlib import Path
 
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.created import bulk_carrier_180m, bulk_carrier_180m_parent
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
@@ -126,6 +127,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "rounded_hat": rounded_hat,
     "section_shifts": section_shifts,
     "generated_sections": generated_sections,
+    "bulk_carrier_180m": bulk_carrier_180m,
+    "bulk_carrier_180m_parent": bulk_carrier_180m_parent,
     "comparison": comparison,
     "variant_areas": variant_areas,
     "variant_plan": variant_plan,
@@ -134,6 +137,10 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
+DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
+       "dtc_report": 110, "carrier_combs": 96, "comparison": 110, "variant_plan": 110,
+       "form_sheet": 100, "panels": 105}  # fmt: skip
+PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "dtc")
 DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
        "comparison": 110, "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
