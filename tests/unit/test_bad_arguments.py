@@ -93,8 +93,6 @@ EDIT: dict[str, Given] = {
     "set_end": {"curve": LINE, "end": "start", "tangent": None, "curvature": None},
     "set_role": {"crossing": POINT, "role": "drives a"},
     "renew_roles": {"lines": [LINE]},
-    "set_form": {"definition": "areas", "values": 0.5},
-    "reattach": {"line": LINE},
     "associate": {"a": "sections", "b": "waterlines", "two_way": True},
     "dissociate": {"a": "sections", "b": "waterlines"},
     "rename": {"obj": LINE, "name": "low"},

@@ -114,7 +114,8 @@ def test_hulls_without_definitions_keep_their_fingerprint() -> None:
     """Nothing of definitions stands in what is hashed of them."""
     hull = ah.examples.wigley(stations=5, waterlines=4)
     assert "definitions" not in definition(hull.state)
-    assert hull.state.definitions == hull.state.generated == ()
+    assert hull.state.definitions == ()
+    assert hull.state.generated == ()
     with pytest.raises(ah.BadInputError, match="no definitions"):
         hull.apply("back", [{"op": "reattach", "line": "ST 1"}])
 
