@@ -9,6 +9,7 @@ from typing import NoReturn
 from assoc_hull.cli import (
     compare,
     create,
+    curve,
     demo,
     edit,
     export,
@@ -73,9 +74,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, create, look, edit, history, replay, why, graph, hydrostatics, parameters,
-        stability, transform, panels, vary, shift, study, compare, sensitivities, plot, export,
-        shell,
+        demo, make, create, curve, look, edit, history, replay, why, graph, hydrostatics,
+        parameters, stability, transform, panels, vary, shift, study, compare, sensitivities, plot,
+        export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -25,8 +25,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from assoc_hull.arguments import choice, instance, numbers, positive, text
-from assoc_hull.errors import BadInputError
+from assoc_hull.arguments import instance, numbers, positive, text
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.forms.closure import close_halves
 from assoc_hull.model.forms.definition import NODE_FIELDS, FormDefinition
 from assoc_hull.model.forms.uses import USES
@@ -154,10 +154,13 @@ def course(
 
     Raises
     ------
+    UnknownNameError
+        Of a use, or of a value of a node.
     BadInputError
-        A use or rule that is unknown, fewer than one node, or a node that is none of these.
+        A rule that is unknown, fewer than one node, or a node that is none of these.
     """
-    choice(use, "use", USES, "in a course")
+    if text(use, "use", "in a course") not in USES:
+        raise UnknownNameError("use of a definition", use, tuple(USES))
     where = f"in the course {use!r}"
     if USES[use].kind != "course":
         raise BadInputError("it is a curve of two halves", where, f"call {use} for it")
@@ -179,7 +182,7 @@ def _fields(node: Node, where: str) -> Mapping[str, float | None]:
     if isinstance(node, Mapping):
         for name in node:
             if name not in NODE_FIELDS:
-                raise BadInputError(f"{name!r} is unknown", where, f"use {NODE_FIELDS}")
+                raise UnknownNameError("value of a node", str(name), NODE_FIELDS)
         missing = [name for name in ("x", "y") if node.get(name) is None]
         if missing:
             raise BadInputError(f"{missing[0]} is missing", where, "give it")

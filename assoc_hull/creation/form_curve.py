@@ -167,19 +167,36 @@ class FormCurve:
         return cls(*made(values, tangents, energy))
 
     @classmethod
-    def from_parameters(cls, parameters: Mapping[str, float | None]) -> Self:
+    def from_parameters(
+        cls,
+        parameters: Mapping[str, float | None],
+        *,
+        tangents: Literal["default", "auto"] | None = None,
+        energy: Literal["E2", "E3", "J"] = "E3",
+    ) -> Self:
         """Make a curve from parameters by name, as `parameters` gives them.
 
-        Curvatures and stretches that are left out are 0; tangents, area and centroid are as in
-        `of`, tangents by default.
+        Parameters
+        ----------
+        parameters : mapping of str to float or None
+            Curvatures and stretches that are left out are 0; tangents that are left out are an
+            eighth of the chord; area and centroid are as in `of`.
+        tangents : "default" or "auto", optional
+            As in `of`, whatever the tangents among the parameters.
+        energy : "E3", "E2" or "J"
+            As in `of`.
 
         Raises
         ------
-        BadInputError
-            A name that is none of the 14, and as `of`.
+        UnknownNameError
+            A name that is none of the 14.
+        BadInputError, NoMiddleVertexError, DegenerateEndsError
+            As `of`.
         """
-        values, tangents = parameters_of(parameters)
-        return cls(*made(values, tangents, "E3"))
+        values, given = parameters_of(parameters)
+        if tangents is not None:
+            choice(tangents, "tangents", ("default", "auto"), "in a form-parameter curve")
+        return cls(*made(values, given if tangents is None else tangents, energy))
 
     @cached_property
     def _values(self) -> CurveValues:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["CurveValues", "curve_document", "curve_table", "curve_values", "remarks"]
 
+_NIL = 1e-14
+"""Of the size of a curve: a smaller number is written as 0."""
 _RANK = {"error": 0, "warning": 1, "info": 2}
 
 
@@ -99,7 +101,11 @@ def curve_table(curve: FormCurve) -> str:
     lines = ["vertices"]
     lines += [f"  P{k} {x:18.12f} {y:18.12f}" for k, (x, y) in enumerate(curve.vertices + 0.0)]
     lines.append("parameters")
-    lines += [f"  {name:20} {value:18.12g}" for name, value in curve.parameters.items()]
+    size = max(1.0, float(np.abs(curve.vertices).max()))
+    lines += [
+        f"  {name:20} {value if abs(value) > _NIL * size else 0.0:18.12g}"
+        for name, value in curve.parameters.items()
+    ]
     lines.append("besides")
     lines += [f"  {name:20} {value:18.12g}" for name, value in _besides(curve).items()]
     lines.append("messages")

@@ -2,7 +2,7 @@
 
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
 be followed without doubt. Shifts of 1, 10 and 50 cm must attach each crossing to the branch
-that this path leads to. The steps of 50 cm go along the whole ranges, those of 10 cm where most
+that this path leads to. The steps of 50 cm go along the whole ranges, those of 10 cm where many
 events are, those of 1 cm where they are closest together; ``ASSOC_HULL_LONG=1`` takes all along
 the whole ranges, and the shifts also in steps of 1 mm round every event, in a quarter of an hour.
 """

@@ -24,7 +24,7 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.arguments import choice, number, text
+from assoc_hull.arguments import all_of, choice, instance, number, text
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.forms.uses import USES
 
@@ -79,19 +79,21 @@ Mark = tuple[int, float]
 """A piece of a generated curve, and t (0 to 4) on it."""
 
 
+_CALL = "in a definition"
+
+
 def _values(given: Mapping[str, float | None]) -> Mapping[str, float | None]:
+    values = instance(given, Mapping, "values", _CALL)  # type: ignore[type-abstract]
     return MappingProxyType(
         {
-            text(name, "a name", "in a definition"): None
-            if value is None
-            else number(value, name, "in a definition") + 0.0
-            for name, value in given.items()
+            text(name, "a name", _CALL): None if value is None else number(value, name, _CALL) + 0.0
+            for name, value in values.items()
         }
     )
 
 
 def _labels(given: Iterable[str]) -> tuple[str, ...]:
-    return tuple(given)
+    return tuple(all_of(given, str, "nodes", _CALL))
 
 
 @attrs.frozen
@@ -125,8 +127,10 @@ class FormDefinition:
     nodes: tuple[str, ...] = attrs.field(default=(), converter=_labels)
 
     def __attrs_post_init__(self) -> None:
-        where = f"in the definition {text(self.name, 'name', 'in a definition')!r}"
-        wanted = USES[choice(self.use, "use", tuple(USES), where)].kind
+        where = f"in the definition {text(self.name, 'name', _CALL)!r}"
+        if text(self.use, "use", where) not in USES:
+            raise UnknownNameError("use of a definition", self.use, tuple(USES))
+        wanted = USES[self.use].kind
         if choice(self.kind, "kind", FORM_KINDS, where) != wanted:
             raise BadInputError(f"the kind {self.kind!r}", where, f"{self.use} is of {wanted!r}")
         choice(self.rule, "rule", RULES, where)
@@ -136,7 +140,7 @@ class FormDefinition:
         known = self.names
         for name in self.values:
             if name not in known:
-                raise BadInputError(f"{name!r} is not one of its values", where, f"use {known}")
+                raise UnknownNameError("value", name, known)
         object.__setattr__(self, "values", _values({n: self.values.get(n) for n in known}))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -158,13 +162,13 @@ class FormDefinition:
 
     def value(self, name: str) -> float | None:
         """Give a value by its name."""
-        if name not in self.values:
+        if text(name, "a name", _CALL) not in self.values:
             raise UnknownNameError("value", name, tuple(self.names))
         return self.values[name]
 
     def having(self, changes: Mapping[str, float | None]) -> FormDefinition:
         """Give the same definition with other values."""
-        for name in changes:
+        for name in instance(changes, Mapping, "changes", _CALL):  # type: ignore[type-abstract]
             self.value(name)
         return attrs.evolve(self, values={**self.values, **changes})
 

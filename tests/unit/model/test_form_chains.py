@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.errors import BadInputError, OutOfRangeError, UnknownNameError
 from assoc_hull.model.forms.chains import chain_of
 from assoc_hull.model.forms.course import course_vertices
 from assoc_hull.model.forms.definition import FormDefinition
@@ -175,6 +175,14 @@ def test_refused_courses(definition: FormDefinition, text: str) -> None:
     """Courses that are none are refused by name."""
     with pytest.raises(BadInputError, match=text):
         chain_of(definition, PARTICULARS)
+
+
+def test_what_no_use_has_is_no_definition() -> None:
+    """A use is one of those that are known, and has its kind."""
+    with pytest.raises(UnknownNameError, match="use of a definition"):
+        course("no_such_use", {"a": (0.0, 0.0)})
+    with pytest.raises(BadInputError, match="is of 'halves'"):
+        course("sectional_area", {"a": (0.0, 0.0)})
 
 
 def test_two_for_one_use() -> None:
