@@ -31,19 +31,20 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
     >>> list(find_detached(state, AddressBook(state)))
     []
     """
-    lines = {state.line_of(made.curve) for made in state.generated if not made.attached}
+    live = set(state.live("curves").tolist())
+    lost = [made for made in state.generated if not made.attached and made.curve in live]
+    lines = {state.line_of(made.curve) for made in lost}
     names = sorted(book.line_name(line) for line in lines)
     if len(names) > _MOST:
         told = ", ".join(names[:_TOLD])
         text = (
             f"and {len(names) - 1} other lines ({told} ...) are detached from the definitions: "
-            "they were edited by hand, or with the whole hull; edit.reattach returns one"
+            "their shape was edited since; edit.reattach returns one"
         )
         yield Finding("detached", names[0], None, float(len(names)), text)
         return
     for name in names:
         text = (
-            "is detached from the definitions since its shape was edited by hand: "
-            "edit.reattach returns it"
+            "is detached from the definitions since its shape was edited: edit.reattach returns it"
         )
         yield Finding("detached", name, None, None, text)

@@ -1,10 +1,10 @@
 """The definitions of the 180 m bulk carrier: one parent's areas, all else chosen.
 
 The curve of sectional areas is given: rounded numbers fitted to the section areas of a bulk
-carrier in A. Versluis, "Computer aided design of shipform by affine transformation", 1977, as
-printed in S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans.
-SNAK 29(2), 1992. Its entrance closes it to CB 0.75 and a centre of buoyancy 2.90 m forward of
-midship. The midship section, with a bilge radius of 1.8125 m, has the area 292.59 m2 of theirs.
+carrier (A. Versluis 1977) that S.Y. Kim, S.W. Kang print in "Ship Lines Creation by B-Spline Form
+Parameter Method", Trans. SNAK 29(2), 1992; see `assoc_hull.examples.versluis`. Its entrance
+closes it to CB 0.75 and a centre of buoyancy 2.90 m forward of midship. The midship section, with
+a bilge radius of 1.8125 m, has their area, 292.59 m2.
 
 Waterline, contour, flats, angles, curvatures, tangents and deck are ours. The centroids of the
 sections come out of them; none is given.
@@ -19,6 +19,8 @@ Examples
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 from assoc_hull.creation.courses import course, design_waterline, sectional_area
 from assoc_hull.model.forms.definition import FormDefinition
@@ -37,7 +39,7 @@ FULL = 292.59
 BILGE = 1.8125
 """Radius (m) of the bilge amidships."""
 
-AREAS = {
+AREAS: dict[str, Any] = {
     "run_start_ordinate": 6.08 / FULL,
     "run_start_angle_deg": 25.0,
     "run_start_curvature": 0.0,
@@ -54,7 +56,7 @@ AREAS = {
 }
 """The curve of areas, in the frame of the ship: -1 at AP, 1 at FP, 1 the midship section."""
 
-WATERLINE = {
+WATERLINE: dict[str, Any] = {
     "run_start": -1.05,
     "run_start_angle_deg": 83.0,
     "run_start_tangent": 0.17,

@@ -169,11 +169,13 @@ def form_vertices(
     none = np.full(len(ends), np.nan)
     area = none if area is None else area
     centroid = none if centroid is None else centroid
-    middle = np.where(
-        np.isnan(area)[:, None], fair_vertex(ends),
-        np.where(
-            np.isnan(centroid)[:, None], area_vertex(ends, area),
-            middle_vertex(ends, area, centroid)[0],
-        ),
-    )  # fmt: skip
+    free, loose = np.isnan(area), np.isnan(centroid)
+    middle = np.empty((len(ends), 2))
+    # Each rule for its own curves only: the last one costs as much as all the rest.
+    if free.any():
+        middle[free] = fair_vertex(ends[free])
+    if (some := ~free & loose).any():
+        middle[some] = area_vertex(ends[some], area[some])
+    if (some := ~free & ~loose).any():
+        middle[some] = middle_vertex(ends[some], area[some], centroid[some])[0]
     return with_middle(ends, middle[:, 0], middle[:, 1])

@@ -54,6 +54,10 @@ _MIDDLE = power_form(np.repeat(np.eye(7)[3, :, None], 2, axis=1)[None])[..., 0]
 """N_3 in powers, (1, 4 segments, 4 powers)."""
 
 
+_BLOCK = 256
+"""So many curves at once: what lies between their powers and their sums stays near at hand."""
+
+
 def _shares(powers: int) -> FloatArray:
     """Give what y^p and the slope of z^m contribute, m / (p + m) for m from 1: (4, powers)."""
     p, m = np.arange(4.0)[:, None], np.arange(1.0, powers + 1.0)
@@ -120,6 +124,14 @@ def middle_terms(ends: FloatArray) -> MiddleTerms:
     ends : (n, 6, 2)
         P0, P1, P2, P4, P5, P6.
     """
+    if len(ends) <= _BLOCK:
+        return _terms(ends)
+    parts = [_terms(ends[row : row + _BLOCK]) for row in range(0, len(ends), _BLOCK)]
+    names = [field.name for field in attrs.fields(MiddleTerms)]
+    return MiddleTerms(*(np.concatenate([getattr(p, name) for p in parts]) for name in names))
+
+
+def _terms(ends: FloatArray) -> MiddleTerms:
     vertices = np.zeros((len(ends), 7, 2))
     vertices[:, :3], vertices[:, 4:] = ends[:, :3], ends[:, 3:]
     power = power_form(vertices)

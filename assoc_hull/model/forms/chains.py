@@ -28,7 +28,6 @@ from assoc_hull.geometry.form_extremes import least_rate
 from assoc_hull.model.forms.course import course_vertices
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.halves import halves_vertices
-from assoc_hull.model.forms.uses import USES
 from assoc_hull.model.state import Particulars
 
 __all__ = ["chain_of"]
@@ -57,7 +56,7 @@ def chain_of(definition: FormDefinition, particulars: Particulars) -> FormChain:
     OutOfRangeError
         A value between ends that do not admit it, with the interval that they do admit.
     BadInputError
-        A use or kind that does not fit, a value that is missing, a curve that folds back.
+        A value that is missing, a curve that folds back.
     """
     return _chain(definition, particulars.length)
 
@@ -65,14 +64,6 @@ def chain_of(definition: FormDefinition, particulars: Particulars) -> FormChain:
 @lru_cache(maxsize=4096)
 def _chain(definition: FormDefinition, length: float) -> FormChain:
     where = f"in the definition {definition.name!r}"
-    if definition.use not in USES:
-        known = ", ".join(USES)
-        raise BadInputError(f"the use {definition.use!r} is unknown", where, f"use one of {known}")
-    wanted = USES[definition.use].kind
-    if definition.kind != wanted:
-        raise BadInputError(
-            f"{definition.use} is of kind {definition.kind!r}", where, f"give a {wanted!r}"
-        )
     if definition.kind == "halves":
         return _in_the_ship(definition, length, where)
     vertices = course_vertices(definition)
