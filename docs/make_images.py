@@ -13,6 +13,7 @@ from pathlib import Path
 
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.created import bulk_carrier_180m, bulk_carrier_180m_parent
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
@@ -34,7 +35,9 @@ from assoc_hull.analysis.hydrostatics import hydrostatic_table
 from assoc_hull.analysis.panels.build import panels
 from assoc_hull.analysis.stability.flooding import FloodingPoint
 from assoc_hull.analysis.stability.stability import stability
+from assoc_hull.creation.form_curve import FormCurve
 from assoc_hull.plot import lines_plan, neighbourhood
+from assoc_hull.plot.form_curve import form_curve_picture
 from assoc_hull.plot.form_sheet import form_sheets
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.panels import panel_plan
@@ -87,6 +90,15 @@ def series() -> Figure:
     return curve_series(areas, terms=8)
 
 
+def form_curve() -> Figure:
+    """Draw the run of a curve of sectional areas: type 1 of Kim & Kang 1992."""
+    run = FormCurve.of(
+        (-1.0, 0.0), (-0.3, 1.0), start_angle_deg=60.0, start_curvature=-2.0,
+        finish_angle_deg=0.0, area=0.55, centroid=-0.59,
+    )  # fmt: skip
+    return form_curve_picture(run, title="Run, type 1")
+
+
 def mesh() -> Figure:
     """Draw 800 panels of half the bulk carrier, trimmed by the stern."""
     return panel_plan(panels(examples.bulk_carrier_207k(), draughts=(20.0, 17.0), count=800))
@@ -99,6 +111,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "righting_levers": levers,
     "curve_series": series,
     "panels": mesh,
+    "form_curve": form_curve,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,
@@ -114,6 +127,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "rounded_hat": rounded_hat,
     "section_shifts": section_shifts,
     "generated_sections": generated_sections,
+    "bulk_carrier_180m": bulk_carrier_180m,
+    "bulk_carrier_180m_parent": bulk_carrier_180m_parent,
     "comparison": comparison,
     "variant_areas": variant_areas,
     "variant_plan": variant_plan,
@@ -122,9 +137,14 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
+DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
+       "dtc_report": 110, "carrier_combs": 96, "comparison": 110, "variant_plan": 110,
+       "form_sheet": 100, "panels": 105}  # fmt: skip
+PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "dtc")
 DPI = {"series60": 110, "bulk_carrier": 110, "dtc": 110, "dtc_report": 110, "carrier_combs": 96,
        "comparison": 110, "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "dtc")
+COLOURS = {**dict.fromkeys(PLANS, 16), "form_curve": 256}
 
 
 def write(name: str) -> int:
@@ -134,7 +154,7 @@ def write(name: str) -> int:
     dpi = DPI.get(name, 120)
     figure.savefig(path, dpi=dpi, facecolor="white", bbox_inches=None)
     plt.close(figure)
-    colours = 16 if name in PLANS else 64
+    colours = COLOURS.get(name, 64)
     with Image.open(path) as image:
         image.convert("RGB").quantize(colours).save(path, optimize=True)
     return path.stat().st_size

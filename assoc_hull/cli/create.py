@@ -19,8 +19,7 @@ def add(commands: Commands) -> None:
         commands, "create", "make a hull from a design: definitions by form parameters", _create,
         """assoc-hull create --example > design.json
         assoc-hull create design.json -o ship.hull
-        assoc-hull create design.json -o ship.hull --json
-        assoc-hull schema --of design""",
+        assoc-hull create design.json -o ship.hull --json""",
     )  # fmt: skip
     parser.add_argument(
         "design", metavar="DESIGN.json", type=Path, nargs="?", help="particulars and definitions"

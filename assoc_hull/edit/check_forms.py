@@ -37,13 +37,13 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
         told = ", ".join(names[:_TOLD])
         text = (
             f"and {len(names) - 1} other lines ({told} ...) are detached from the definitions: "
-            "they were edited by hand, or with the whole hull; edit.reattach returns one"
+            "their shape was edited since; edit.reattach returns one"
         )
         yield Finding("detached", names[0], None, float(len(names)), text)
         return
     for name in names:
         text = (
-            "is detached from the definitions since its shape was edited by hand: "
+            "is detached from the definitions since its shape was edited: "
             "edit.reattach returns it"
         )
         yield Finding("detached", name, None, None, text)

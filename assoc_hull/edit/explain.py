@@ -201,9 +201,20 @@ class _Teller:
                 _key(self.state, node), _name(self.book, node), self.step.name, self.number,
                 None if np.isnan(trace.moved) else trace.moved, self._what(trace),
                 tuple(self.tell(each) for each in _told(trace.causes, self._made)),
-                tuple(_name(self.book, each) for each in self.tracer.cut_off(node)),
+                self._stopped(node),
             )  # fmt: skip
         return self._done[node]
+
+    def _stopped(self, node: int) -> tuple[str, ...]:
+        """Name where a change stopped; of a definition the lines of which it moved no point."""
+        quiet = self.tracer.cut_off(node)
+        if node >= 0:
+            return tuple(_name(self.book, each) for each in quiet)
+        reached = self.step.cause.reader[self.step.cause.source == node] >> 1
+        curve = self.state.rows.curve.data[:, 0]
+        moved = set(curve[np.setdiff1d(reached, np.array(quiet, np.int64) >> 1)].tolist())
+        still = dict.fromkeys(curve[each >> 1] for each in quiet if curve[each >> 1] not in moved)
+        return tuple(self.book.curve_name(int(each)) for each in still)
 
     def _what(self, trace: Trace) -> str:
         if trace.node < 0:

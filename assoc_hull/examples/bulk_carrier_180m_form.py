@@ -1,10 +1,10 @@
 """The definitions of the 180 m bulk carrier: one parent's areas, all else chosen.
 
 The curve of sectional areas is given: rounded numbers fitted to the section areas of a bulk
-carrier in A. Versluis, "Computer aided design of shipform by affine transformation", 1977, as
-printed in S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Trans.
-SNAK 29(2), 1992. Its entrance closes it to CB 0.75 and a centre of buoyancy 2.90 m forward of
-midship. The midship section, with a bilge radius of 1.8125 m, has the area 292.59 m2 of theirs.
+carrier (A. Versluis 1977) that S.Y. Kim, S.W. Kang print in "Ship Lines Creation by B-Spline Form
+Parameter Method", Trans. SNAK 29(2), 1992; see `assoc_hull.examples.versluis`. Its entrance
+closes it to CB 0.75 and a centre of buoyancy 2.90 m forward of midship. The midship section, with
+a bilge radius of 1.8125 m, has their area, 292.59 m2.
 
 Waterline, contour, flats, angles, curvatures, tangents and deck are ours. The centroids of the
 sections come out of them; none is given.

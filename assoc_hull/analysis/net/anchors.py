@@ -49,8 +49,9 @@ class Anchor:
         Where it lies on the rails.
     low, high : float
         How far up the rails that is, from 0 to 1.
-    course : (n, 3) or None, m
-        Places along it, from aft forward; None for a side of the strip.
+    course : (5, 3) or None, m
+        Its ends and three places between, evenly spaced in x, from aft forward; None for a
+        side of the strip.
     """
 
     parts: tuple[Part, ...]
@@ -74,8 +75,8 @@ class Spans:
         Along the stretch x only grows, or only falls.
     of : dict of (int, int) to tuple of int
         Which spans run between two curves.
-    course : (n, k, 3), m
-        Places along each stretch.
+    course : (n, 5, 3), m
+        The ends of each stretch and three places between, evenly spaced in x.
     """
 
     span: tuple[tuple[Part, Spot, Spot, int], ...]
@@ -130,10 +131,22 @@ def steady(net: Net, parts: Sequence[Part]) -> tuple[bool, ...]:
 
 
 def _courses(net: Net, parts: Sequence[Part]) -> FloatArray:
-    """Give places along parts of curves, (n, k, 3), m."""
+    """Give ends of parts of curves and the places at 1/4, 1/2 and 3/4 of their length, (n, 5, 3).
+
+    The length is that along the ship; places lie on straight lines between samples.
+    """
     curve, t = _sampled(parts)
-    found: FloatArray = evaluate(net.batch, curve.repeat(t.shape[1]), t.ravel())
-    return found.reshape(*t.shape, 3)
+    flat: FloatArray = evaluate(net.batch, curve.repeat(t.shape[1]), t.ravel())
+    place = flat.reshape(*t.shape, 3)
+    ahead = np.where((place[:, -1:, :1] >= place[:, :1, :1]), place, place[:, ::-1])
+    x, rows = ahead[..., 0], np.arange(len(place))[:, None]
+    at = place[:, :1, 0] + (place[:, -1:, 0] - place[:, :1, 0]) * np.array([0.25, 0.5, 0.75])
+    after = np.clip((x[:, None, :] <= at[..., None]).sum(axis=2), 1, x.shape[1] - 1)
+    low, high = ahead[rows, after - 1], ahead[rows, after]
+    width = high[..., 0] - low[..., 0]
+    part = np.divide(at - low[..., 0], width, out=np.zeros_like(width), where=width > 0.0)
+    between = low + (high - low) * np.clip(part, 0.0, 1.0)[..., None]
+    return np.concatenate([place[:, :1], between, place[:, -1:]], axis=1)
 
 
 def _sampled(parts: Sequence[Part]) -> tuple[IntArray, FloatArray]:
@@ -247,17 +260,8 @@ def _cross(below: Anchor, above: Anchor) -> bool:
     """
     if below.course is None or above.course is None:
         return False
-    one, other = _midway(below.course), _midway(above.course)
-    out = above.course[[0, -1]] - below.course[[0, -1]]
-    return bool(((other - one) @ out.sum(axis=0) <= 0.0).any())
-
-
-def _midway(course: FloatArray) -> FloatArray:
-    """Give the places at 1/4, 1/2 and 3/4 of the length between the rails, (3, 3), m."""
-    x = course[:, 0]
-    ahead = course if x[-1] >= x[0] else course[::-1]
-    at = x[0] + (x[-1] - x[0]) * np.array([0.25, 0.5, 0.75])
-    return np.stack([np.interp(at, ahead[:, 0], ahead[:, i]) for i in range(3)], axis=1)
+    apart = above.course - below.course
+    return bool((apart[1:-1] @ (apart[0] + apart[-1]) <= 0.0).any())
 
 
 def _turned(part: Part) -> Part:

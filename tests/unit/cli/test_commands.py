@@ -55,6 +55,9 @@ def test_help_shows_examples(capsys: pytest.CaptureFixture[str]) -> None:
         pytest.param("series60-060", marks=pytest.mark.slow),
         pytest.param("series60-070", marks=pytest.mark.slow),
         pytest.param("bulk-carrier-207k", marks=pytest.mark.slow),
+        pytest.param("bulk-carrier-180m", marks=pytest.mark.slow),
+        pytest.param("container-ship-225m", marks=pytest.mark.slow),
+        "plain-ship",
     ],
 )
 def test_an_example_is_written(name: str, tmp_path: Path, facts: Json) -> None:

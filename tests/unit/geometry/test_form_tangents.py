@@ -67,8 +67,10 @@ def test_fairest_tangents_are_the_published_ones(name: str) -> None:
     assert sums.moment / sums.area == pytest.approx(curve[3], abs=1e-14)
 
 
-@pytest.mark.parametrize("kind", ["E3", "E2", "J"])
-@pytest.mark.parametrize("name", FAIREST)
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("T1_run", "E3"), ("T1_ent", "E3"), ("T2_run", "E3"), ("T1_run", "J"), ("T2_ent", "E2")],
+)
 def test_no_simplex_finds_a_fairer_curve(name: str, kind: str) -> None:
     """The search of Nelder and Mead, from the middle of the range."""
     curve = given(name)

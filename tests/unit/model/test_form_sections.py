@@ -12,7 +12,7 @@ from scipy.spatial.distance import cdist
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
 from assoc_hull.geometry.form_curve import form_at, form_integrals
-from assoc_hull.geometry.spline import evaluate, loft
+from assoc_hull.geometry.spline import derivative, evaluate, loft
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.generate import (
@@ -95,6 +95,28 @@ def distance(spline: SplineBatch, shape: SectionShape) -> float:
         off = points - start - share[:, None] * way
         found = np.minimum(found, np.sqrt((off * off).sum(axis=1)))
     return float(found.max())
+
+
+def turns(rate: FloatArray, step: float) -> int:
+    """How often a curve, by its derivatives at even steps, changes between left and right turns."""
+    angle = np.arctan2(rate[:, 1], rate[:, 2])
+    pace = np.sqrt((rate * rate).sum(axis=1))
+    bend = np.diff(angle) / (0.5 * (pace[1:] + pace[:-1]) * step)
+    # Flatter than a radius of 1 km is straight.
+    seen = np.sign(bend[np.abs(bend) > 1e-3])
+    return int((seen[1:] != seen[:-1]).sum())
+
+
+def test_no_inflection_of_its_own(ship: Forms) -> None:
+    """The spline turns left and right as often as its pieces do."""
+    for x in (4.5, 27.0, 45.0, 153.0, 171.0):
+        spline, shape, _ = drawn(ship, x)
+        knots, step = np.linspace(0.0, spline.knot[-1], 1200, retstep=True)
+        own = derivative(spline, np.zeros(1200, np.int64), knots)
+        t = np.append(np.tile(np.arange(600) / 150.0, len(shape.pieces)), 4.0)
+        piece = np.minimum(np.arange(len(t)) // 600, len(shape.pieces) - 1)
+        exact = shape.tangent(np.zeros(len(t), np.int64), piece, t)
+        assert turns(own, step) == turns(exact, 1.0 / 150.0)
 
 
 @pytest.fixture(scope="module")
@@ -420,3 +442,11 @@ def test_unknown_line(ship: Forms) -> None:
     """What cannot be generated is refused."""
     with pytest.raises(BadInputError, match="cannot be generated"):
         layout_at(ship, "frame", 3.0)
+
+
+def test_marks_on_no_piece(ship: Forms) -> None:
+    """A mark beyond the pieces is refused: nothing lies there."""
+    curve, ends = generated(ship, 36.0)
+    for mark in ((2, 0.0), (0, 4.5), (-1, 1.0)):
+        with pytest.raises(BadInputError, match="lies on no piece"):
+            generated_points(ship, [curve.evolve(marks=(mark,))], np.array([36.0]), ends[None])
