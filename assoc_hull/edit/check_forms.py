@@ -31,7 +31,9 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
     >>> list(find_detached(state, AddressBook(state)))
     []
     """
-    lines = {state.line_of(made.curve) for made in state.generated if not made.attached}
+    live = set(state.live("curves").tolist())
+    lost = [made for made in state.generated if not made.attached and made.curve in live]
+    lines = {state.line_of(made.curve) for made in lost}
     names = sorted(book.line_name(line) for line in lines)
     if len(names) > _MOST:
         told = ", ".join(names[:_TOLD])
@@ -43,7 +45,6 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
         return
     for name in names:
         text = (
-            "is detached from the definitions since its shape was edited: "
-            "edit.reattach returns it"
+            "is detached from the definitions since its shape was edited: edit.reattach returns it"
         )
         yield Finding("detached", name, None, None, text)

@@ -68,6 +68,7 @@ def find_tables(state: HullState, _: AddressBook) -> Iterator[Finding]:
             yield Finding("tables", _key(state, table, number), None, float(value), text)
     yield from _families(state)
     yield from _keys(state)
+    yield from _generated(state)
 
 
 def _flat(state: HullState, table: str, column: str) -> tuple[IntArray, IntArray]:
@@ -109,6 +110,16 @@ def _families(state: HullState) -> Iterator[Finding]:
         if family not in FAMILIES:
             text = f"is of the family {family!r}, which does not exist: {REMEDY}"
             yield Finding("tables", _key(state, "groups", group), None, None, text)
+
+
+def _generated(state: HullState) -> Iterator[Finding]:
+    """Tell generated curves that are not there, or lack points."""
+    curves, rows = set(state.live("curves").tolist()), set(state.live("rows").tolist())
+    for made in state.generated:
+        there = made.curve in curves and state.curves.key.data[made.curve] == made.key
+        if not there or (made.attached and not rows.issuperset(made.rows)):
+            text = f"comes from definitions, but it or a point of it is not there: {REMEDY}"
+            yield Finding("tables", made.key, None, None, text)
 
 
 def _keys(state: HullState) -> Iterator[Finding]:

@@ -82,6 +82,10 @@ def _curve(state: HullState, record: Record, keys: Keys) -> GeneratedCurve:
         raise wrong(f"{record['what']!r} cannot be generated", where)
     rows = tuple(keys.find("points", point, key) for point in record["points"])
     marks = tuple(_mark(mark, where) for mark in record["marks"])
+    pieces = record["layout"].split("+")
+    beyond = [mark for mark in marks if mark[0] >= len(pieces)]
+    if beyond and record["what"] != "waterline":
+        raise wrong(f"a mark on piece {beyond[0][0]}, of {len(pieces)}", where)
     attached = bool(record.get("attached", True))
     if len(marks) != len(rows):
         raise wrong(f"there are {len(rows)} points and {len(marks)} marks", where)

@@ -229,9 +229,21 @@ def _groups(
     """Give the numbers of the curves that are made alike."""
     found: dict[tuple[str, str], list[int]] = {}
     for number, curve in enumerate(curves):
+        _on_pieces(curve)
         found.setdefault((curve.what, curve.layout), []).append(number)
     for kind, numbers in found.items():
         yield kind, np.array(numbers, np.int64)
+
+
+def _on_pieces(curve: GeneratedCurve) -> None:
+    """Refuse marks that lie on no piece."""
+    count = 2 if curve.what == "waterline" else curve.layout.count("+") + 1
+    for piece, t in curve.marks:
+        if not (0 <= piece < count and 0.0 <= t <= 4.0):
+            raise BadInputError(
+                f"the mark ({piece}, {t:g}) lies on no piece of {curve.layout!r}",
+                f"in the generated curve {curve.key!r}", "correct it",
+            )  # fmt: skip
 
 
 def _under(what: str, layout: str) -> int:

@@ -45,7 +45,10 @@ def completed(script: Path, *words: str) -> set[str]:
     [
         (("",), {"demo", "example", "import", "edit", "check", "plot", "completion", "schema"}),
         (("ver",), {"verify"}),
-        (("example", ""), {"wigley", "series60-070", "bulk-carrier-207k", "bulk-carrier-180m", "plain-ship"}),
+        (
+            ("example", ""),
+            {"wigley", "series60-070", "bulk-carrier-207k", "bulk-carrier-180m", "plain-ship"},
+        ),
         (("graph", "--f"), {"--format"}),
         (("graph", "--format", ""), {"dot", "graphml", "mermaid", "json"}),
         (("import", "--uni"), {"--unit"}),

@@ -1,6 +1,7 @@
 """A line that is edited by hand leaves its definitions, keeps its shape, and can return to them."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -163,7 +164,8 @@ def test_both_ways_in_one_edit_are_refused(hull: ah.Hull) -> None:
     place = hull.points["ST 25 @ placed 1"]
     move = {"op": "move", "point": place.id, "y": place.y + 0.02, "z": place.z}
     back = {"op": "reattach", "line": "ST 25"}
-    for both in ([move, back], [back, move]):
+    orders: list[list[dict[str, Any]]] = [[move, back], [back, move]]
+    for both in orders:
         with pytest.raises(ah.AssocHullError):
             hull.apply("both", both)
         assert hull.fingerprint == before

@@ -1,5 +1,8 @@
 """set_form: a definition takes other values, and what is generated from it follows."""
 
+import contextlib
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,6 +12,8 @@ from assoc_hull.model.definition import definition
 from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
 from tests.formed import formed
+from tests.independent import polynomial
+from tests.unit.test_bad_arguments import BAD
 
 
 @pytest.fixture(scope="module")
@@ -24,36 +29,17 @@ def hull(made: HullState) -> ah.Hull:
 
 
 def area(hull: ah.Hull, line: str) -> float:
-    """Give the area (m2) of the half section below the draught on the spline, by Simpson's rule."""
+    """Give the area (m2) of a half section below the draught on its spline, by Gauss' rule."""
     state = hull.state
     number = next(i for i in state.live("lines").tolist() if state.lines.name.data[i] == line)
     spline = state.spline(state.curves_of(number)[0])
-    total = 0.0
-    for i in range(len(spline.knot) - 1):
-        h = spline.knot[i + 1] - spline.knot[i]
-        p, q, dp, dq = (spline.xyz[i], spline.xyz[i + 1], h * spline.leave[i],
-                        h * spline.arrive[i + 1])  # fmt: skip
-        if q[2] > hull.particulars.draught + 1e-9:
-            break
-        u, w = np.polynomial.legendre.leggauss(4)
-        t = 0.5 + 0.5 * u
-        y = _hermite(p[1], q[1], dp[1], dq[1], t)
-        slope = _hermite_slope(p[2], q[2], dp[2], dq[2], t)
-        total += float((0.5 * w * y * slope).sum())
-    return total
-
-
-def _hermite(p, q, dp, dq, t):
-    return (
-        p * (1 + 2 * t) * (1 - t) ** 2 + dp * t * (1 - t) ** 2
-        + q * t**2 * (3 - 2 * t) - dq * t**2 * (1 - t)
-    )  # fmt: skip
-
-
-def _hermite_slope(p, q, dp, dq, t):
-    return (
-        6 * (q - p) * t * (1 - t) + dp * (1 - t) * (1 - 3 * t) + dq * t * (3 * t - 2)
-    )  # fmt: skip
+    shape = polynomial(spline)
+    under = spline.knot[spline.xyz[:, 2] <= hull.particulars.draught + 1e-9]
+    node, weight = np.polynomial.legendre.leggauss(4)
+    middle, half = 0.5 * (under[1:] + under[:-1]), 0.5 * np.diff(under)
+    at = middle[:, None] + half[:, None] * node
+    strips = shape(at)[:, :, 1] * shape.derivative()(at)[:, :, 2]
+    return float((strips * weight * half[:, None]).sum())
 
 
 def test_sections_have_the_area_of_the_definition(hull: ah.Hull) -> None:
@@ -85,7 +71,8 @@ def test_the_hull_is_that_of_the_other_definition(hull: ah.Hull) -> None:
 
 def test_names_uses_and_definitions_name_it(hull: ah.Hull) -> None:
     """All three; the report tells what was changed, from what to what."""
-    for number, name in enumerate(("flare", "waterline_angle", hull.definitions["flare"])):
+    names: list[Any] = ["flare", "waterline_angle", hull.definitions["flare"]]
+    for number, name in enumerate(names):
         with hull.edit("flare") as edit:
             edit.set_form(name, AP_y=24.0 - number)
     assert [each.definitions for each in hull.history] == [
@@ -211,7 +198,7 @@ def test_the_graph_shows_what_generates_what(hull: ah.Hull) -> None:
     assert {"form:sectional_area", "form:design_waterline"} <= uses
     kinds = {data["kind"] for _, _, data in hull.graph().edges(data=True)}
     assert "generates" in kinds
-    drives = hull.dependencies(points=True).edges(data="kind")
+    drives: Any = hull.dependencies(points=True).edges(data="kind")
     assert "generates" in {kind for _, _, kind in drives}
     with hull.edit("fuller") as edit:
         edit.set_form("areas", run_area=0.512)
@@ -225,4 +212,16 @@ def test_keep_going_refuses_what_no_definition_gives(hull: ah.Hull) -> None:
     with pytest.raises(ah.RefusedEditError, match="outside the box"), edit:
         edit.set_form("waterline", full=5.0)
     assert hull.fingerprint == before
+    assert hull.verify() == ()
+
+
+@pytest.mark.parametrize("value", BAD.values(), ids=BAD)
+def test_bad_values_are_errors_of_the_family(hull: ah.Hull, value: Any) -> None:
+    """Whatever stands for a number, or for a definition."""
+    for name, given in (("flare", {"AP_y": value}), (value, {"AP_y": 20.0})):
+        with contextlib.suppress(ah.AssocHullError), hull.edit("bad") as edit:
+            edit.set_form(name, **given)
+    for name in ("cb", "lcb"):
+        with contextlib.suppress(ah.AssocHullError), hull.edit("bad") as edit:
+            edit.set_form("areas", **{name: value})
     assert hull.verify() == ()

@@ -442,3 +442,11 @@ def test_unknown_line(ship: Forms) -> None:
     """What cannot be generated is refused."""
     with pytest.raises(BadInputError, match="cannot be generated"):
         layout_at(ship, "frame", 3.0)
+
+
+def test_marks_on_no_piece(ship: Forms) -> None:
+    """A mark beyond the pieces is refused: nothing lies there."""
+    curve, ends = generated(ship, 36.0)
+    for mark in ((2, 0.0), (0, 4.5), (-1, 1.0)):
+        with pytest.raises(BadInputError, match="lies on no piece"):
+            generated_points(ship, [curve.evolve(marks=(mark,))], np.array([36.0]), ends[None])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.io.hull_file_sound import require_sound
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model import index
 from assoc_hull.model.copy import copy_of
@@ -113,7 +114,8 @@ def test_hulls_without_definitions_keep_their_fingerprint() -> None:
     """Nothing of definitions stands in what is hashed of them."""
     hull = ah.examples.wigley(stations=5, waterlines=4)
     assert "definitions" not in definition(hull.state)
-    assert hull.state.definitions == hull.state.generated == ()
+    assert hull.state.definitions == ()
+    assert hull.state.generated == ()
     with pytest.raises(ah.BadInputError, match="no definitions"):
         hull.apply("back", [{"op": "reattach", "line": "ST 1"}])
 
@@ -181,3 +183,12 @@ def test_a_hull_with_definitions_goes_through_a_pipe(made: HullState) -> None:
     assert again.definitions == made.definitions
     assert fingerprint(copy.deepcopy(again)) == fingerprint(made)
     points_given(again, again.generated)
+
+
+def test_a_generated_curve_that_is_not_there_is_found(hull: ah.Hull) -> None:
+    """By check and by who opens a file, if other hands have written it."""
+    table = hull.state.produced
+    table.curve.data[1] = table.curve.data[1].evolve(curve=10**6, attached=False)
+    assert "tables" in {each.kind for each in hull.check()}
+    with pytest.raises(ValueError, match="does not exist"):
+        require_sound(hull.state)
