@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -24,12 +24,9 @@ Sections = dict[float, list[FloatArray]]
 
 
 @pytest.fixture(scope="module")
-def kept(shipped: object) -> ah.Hull:
+def kept(shipped: Callable[[str], ah.Hull]) -> ah.Hull:
     """The container ship; a test that edits it undoes its edits."""
-    assert callable(shipped)
-    found = shipped("container_ship_225m")
-    assert isinstance(found, ah.Hull)
-    return found
+    return shipped("container_ship_225m")
 
 
 @pytest.fixture
