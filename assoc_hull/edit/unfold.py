@@ -22,7 +22,7 @@ from assoc_hull.geometry.order import folds
 from assoc_hull.geometry.spline import derivative, loft
 from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import gap_at, watched_on
-from assoc_hull.model.generated import unmade_rows
+from assoc_hull.model.generated import attached, unmade_rows
 from assoc_hull.model.make import Maker
 from assoc_hull.model.roles import Candidates, choose
 from assoc_hull.model.state import HullState
@@ -109,13 +109,14 @@ def put_in_order(maker: Maker, pending: Pending, trial: Trial) -> bool:
 def loosen(work: Work, curves: IntArray) -> None:
     """Give watched crossings of followers the gaps that new definitions leave them.
 
-    Both curves follow, so there is nothing that they could have come away from.
+    Where definitions or other lines give all of a curve, it has come away from nothing.
     """
     state = work.state
     rows = watched_on(state, curves)
     rows = rows[np.isfinite(state.rows.parameter.data[rows]).all(axis=1)]
     pairs = state.rows.curve.data[rows]
-    follows = {each: _follows(state, each) for each in np.unique(pairs).tolist()}
+    made = attached(state)
+    follows = {each: each in made or _follows(state, each) for each in np.unique(pairs).tolist()}
     rows = rows[[follows[a] or follows[b] for a, b in pairs.tolist()]]
     if not len(rows):
         return

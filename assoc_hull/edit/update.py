@@ -32,6 +32,7 @@ from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.refine_forms import refine_forms
 from assoc_hull.edit.rejoin import rejoin
+from assoc_hull.edit.renew_followers import limit_watched, renew_followers, widen_limits
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
@@ -110,12 +111,17 @@ def _run(
             rows, away = _run_fields(work, rows, origin)
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
+            _in_order(work)
             _settle(work)
             _relink(work)
             _follow_up(work)
         _refine(work)
+<<<<<<< HEAD
         if len(work.forms):
             loosen(work, work.touched())
+=======
+        limit_watched(work)
+>>>>>>> wt-core
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -270,7 +276,20 @@ def _refine(work: Work) -> None:
     curves = refine_forms(work, work.touched())
     if curves:
         work.go(_NONE, np.array(curves, np.int64))
+        _in_order(work)
         _settle(work)
+
+
+def _in_order(work: Work) -> None:
+    """Choose anew what defines lines on which crossings have passed one another."""
+    if not (work.pending.forms or work.pending.attach):
+        return
+    for _ in range(_ROUNDS):
+        curves, watched = renew_followers(work)
+        work.watched += watched
+        if not curves:
+            return
+        work.go(_NONE, np.array(curves, np.int64))
 
 
 def _confirm(work: Work) -> None:
@@ -316,6 +335,8 @@ def _check(work: Work) -> tuple[str, ...]:
             _settle(work)
             curves = work.touched()
             wide = measure_gaps(work.state, curves, work.journal, work.network.index)
+    if len(wide.rows) and work.pending.forms and widen_limits(work, wide):
+        wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)
