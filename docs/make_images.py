@@ -36,7 +36,7 @@ from assoc_hull.analysis.panels.build import panels
 from assoc_hull.analysis.stability.flooding import FloodingPoint
 from assoc_hull.analysis.stability.stability import stability
 from assoc_hull.creation.form_curve import FormCurve
-from assoc_hull.plot import lines_plan, neighbourhood
+from assoc_hull.plot import definition_curves, lines_plan, neighbourhood
 from assoc_hull.plot.form_curve import form_curve_picture
 from assoc_hull.plot.form_sheet import form_sheets
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
@@ -104,7 +104,19 @@ def mesh() -> Figure:
     return panel_plan(panels(examples.bulk_carrier_207k(), draughts=(20.0, 17.0), count=800))
 
 
+def plain_ship() -> Figure:
+    """Draw the lines plan of the plain ship, which is created from form parameters."""
+    return lines_plan(examples.plain_ship(), paper="A4")
+
+
+def definitions() -> Figure:
+    """Draw the definitions of the plain ship."""
+    return definition_curves(examples.plain_ship().state, paper="A4")
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
+    "plain_ship": plain_ship,
+    "definitions": definitions,
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,

@@ -94,7 +94,7 @@ PROFILE = {
 }
 """Transom, counter and skeg, keel, the bulb with its tip 5.6 m ahead of FP, stem."""
 
-Node = tuple[float, float]
+Node = tuple[float, ...]
 
 
 def _at(values: Mapping[float, float]) -> dict[str, Node]:
@@ -108,14 +108,14 @@ _BODY_BEND = {"body aft": (_RUN, -1.0 / BILGE), "body fore": (_ENTRANCE, -1.0 / 
 
 FLAT_OF_SIDE = {
     **_at({36.0: 19.6, 50.0: 15.2}), "draught aft": (_SIDE_AFT, 10.8),
-    **_at({75.0: 7.7, 85.0: 5.6, 95.0: 4.62}), **_BODY_LOW,
+    **_at({75.0: 7.7, 85.0: 5.6, 95.0: 4.68}), **_BODY_LOW,
     **_at({125.0: 4.77, 135.0: 6.5, 141.0: 8.4}), "draught fore": (_SIDE_FORE, 10.8),
     **_at({158.0: 14.8, 172.0: 19.6}),
 }  # fmt: skip
 """z of its lower border."""
 
 FLAT_OF_BOTTOM = {
-    **_at({42.0: 0.0, 48.0: 1.0, 56.0: 3.2, 65.25: 6.2, 75.0: 8.3, 85.0: 9.95, 95.0: 11.05}),
+    **_at({42.0: 0.0, 48.0: 1.0, 56.0: 3.2, 65.25: 6.2, 75.0: 8.3, 85.0: 9.95, 95.0: 11.35}),
     **_BODY_WIDE,
     **_at({125.0: 11.0, 137.0: 9.2, 149.625: 6.2, 160.0: 3.6, 170.0: 1.7, 180.0: 0.6, 190.0: 0.0}),
 }
@@ -137,8 +137,8 @@ KEEL_TANGENT = _at({
 })  # fmt: skip
 
 WATERLINE_ANGLE = _at({
-    -4.2: 85.0, 0.0: 80.0, 10.0: 62.0, 25.0: 38.0, 40.0: 13.0, 45.0: 8.0, 50.0: 5.0, 56.25: 2.4,
-    _SIDE_AFT: 0.0, _SIDE_FORE: 0.0, 158.0: 3.5, 163.0: 9.0, 168.75: 15.0, 180.0: 20.0,
+    -4.2: 85.0, 0.0: 80.0, 10.0: 62.0, 25.0: 38.0, 40.0: 12.5, 45.0: 7.0, 50.0: 5.0, 56.25: 2.4,
+    _SIDE_AFT: 0.0, _SIDE_FORE: 0.0, 158.0: 3.1, 163.0: 8.0, 168.75: 13.4, 180.0: 20.0,
     190.0: 26.0, 200.0: 29.5, 208.0: 27.5, 215.0: 23.0, 220.0: 21.0, 225.0: 22.0,
 })  # fmt: skip
 """Flare at the design draught."""
@@ -150,15 +150,20 @@ WATERLINE_CURVATURE = {
 
 WATERLINE_TANGENT = _at({60.0: 0.6, _SIDE_AFT: 1.11, _SIDE_FORE: 1.11, 152.0: 0.6})
 
-DECK_SIDE = _at({
-    -4.2: 14.3, 5.0: 15.3, 30.0: 16.0, 172.0: 16.0, 182.0: 15.9, 192.0: 15.4, 203.0: 14.2,
-    212.0: 12.4, 220.0: 9.8, 227.0: 6.5, 231.0: 3.4, 233.5: 0.0,
-})  # fmt: skip
+DECK_SIDE: dict[str, Node] = {
+    **_at({-4.2: 14.3, 5.0: 15.3}), "full aft": (30.0, 16.0, 0.0), "full fore": (172.0, 16.0, 0.0),
+    **_at({
+        182.0: 15.9, 192.0: 15.4, 203.0: 14.2, 212.0: 12.4, 220.0: 9.8, 227.0: 6.5, 231.0: 3.4,
+        233.5: 0.0,
+    }),
+}  # fmt: skip
 
-DECK_HEIGHT = _at({-4.2: 19.6, 175.0: 19.6, 233.5: 21.2})
+DECK_HEIGHT = {
+    "transom": (-4.2, 19.6, 0.0), "sheer": (175.0, 19.6, 0.0), "bow": (233.5, 21.2),
+}  # fmt: skip
 
 DECK_ANGLE = _at({
-    -4.2: 3.0, 30.0: 0.0, 172.0: 0.0, 175.0: 12.0, 180.0: 23.0, 190.0: 41.0, 203.0: 54.0,
+    -4.2: 3.0, 30.0: 2.5, 36.0: 0.0, 172.0: 0.0, 175.0: 12.0, 180.0: 23.0, 190.0: 41.0, 203.0: 54.0,
     215.0: 62.0, 233.0: 68.0,
 })  # fmt: skip
 """Flare at the deck edge."""
@@ -200,7 +205,7 @@ def definitions() -> list[FormDefinition]:
     -------
     list of FormDefinition
     """
-    smooth = {
+    smooth: dict[str, Mapping[str, Node]] = {
         "flat_of_side": FLAT_OF_SIDE, "flat_of_bottom": FLAT_OF_BOTTOM, "keel_angle": KEEL_ANGLE,
         "keel_curvature": KEEL_CURVATURE, "keel_tangent": KEEL_TANGENT,
         "waterline_angle": WATERLINE_ANGLE, "waterline_curvature": WATERLINE_CURVATURE,

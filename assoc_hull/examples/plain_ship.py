@@ -53,7 +53,7 @@ def _areas() -> FormDefinition:
         run_start_ordinate=0.045, run_start_angle_deg=22.0, run_area=0.598, run_centroid=-0.424,
         run_start_tangent=0.1, run_end_tangent=0.25,
         run_end=-0.1, entrance_start=0.15, entrance_end_angle_deg=-40.0,
-        entrance_start_tangent=0.25, entrance_end_tangent=0.1,
+        entrance_start_tangent=0.12,
     )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -26,9 +27,9 @@ HEIGHTS = np.linspace(0.05, 15.75, 158)
 
 
 @pytest.fixture(scope="module")
-def ship() -> ah.Hull:
+def ship(shipped: Callable[[str], ah.Hull]) -> ah.Hull:
     """The bulk carrier; no test edits it."""
-    return ah.examples.bulk_carrier_180m()
+    return shipped("bulk_carrier_180m")
 
 
 @pytest.fixture(scope="module")

@@ -539,7 +539,7 @@ def test_a_handle_is_made_of_tables_and_a_number(hull: ah.Hull, kind: Any, value
         (Edit, EDIT),
         (ah.Curve, CURVES),
         (ah.Line, LINES),
-        (ah.FormCurve, {**FORM_CURVES, "from_parameters": {"parameters"}}),
+        (ah.FormCurve, {**FORM_CURVES, "from_parameters": {"parameters", "tangents", "energy"}}),
     ],
     ids=["Hull", "Edit", "Curve", "Line", "FormCurve"],
 )

@@ -54,6 +54,9 @@ _BY_PIECE = {
 }  # fmt: skip
 """Of which definitions each piece of a section is made."""
 
+_SETTLED = {"level": "keel_angle", "upright": "waterline_angle"}
+"""What a flat settles: a definition of that is not read."""
+
 _BY_LINE = {
     "deck edge": ("deck_side", "deck_height"),
     "flat of bottom": ("flat_of_bottom", "profile"),
@@ -83,7 +86,8 @@ def reads(curve: GeneratedCurve) -> tuple[str, ...]:
             found += ["keel_angle", "keel_curvature", "keel_tangent"]
         if curve.what == "transom":
             found += ["profile", "deck_side", "deck_height"]
-        return tuple(dict.fromkeys(found))
+        settled = {_SETTLED[token] for token in tokens if token in _SETTLED}
+        return tuple(use for use in dict.fromkeys(found) if use not in settled)
     if curve.what == "waterline":
         return _BY_LINE.get(f"waterline {curve.layout}", ())
     return _BY_LINE.get(curve.what) or ((COURSES[curve.what],) if curve.what in COURSES else ())

@@ -297,6 +297,8 @@ def test_a_section_depends_on_what_it_reads_only() -> None:
                 assert use in reads(curve)
                 mattered.add(use)
     assert mattered == set(changes) - {"half_siding"}
+    flat = GeneratedCurve("", 0, "section", "level+curve+upright+topside", (), ())
+    assert not {"keel_angle", "waterline_angle"} & set(reads(flat))
 
 
 def test_known_marks_stay(ship: Forms) -> None:
