@@ -12,11 +12,7 @@ from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import Sort
-<<<<<<< HEAD
-from assoc_hull.model.generated import unmade_rows
-=======
 from assoc_hull.model.generated import attached
->>>>>>> wt-core
 from assoc_hull.model.make import Maker, PointSpec
 
 __all__ = ["mend"]
@@ -72,8 +68,7 @@ def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
         point = maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0]
         thread(maker, curve, int(point))
         return -1
-    adopted = state.rows.sort.data[defining[nearest]] == Sort.ADOPTED
-    if not (adopted and unmade_rows(state, defining[nearest : nearest + 1])[0]):
-        return None  # a crossing, a placed point, or one that definitions give
+    if state.rows.sort.data[defining[nearest]] != Sort.ADOPTED:
+        return None
     maker.journal.put(state.rows.xyz, [defining[nearest]], [place])
     return int(defining[nearest])

@@ -38,7 +38,6 @@ from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.take_up_forms import take_up_forms
 from assoc_hull.edit.topology import latent_meetings, settle
-from assoc_hull.edit.unfold import Trial, copied, loosen, put_in_order
 from assoc_hull.edit.work import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -72,28 +71,6 @@ def update(
     RingError
         If driven links would run in a ring.
     """
-    if not pending.forms:
-        return _run(document, name, journal, pending, settings)
-    before, asked = len(journal.entries), copied(pending)
-    try:
-        return _run(document, name, journal, pending, settings)
-    except RefusedEditError:
-        trial = Trial.of(document.state)
-        if not trial.curves:
-            raise
-        journal.undo(before)
-        for field in attrs.fields(Pending):
-            setattr(pending, field.name, getattr(asked, field.name))
-        document.refresh()
-        if not put_in_order(Maker(document.state, journal), pending, trial):
-            raise
-    return _run(document, name, journal, pending, settings)
-
-
-def _run(
-    document: Document, name: str, journal: Journal, pending: Pending, settings: Settings
-) -> Step:
-    """Run an update once."""
     begin = time.perf_counter()
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
     try:
@@ -116,12 +93,7 @@ def _run(
             _relink(work)
             _follow_up(work)
         _refine(work)
-<<<<<<< HEAD
-        if len(work.forms):
-            loosen(work, work.touched())
-=======
         limit_watched(work)
->>>>>>> wt-core
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()

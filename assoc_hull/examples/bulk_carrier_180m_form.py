@@ -82,13 +82,13 @@ _SIDE_AFT, _SIDE_FORE = 50.4, 136.8
 _DECK_AFT, _DECK_FORE = 42.0, 142.0
 """Between these x the deck edge is."""
 
-_POST = -77.26
+_POST = -77.28
 """Angle of the stern post, from the arch of the aperture down to the heel."""
 
 PROFILE = {
-    "transom": {"x": -5.0, "y": 10.9, "angle_deg": -40.0},
-    "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -33.0},
-    "arch": {"x": 5.2, "y": 5.75, "angle_deg": -30.0, "leave_angle_deg": _POST},
+    "transom": {"x": -5.0, "y": 10.85, "angle_deg": -40.0},
+    "overhang": {"x": -4.5, "y": 10.5, "angle_deg": -31.0},
+    "arch": {"x": 5.2, "y": 5.76, "angle_deg": -30.0, "leave_angle_deg": _POST},
     "heel": {"x": 6.5, "y": 0.0, "angle_deg": _POST, "leave_angle_deg": 0.0},
     "forefoot": {"x": 175.5, "y": 0.0, "angle_deg": 0.0, "tangent": 0.9},
     "FP": {"x": 180.0, "y": 10.5, "angle_deg": 82.0, "tangent": 0.6},
@@ -116,15 +116,15 @@ FLAT_OF_BOTTOM = {
 """Its half-breadth."""
 
 KEEL_ANGLE = {
-    "transom": (-5.0, 55.0), "AP": (0.0, 45.0), "ST 0.5": (5.0, 40.0), "post": (7.0, 2.0),
-    "ST 1": (9.0, 9.5), "ST 1.25": (11.25, 21.0), "ST 1.5": (13.5, 37.0), "ST 2": (18.0, 68.0),
+    "transom": (-5.0, 56.0), "AP": (0.0, 43.5), "ST 0.5": (5.0, 47.0), "post": (7.0, 1.5),
+    "ST 1": (9.0, 12.0), "ST 1.25": (11.25, 22.0), "ST 1.5": (13.5, 33.0), "ST 2": (18.0, 68.0),
     "bottom aft": (26.0, 90.0), "bottom fore": (167.5, 90.0), "ST 19": (172.0, 72.0),
     "ST 19.5": (176.0, 36.0), "FP": (180.0, 0.0), "head": (184.5, 18.0),
 }  # fmt: skip
 """0 where the section leaves the contour upright, 90 level."""
 
 WATERLINE_ANGLE = {
-    "overhang": (-4.0, 55.0), "AP": (0.0, 47.0), "ST 0.5": (4.5, 37.0), "ST 1": (9.0, 35.0),
+    "overhang": (-4.0, 51.0), "AP": (0.0, 39.5), "ST 0.5": (4.5, 35.5), "ST 1": (9.0, 33.5),
     "ST 2": (18.0, 26.0), "ST 3": (27.0, 16.2), "ST 4": (36.0, 8.5), "ST 5": (45.0, 3.0),
     "side aft": (_SIDE_AFT, 0.0), "side fore": (_SIDE_FORE, 0.0), "ST 16": (144.0, 3.0),
     "ST 17": (153.0, 5.5), "ST 18": (162.0, 7.5), "ST 19": (171.0, 12.0), "FP": (180.0, 16.0),
@@ -145,14 +145,14 @@ WATERLINE_CURVATURE = {
 }  # fmt: skip
 
 KEEL_TANGENT = {
-    "transom": (-5.0, 0.35), "AP": (0.0, 0.4), "ST 0.5": (5.0, 0.5), "ST 1": (9.0, 0.35),
+    "transom": (-5.0, 0.35), "AP": (0.0, 0.37), "ST 0.5": (5.0, 0.66), "ST 1": (9.0, 0.36),
     "ST 3": (30.0, 0.35), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
     "ST 17": (150.0, 0.46), "FP": (180.0, 0.3),
 }  # fmt: skip
 
 
 WATERLINE_TANGENT = {
-    "transom": (-5.0, 0.53), "AP": (0.0, 0.54), "ST 0.5": (5.0, 0.6), "ST 1": (9.0, 0.57),
+    "transom": (-5.0, 0.53), "AP": (0.0, 0.4), "ST 0.5": (5.0, 0.6), "ST 1": (9.0, 0.71),
     "ST 3": (30.0, 0.935), "bilge aft": (_RUN, 1.11), "bilge fore": (_ENTRANCE, 1.11),
     "ST 17": (150.0, 0.58), "FP": (180.0, 0.3),
 }  # fmt: skip
@@ -173,8 +173,8 @@ DECK_HEIGHT = {
 }
 
 DECK_ANGLE = {
-    "transom": (-5.0, 40.0), "AP": (0.0, 37.0), "ST 0.25": (2.25, 44.0), "ST 0.5": (4.5, 49.0),
-    "ST 1.5": (13.5, 51.0), "ST 2.5": (22.5, 45.0), "ST 3.5": (31.5, 28.0), "ST 4": (36.0, 16.0),
+    "transom": (-5.0, 36.5), "AP": (0.0, 44.0), "ST 0.25": (2.25, 47.0), "ST 0.5": (4.5, 49.5),
+    "ST 1.5": (13.5, 52.0), "ST 2.5": (22.5, 45.0), "ST 3.5": (31.5, 28.0), "ST 4": (36.0, 16.0),
     "ST 4.5": (40.5, 5.0), "full aft": (_DECK_AFT, 0.0), "full fore": (_DECK_FORE, 0.0),
     "ST 16": (144.0, 4.5), "ST 16.5": (148.5, 15.5), "ST 17.5": (157.5, 38.0),
     "ST 18.5": (166.5, 51.0), "ST 19": (171.0, 51.0), "ST 19.5": (175.5, 46.0),

@@ -7,6 +7,7 @@ from assoc_hull.plot.comparison_plan import comparison_plan
 from assoc_hull.plot.comparison_sheet import comparison_pdf
 from assoc_hull.plot.definitions import definition_curves
 from assoc_hull.plot.deviations import adoption_deviations
+from assoc_hull.plot.form_curve import form_curve_picture
 from assoc_hull.plot.hydrostatic_curves import hydrostatic_curves
 from assoc_hull.plot.lines_plan import lines_plan
 from assoc_hull.plot.neighbourhood import neighbourhood
@@ -21,6 +22,7 @@ __all__ = [
     "comparison_plan",
     "curvature_combs",
     "definition_curves",
+    "form_curve_picture",
     "hydrostatic_curves",
     "lines_plan",
     "neighbourhood",

@@ -12,6 +12,7 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, NoMiddleVertexError, UnknownNameError
 from tests.form_curves import CURVES
 
+GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
 END = {"x", "y", "angle_deg", "curvature", "tangent", "stretch"}
 
 
@@ -170,6 +171,12 @@ def test_scaled_and_mirrored() -> None:
         assert got == pytest.approx(curve.parameters[f"start_{name}"], abs=1e-14)
 
 
+def test_areas_may_be_large() -> None:
+    """They are squares: a curve of 180 km is a curve."""
+    curve = ah.FormCurve.of((0.0, 0.0), (1.8e5, 12.0), **GOOD, area=1.2e6)
+    assert curve.area == pytest.approx(1.2e6, rel=1e-14)
+
+
 def test_words_and_document() -> None:
     """All is in the table, and in the document as JSON takes it."""
     curve = published()
@@ -179,9 +186,6 @@ def test_words_and_document() -> None:
     assert "C6 info: area 0.55 needs an inflection" in words
     assert document["parameters"]["area"] == curve.area
     assert ah.FormCurve(document["vertices"]).vertices.tobytes() == curve.vertices.tobytes()
-
-
-GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
 
 
 @pytest.mark.parametrize(
@@ -195,6 +199,7 @@ GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, tangents="long"), "default or auto"),
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, tangents=(0.0, 1.0)), "above 0"),
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, energy="E4"), "E2 or E3 or J"),
+        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, start_curvature=1e9), "a vertex 1.04e"),
         (lambda: ah.FormCurve.from_parameters({"start_x": 0.0}), "start_y is None"),
         (lambda: published().at(4.5), "from 0 to 4"),
         (lambda: published().drag(7, (0.0, 0.0)), "from 0 to 6"),

@@ -274,6 +274,33 @@ def test_a_topside_joins_with_curvature() -> None:
     assert printed("0.010000000000", curvature(form_vertices(start, finish), 0.0))
 
 
+def test_one_curve_is_no_midship_section() -> None:
+    """B 28, T 10.5: flat, bilge and wall have radius 1.8125 and moment 1542.929 as told.
+
+    From the centre line to the draught, with area and moment exact, one curve leaves them by some
+    5 cm even with its best tangents, and dips below the base line: so three pieces are taken.
+    """
+    half, draught, area = 14.0, 10.5, 0.5 * 292.59
+    corner = 1.0 - math.pi / 4.0
+    assert printed("1.8125", math.sqrt((half * draught - area) / corner))
+    r = 1.8125
+    missing = r * r * (r / 2.0) - math.pi / 4.0 * r * r * (r - 4.0 * r / (3.0 * math.pi))
+    moment = 0.5 * half * draught**2 - missing
+    assert printed("1542.929", 2.0 * moment)
+    even = math.hypot(half, draught) / 4.0
+    vertices = form_vertices(
+        FormEnd.of(0.0, 0.0, 0.5 * np.pi, 0.0, 2.5 * even),
+        FormEnd.of(draught, half, 0.0, 0.0, 1.67 * even),
+        np.array([area]), np.array([moment / area]),
+    )  # fmt: skip
+    z, y = FormChain(vertices).at(0, np.linspace(0.0, 4.0, 2001)).T
+    bilge = (z < r) & (y > half - r)
+    off = np.where(z < r, np.abs(z), np.abs(y - half))
+    off = np.where(bilge, np.abs(np.hypot(z - r, y - half + r) - r), off)
+    assert 0.045 < off.max() < 0.055
+    assert -0.015 < z.min() < -0.005
+
+
 def test_the_least_pace_of_a_full_run() -> None:
     """Of table 2, one curve runs back by a trifle with tangents of an eighth of the chord."""
     paces = [least_rate(form_vertices(*ends_of(name)), 0)[0] for name in NAMES]
