@@ -1,6 +1,7 @@
 """Tangent lengths by fairness."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,11 +44,11 @@ def given(name: str) -> tuple[FormEnd, FormEnd, np.ndarray, np.ndarray]:
 def made(name: str, tangents: np.ndarray) -> np.ndarray:
     """The curve with tangents."""
     start, finish, area, centroid = given(name)
-    ends = (
+    start, finish = (
         FormEnd(e.x, e.y, e.angle, e.curvature, np.array([d]), e.stretch)
         for e, d in zip((start, finish), tangents, strict=True)
     )
-    return form_vertices(*ends, area, centroid)
+    return form_vertices(start, finish, area, centroid)
 
 
 @pytest.mark.parametrize("name", FAIREST)
@@ -84,7 +85,7 @@ def test_no_simplex_finds_a_fairer_curve(name: str, kind: str) -> None:
         slow = max(0.0, 0.02 - least_rate(vertices, 0)[0] / width)
         return float(energy(vertices, kind)[0] + scale * 1e3 * slow**2)
 
-    options = {"xatol": 1e-7, "fatol": 1e-10, "maxiter": 120}
+    options: Any = {"xatol": 1e-7, "fatol": 1e-10, "maxiter": 120}
     other = minimize(cost, np.log([0.5, 0.5]), method="Nelder-Mead", options=options)
     assert found.energy[0] < other.fun + 1e-9
 
@@ -108,22 +109,24 @@ def test_without_a_lower_bound_a_hollow_end_is_lost() -> None:
 def test_alone_in_company_and_in_another_unit() -> None:
     """Four curves at once have the bits of each alone; in millimetres they look the same."""
     curves = [given(name) for name in FAIREST]
-    fields = ("x", "y", "angle", "curvature", "tangent", "stretch")
-    ends = [
-        FormEnd(*(np.concatenate([getattr(c[k], name) for c in curves]) for name in fields))
-        for k in (0, 1)
-    ]
-    sums = [np.concatenate([c[k] for c in curves]) for k in (2, 3)]
-    together = fairest_tangents(*ends, *sums)
+    start, finish = _joined([c[0] for c in curves]), _joined([c[1] for c in curves])
+    area, centroid = np.concatenate([c[2:] for c in curves], axis=1)
+    together = fairest_tangents(start, finish, area, centroid)
     for row, curve in enumerate(curves):
         assert fairest_tangents(*curve).tangents.tobytes() == together.tangents[row].tobytes()
-    start, finish, area, centroid = curves[0]
-    big = [
+    one, two, area, centroid = curves[0]
+    start, finish = (
         FormEnd(1e3 * e.x, 1e3 * e.y, e.angle, 1e-3 * e.curvature, e.tangent, e.stretch)
-        for e in (start, finish)
-    ]
-    found = fairest_tangents(*big, 1e6 * area, 1e3 * centroid)
+        for e in (one, two)
+    )
+    found = fairest_tangents(start, finish, 1e6 * area, 1e3 * centroid)
     assert found.tangents[0] == pytest.approx(1e3 * together.tangents[0], rel=1e-6)
+
+
+def _joined(ends: list[FormEnd]) -> FormEnd:
+    """Ends as one batch."""
+    fields = ("x", "y", "angle", "curvature", "tangent", "stretch")
+    return FormEnd(*(np.concatenate([getattr(e, name) for e in ends]) for name in fields))
 
 
 def test_without_a_curve_there_are_no_tangents() -> None:
