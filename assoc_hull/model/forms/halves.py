@@ -82,11 +82,8 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
         A value that is needed is None; tangents with which the curve folds back.
     """
     where = f"in the definition {definition.name!r}"
-    for least, name, most in (
-        ("run_start", "run_end", "entrance_start"),
-        ("run_end", "entrance_start", "entrance_end"),
-    ):
-        _ordered(definition, where, least, name, most)
+    if not _in_order(definition, where):
+        raise _out_of_order(definition, where)
     run = _vertices(_half(definition, where, "run", ("run_start", "run_end")))
     entrance = _vertices(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
@@ -129,11 +126,43 @@ def _value(definition: FormDefinition, where: str, name: str) -> float:
     return found
 
 
-def _ordered(definition: FormDefinition, where: str, low: str, name: str, high: str) -> None:
-    least, value, most = (_value(definition, where, each) for each in (low, name, high))
-    if not least <= value <= most:
-        why = f"is not between {low} and {high}"
-        raise OutOfRangeError(name, value, where, why, least, most, "of half the length")
+_ORDER = ("run_start", "run_end", "entrance_start", "entrance_end")
+
+
+def _in_order(definition: FormDefinition, where: str) -> bool:
+    """Tell whether the abscissae of a curve rise; the parallel part may have no length."""
+    first, second, third, last = (_value(definition, where, each) for each in _ORDER)
+    return first < second <= third < last
+
+
+def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
+    """Give the error of abscissae out of order: which could lie elsewhere, and where."""
+    values = [_value(definition, where, each) for each in _ORDER]
+    for number in (1, 2):
+        name, asked = _ORDER[number], values[number]
+
+        def made(value: float, name: str = name) -> bool:
+            return _sound(definition.having({name: value}), where)
+
+        found = reachable(made, values[0], values[3], asked)
+        if found is not None:
+            break
+    else:
+        wrong = next(n for n in (1, 2, 3) if not values[n - 1] < values[n])
+        name, asked, found = _ORDER[wrong], values[wrong], (values[wrong - 1], math.inf)
+    place = _ORDER.index(name)
+    why = f"is not between {_ORDER[place - 1]} and {(*_ORDER, 'the end')[place + 1]}"
+    return OutOfRangeError(name, asked, where, why, *found, "of half the length")
+
+
+def _sound(definition: FormDefinition, where: str) -> bool:
+    """Tell whether both halves can be made."""
+    if not _in_order(definition, where):
+        return False
+    ends = (("run", _ORDER[:2]), ("entrance", _ORDER[2:]))
+    return not any(
+        _fault(_half(definition, where, name, (first, last))) for name, (first, last) in ends
+    )
 
 
 def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> _Half:
@@ -198,12 +227,16 @@ def _had(
 ) -> tuple[float, float] | None:
     """Give the areas, or the centroids, with which the half can be made and stays in its box."""
 
+    def other(value: float) -> _Half:
+        if name == "area":
+            return attrs.evolve(half, area=value)
+        return attrs.evolve(half, centroid=value)
+
     def keeps(value: float) -> bool:
-        other = attrs.evolve(half, **{name: value})
-        return not _fault(other) and not _over(other)
+        return made(value) and not _over(other(value))
 
     def made(value: float) -> bool:
-        return not _fault(attrs.evolve(half, **{name: value}))
+        return not _fault(other(value))
 
     return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
 
