@@ -20,7 +20,9 @@ Examples
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -144,7 +146,9 @@ def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
         def made(value: float, name: str = name) -> bool:
             return _sound(definition.having({name: value}), where)
 
-        found = reachable(made, values[0], values[3], asked)
+        found = _searched(made, values[number - 1], values[number + 1], asked) or _searched(
+            made, values[0], values[3], asked
+        )
         if found is not None:
             break
     else:
@@ -153,6 +157,18 @@ def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
     place = _ORDER.index(name)
     why = f"is not between {_ORDER[place - 1]} and {(*_ORDER, 'the end')[place + 1]}"
     return OutOfRangeError(name, asked, where, why, *found, "of half the length")
+
+
+def _searched(
+    made: Callable[[float], bool], least: float, most: float, asked: float
+) -> tuple[float, float] | None:
+    """Look for values stretch by stretch, the nearest first: few of them may do."""
+    cuts = itertools.pairwise(np.linspace(least, most, 9).tolist())
+    for low, high in sorted(cuts, key=lambda ends: abs(0.5 * (ends[0] + ends[1]) - asked)):
+        found = reachable(made, low, high, asked)
+        if found is not None:
+            return found
+    return None
 
 
 def _sound(definition: FormDefinition, where: str) -> bool:
