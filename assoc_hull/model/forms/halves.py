@@ -21,7 +21,6 @@ Examples
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -30,9 +29,9 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_chain import straight_vertices
 from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_rate
-from assoc_hull.model.forms.admissible import admitted
+from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.reachable import reachable
 
 __all__ = ["half_number", "half_vertices", "halves_vertices"]
 
@@ -178,15 +177,14 @@ def _vertices(half: _Half) -> FloatArray:
         return _made(half)
     x0, x1 = half.start[0], half.finish[0]
     most = max(half.start[1], half.finish[1]) * (x1 - x0)
-    if half.centroid is not None:
-        found = admitted(_with(half, "centroid"), half.centroid, x0, x1)
-        if found is not None:
-            name = f"{half.name}_centroid"
-            raise OutOfRangeError(name, half.centroid, half.where, why, *found, _UNIT)
-    if half.area is not None:
-        found = admitted(_with(half, "area"), half.area, 0.0, most)
-        if found is not None:
-            raise OutOfRangeError(f"{half.name}_area", half.area, half.where, why, *found, "")
+    for name, asked, low, high, unit in (
+        ("centroid", half.centroid, x0, x1, "of half the length"),
+        ("area", half.area, 0.0, most, ""),
+    ):
+        found = None if asked is None else _had(half, name, low, high, asked)
+        if asked is not None and found is not None:
+            whole = f"{half.name}_{name}"
+            raise OutOfRangeError(whole, asked, half.where, why, *found, unit)
     what = f"the {half.name}" if half.area is None else f"{half.name}_area of {half.area:.8g}"
     raise BadInputError(
         f"{what} {why}", half.where,
@@ -195,21 +193,26 @@ def _vertices(half: _Half) -> FloatArray:
     )  # fmt: skip
 
 
-_UNIT = "of half the length"
+def _had(
+    half: _Half, name: str, low: float, high: float, asked: float
+) -> tuple[float, float] | None:
+    """Give the areas, or the centroids, with which the half can be made and stays in its box."""
+
+    def keeps(value: float) -> bool:
+        other = attrs.evolve(half, **{name: value})
+        return not _fault(other) and not _over(other)
+
+    def made(value: float) -> bool:
+        return not _fault(attrs.evolve(half, **{name: value}))
+
+    return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
 
 
-def _with(half: _Half, name: str) -> Callable[[float], object]:
-    """Give what makes the half with another area or centroid, or raises."""
-
-    def make(value: float) -> None:
-        other = (
-            attrs.evolve(half, area=value) if name == "area" else attrs.evolve(half, centroid=value)
-        )
-        why = _fault(other)
-        if why:
-            raise BadInputError(why, half.where, "give another one")
-
-    return make
+def _over(half: _Half) -> bool:
+    """Tell whether a half rises above the higher of its ends: no section has that area."""
+    mirrored = _made(half)[None] * np.array([1.0, -1.0])
+    top = max(half.start[1], half.finish[1])
+    return bool(-least_coordinate(mirrored, 1)[0] > top + 1e-6)
 
 
 def _made(half: _Half) -> FloatArray:
