@@ -158,9 +158,6 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
-       "dtc_report": 110, "carrier_combs": 96, "comparison": 110, "variant_plan": 110,
-       "form_sheet": 100, "panels": 105}  # fmt: skip
-PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "dtc")
        "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
        "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")

@@ -35,10 +35,10 @@ import attrs
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curve import form_integrals
+from assoc_hull.model.forms.admissible import admitted
 from assoc_hull.model.forms.closing import close_sac, closing_area
 from assoc_hull.model.forms.definition import FormDefinition
-from assoc_hull.model.forms.halves import half_number, half_vertices
-from assoc_hull.model.forms.reachable import reachable
+from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
 
 if TYPE_CHECKING:
     from assoc_hull.model.state import Particulars
@@ -199,7 +199,9 @@ def _closed(
             where=where,
         )  # fmt: skip
     found = definition.having({"entrance_area": area, "entrance_centroid": at})
-    half_vertices(found, "entrance")
+    fault = half_fault(found, "entrance")
+    if fault:
+        raise BadInputError(f"the entrance {fault}", where, "give other tangents, or another run")
     return found
 
 
@@ -232,14 +234,10 @@ def _admissible(
         ways.insert(0 if by_centroid else 1, (True, limits(fullness, _FAR), centroid))
     for moves, ends, value in ways:
 
-        def made(at: float, moves: bool = moves) -> bool:
-            try:
-                _closed(definition, fullness if moves else at, at if moves else centroid, where)
-            except (BadInputError, OutOfRangeError):
-                return False
-            return True
+        def made(at: float, moves: bool = moves) -> None:
+            _closed(definition, fullness if moves else at, at if moves else centroid, where)
 
-        room = reachable(made, *ends, value) if math.isfinite(ends[0]) else None
+        room = admitted(made, value, *ends)
         if room is not None:
             why = "leaves no entrance that can be made"
             found = OutOfRangeError("", value, where, why, room[0], room[1], "")

@@ -34,7 +34,7 @@ from assoc_hull.geometry.form_extremes import least_rate
 from assoc_hull.model.forms.admissible import admitted
 from assoc_hull.model.forms.definition import FormDefinition
 
-__all__ = ["half_number", "half_vertices", "halves_vertices"]
+__all__ = ["half_fault", "half_number", "half_vertices", "halves_vertices"]
 
 _DEFAULTS = {
     "run_start": -1.0, "run_start_ordinate": 0.0, "run_start_curvature": 0.0,
@@ -108,6 +108,12 @@ def half_number(definition: FormDefinition, name: str) -> float:
     return _value(definition, f"in the definition {definition.name!r}", name)
 
 
+def half_fault(definition: FormDefinition, name: str) -> str:
+    """Tell why the ``"run"`` or the ``"entrance"`` cannot be made; empty if it can."""
+    where = f"in the definition {definition.name!r}"
+    return _fault(_half(definition, where, name, _ENDS[name]))
+
+
 def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
     """Give the vertices, (7, 2), of the ``"run"`` or the ``"entrance"`` alone.
 
@@ -117,8 +123,10 @@ def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
         As for `halves_vertices`.
     """
     where = f"in the definition {definition.name!r}"
-    ends = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}[name]
-    return _vertices(_half(definition, where, name, ends))
+    return _vertices(_half(definition, where, name, _ENDS[name]))
+
+
+_ENDS = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}
 
 
 def _value(definition: FormDefinition, where: str, name: str) -> float:
