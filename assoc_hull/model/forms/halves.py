@@ -21,7 +21,6 @@ Examples
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -30,9 +29,9 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_chain import straight_vertices
 from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_rate
-from assoc_hull.model.forms.admissible import admitted
+from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.reachable import reachable
 
 __all__ = ["half_fault", "half_number", "half_vertices", "halves_vertices"]
 
@@ -83,11 +82,8 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
         A value that is needed is None; tangents with which the curve folds back.
     """
     where = f"in the definition {definition.name!r}"
-    for least, name, most in (
-        ("run_start", "run_end", "entrance_start"),
-        ("run_end", "entrance_start", "entrance_end"),
-    ):
-        _ordered(definition, where, least, name, most)
+    if not _in_order(definition, where):
+        raise _out_of_order(definition, where)
     run = _vertices(_half(definition, where, "run", ("run_start", "run_end")))
     entrance = _vertices(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
@@ -138,11 +134,43 @@ def _value(definition: FormDefinition, where: str, name: str) -> float:
     return found
 
 
-def _ordered(definition: FormDefinition, where: str, low: str, name: str, high: str) -> None:
-    least, value, most = (_value(definition, where, each) for each in (low, name, high))
-    if not least <= value <= most:
-        why = f"is not between {low} and {high}"
-        raise OutOfRangeError(name, value, where, why, least, most, "of half the length")
+_ORDER = ("run_start", "run_end", "entrance_start", "entrance_end")
+
+
+def _in_order(definition: FormDefinition, where: str) -> bool:
+    """Tell whether the abscissae of a curve rise; the parallel part may have no length."""
+    first, second, third, last = (_value(definition, where, each) for each in _ORDER)
+    return first < second <= third < last
+
+
+def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
+    """Give the error of abscissae out of order: which could lie elsewhere, and where."""
+    values = [_value(definition, where, each) for each in _ORDER]
+    for number in (1, 2):
+        name, asked = _ORDER[number], values[number]
+
+        def made(value: float, name: str = name) -> bool:
+            return _sound(definition.having({name: value}), where)
+
+        found = reachable(made, values[0], values[3], asked)
+        if found is not None:
+            break
+    else:
+        wrong = next(n for n in (1, 2, 3) if not values[n - 1] < values[n])
+        name, asked, found = _ORDER[wrong], values[wrong], (values[wrong - 1], math.inf)
+    place = _ORDER.index(name)
+    why = f"is not between {_ORDER[place - 1]} and {(*_ORDER, 'the end')[place + 1]}"
+    return OutOfRangeError(name, asked, where, why, *found, "of half the length")
+
+
+def _sound(definition: FormDefinition, where: str) -> bool:
+    """Tell whether both halves can be made."""
+    if not _in_order(definition, where):
+        return False
+    ends = (("run", _ORDER[:2]), ("entrance", _ORDER[2:]))
+    return not any(
+        _fault(_half(definition, where, name, (first, last))) for name, (first, last) in ends
+    )
 
 
 def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> _Half:
@@ -186,15 +214,14 @@ def _vertices(half: _Half) -> FloatArray:
         return _made(half)
     x0, x1 = half.start[0], half.finish[0]
     most = max(half.start[1], half.finish[1]) * (x1 - x0)
-    if half.centroid is not None:
-        found = admitted(_with(half, "centroid"), half.centroid, x0, x1)
-        if found is not None:
-            name = f"{half.name}_centroid"
-            raise OutOfRangeError(name, half.centroid, half.where, why, *found, _UNIT)
-    if half.area is not None:
-        found = admitted(_with(half, "area"), half.area, 0.0, most)
-        if found is not None:
-            raise OutOfRangeError(f"{half.name}_area", half.area, half.where, why, *found, "")
+    for name, asked, low, high, unit in (
+        ("centroid", half.centroid, x0, x1, "of half the length"),
+        ("area", half.area, 0.0, most, ""),
+    ):
+        found = None if asked is None else _had(half, name, low, high, asked)
+        if asked is not None and found is not None:
+            whole = f"{half.name}_{name}"
+            raise OutOfRangeError(whole, asked, half.where, why, *found, unit)
     what = f"the {half.name}" if half.area is None else f"{half.name}_area of {half.area:.8g}"
     raise BadInputError(
         f"{what} {why}", half.where,
@@ -203,21 +230,30 @@ def _vertices(half: _Half) -> FloatArray:
     )  # fmt: skip
 
 
-_UNIT = "of half the length"
+def _had(
+    half: _Half, name: str, low: float, high: float, asked: float
+) -> tuple[float, float] | None:
+    """Give the areas, or the centroids, with which the half can be made and stays in its box."""
+
+    def other(value: float) -> _Half:
+        if name == "area":
+            return attrs.evolve(half, area=value)
+        return attrs.evolve(half, centroid=value)
+
+    def keeps(value: float) -> bool:
+        return made(value) and not _over(other(value))
+
+    def made(value: float) -> bool:
+        return not _fault(other(value))
+
+    return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
 
 
-def _with(half: _Half, name: str) -> Callable[[float], object]:
-    """Give what makes the half with another area or centroid, or raises."""
-
-    def make(value: float) -> None:
-        other = (
-            attrs.evolve(half, area=value) if name == "area" else attrs.evolve(half, centroid=value)
-        )
-        why = _fault(other)
-        if why:
-            raise BadInputError(why, half.where, "give another one")
-
-    return make
+def _over(half: _Half) -> bool:
+    """Tell whether a half rises above the higher of its ends: no section has that area."""
+    mirrored = _made(half)[None] * np.array([1.0, -1.0])
+    top = max(half.start[1], half.finish[1])
+    return bool(-least_coordinate(mirrored, 1)[0] > top + 1e-6)
 
 
 def _made(half: _Half) -> FloatArray:
