@@ -64,7 +64,7 @@ def areas_of(run: tuple[float, ...], entrance: tuple[float, ...]) -> ah.FormDefi
     )  # fmt: skip
     values = {**dict(zip(names, run, strict=True)), **dict(zip(fore, entrance, strict=True))}
     return ah.sectional_area(
-        SHIP, cm=FULL / (SHIP.breadth * SHIP.draught), cb=0.75, lcb=2.90,
+        SHIP, name="areas", cm=FULL / (SHIP.breadth * SHIP.draught), cb=0.75, lcb=2.90,
         run_start_ordinate=6.08 / FULL, **values,
     )  # fmt: skip
 
