@@ -35,10 +35,10 @@ import attrs
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curve import form_integrals
-from assoc_hull.model.forms.admissible import admitted
 from assoc_hull.model.forms.closing import close_sac, closing_area
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
+from assoc_hull.model.forms.reachable import reachable
 
 if TYPE_CHECKING:
     from assoc_hull.model.state import Particulars
@@ -234,10 +234,14 @@ def _admissible(
         ways.insert(0 if by_centroid else 1, (True, limits(fullness, _FAR), centroid))
     for moves, ends, value in ways:
 
-        def made(at: float, moves: bool = moves) -> None:
-            _closed(definition, fullness if moves else at, at if moves else centroid, where)
+        def made(at: float, moves: bool = moves) -> bool:
+            try:
+                _closed(definition, fullness if moves else at, at if moves else centroid, where)
+            except (BadInputError, OutOfRangeError):
+                return False
+            return True
 
-        room = admitted(made, value, *ends)
+        room = reachable(made, *ends, value) if math.isfinite(ends[0]) else None
         if room is not None:
             why = "leaves no entrance that can be made"
             found = OutOfRangeError("", value, where, why, room[0], room[1], "")
