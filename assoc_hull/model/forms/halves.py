@@ -33,7 +33,7 @@ from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.half import Half, fault_of, vertices_of
 from assoc_hull.model.forms.reachable import reachable
 
-__all__ = ["half_number", "half_vertices", "halves_vertices"]
+__all__ = ["half_fault", "half_number", "half_vertices", "halves_vertices"]
 
 _DEFAULTS = {
     "run_start": -1.0, "run_start_ordinate": 0.0, "run_start_curvature": 0.0,
@@ -69,8 +69,7 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
     where = f"in the definition {definition.name!r}"
     if not _in_order(definition, where):
         raise _out_of_order(definition, where)
-    run = vertices_of(_half(definition, where, "run", ("run_start", "run_end")))
-    entrance = vertices_of(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
+    run, entrance = (half_vertices(definition, name) for name in ("run", "entrance"))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
     if begin == end:
         return np.stack([run, entrance])
@@ -89,6 +88,12 @@ def half_number(definition: FormDefinition, name: str) -> float:
     return _value(definition, f"in the definition {definition.name!r}", name)
 
 
+def half_fault(definition: FormDefinition, name: str) -> str:
+    """Tell why the ``"run"`` or the ``"entrance"`` cannot be made; empty if it can."""
+    where = f"in the definition {definition.name!r}"
+    return fault_of(_half(definition, where, name, _ENDS[name]))
+
+
 def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
     """Give the vertices, (7, 2), of the ``"run"`` or the ``"entrance"`` alone.
 
@@ -98,8 +103,10 @@ def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
         As for `halves_vertices`.
     """
     where = f"in the definition {definition.name!r}"
-    ends = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}[name]
-    return vertices_of(_half(definition, where, name, ends))
+    return vertices_of(_half(definition, where, name, _ENDS[name]))
+
+
+_ENDS = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}
 
 
 def _value(definition: FormDefinition, where: str, name: str) -> float:
@@ -158,10 +165,7 @@ def _sound(definition: FormDefinition, where: str) -> bool:
     """Tell whether both halves can be made."""
     if not _in_order(definition, where):
         return False
-    ends = (("run", _ORDER[:2]), ("entrance", _ORDER[2:]))
-    return not any(
-        fault_of(_half(definition, where, name, (first, last))) for name, (first, last) in ends
-    )
+    return not any(half_fault(definition, name) for name in _ENDS)
 
 
 def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> Half:
