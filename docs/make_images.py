@@ -13,6 +13,11 @@ from pathlib import Path
 
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.container import (
+    container_ship_225m,
+    container_ship_225m_bodies,
+    container_ship_225m_bulb,
+)
 from drawings.created import bulk_carrier_180m, bulk_carrier_180m_parent
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
@@ -141,6 +146,9 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "generated_sections": generated_sections,
     "bulk_carrier_180m": bulk_carrier_180m,
     "bulk_carrier_180m_parent": bulk_carrier_180m_parent,
+    "container_ship_225m": container_ship_225m,
+    "container_ship_225m_bulb": container_ship_225m_bulb,
+    "dtc_beside_created": container_ship_225m_bodies,
     "comparison": comparison,
     "variant_areas": variant_areas,
     "variant_plan": variant_plan,
@@ -150,9 +158,9 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
-       "dtc_report": 110, "carrier_combs": 96, "comparison": 110, "variant_plan": 110,
-       "form_sheet": 100, "panels": 105}  # fmt: skip
-PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "dtc")
+       "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
+       "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
+PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
 COLOURS = {**dict.fromkeys(PLANS, 16), "form_curve": 256}
 
 

@@ -77,7 +77,7 @@ class _Made:
 
 
 def formed(stations: tuple[float, ...] = STATIONS) -> HullState:
-    """Give the net: one-way from boundary to sections, from these to waterlines."""
+    """Give the net: one-way from boundary to sections, from these to waterlines; no buttock."""
     forms = Forms.of(formed_definitions(), SHIP)
     made = {"deck edge": _made(forms, "deck edge", np.nan, np.zeros((2, 3)))}
     for x in stations:
@@ -85,10 +85,9 @@ def formed(stations: tuple[float, ...] = STATIONS) -> HullState:
         made[f"ST {x:g}"] = _made(
             forms, "section", x, np.array([[x, 0.0, 0.0], [x, breadth, 10.0]])
         )
-    links = [
-        Association("boundary", "sections", False), Association("boundary", "waterlines", False),
-        Association("sections", "waterlines", False),
-    ]  # fmt: skip
+    pairs = [("boundary", "sections"), ("boundary", "waterlines"), ("sections", "waterlines")]
+    pairs += [(giver, "buttocks") for giver in ("boundary", "sections", "waterlines")]
+    links = [Association(giver, taker, two_way=False) for giver, taker in pairs]
     state = adopt([_profile(), *_sources(made, stations)], SHIP, links)[0]
     _register(state, made)
     return from_definition(definition(state))

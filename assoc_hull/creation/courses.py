@@ -12,7 +12,7 @@ Examples
 >>> areas.value("full"), round(areas.value("entrance_area"), 6)
 (292.53, 0.448537)
 >>> line = design_waterline(
-...     ship, cw=0.84, lcf=-1.5, run_end=-0.4, entrance_start=0.5, run_area=0.45,
+...     ship, cw=0.84, lcf=-1.25, run_end=-0.4, entrance_start=0.5, run_area=0.45,
 ...     run_centroid=-0.65, run_start_angle_deg=60.0, entrance_end_angle_deg=-60.0,
 ... )
 >>> line.use, line.value("full")

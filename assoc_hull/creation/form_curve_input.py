@@ -40,6 +40,8 @@ Tangents = Literal["default", "auto"] | tuple[float, float] | None
 """How tangent lengths are told."""
 
 _WHERE = "in a form-parameter curve"
+_LARGEST, _FARTHEST = 1e12, 1e6
+"""Of areas and the like; of coordinates."""
 
 PARAMETER_NAMES = tuple(f"{n}_deg" if n.endswith("_angle") else n for n in NAMES)
 """As they are typed: angles in degrees."""
@@ -51,7 +53,7 @@ def vertices_of(given: object) -> FloatArray:
         found = np.array(given, np.float64)
     except (TypeError, ValueError, OverflowError):
         found = np.empty(0)
-    if found.shape != (7, 2) or not (np.abs(found) <= 1e6).all() or _truth(given):
+    if found.shape != (7, 2) or not (np.abs(found) <= _FARTHEST).all() or _truth(given):
         what = f"the vertices are {shown(given)}"
         raise BadInputError(what, _WHERE, "give seven finite places (x, y)")
     return found + 0.0
@@ -131,6 +133,9 @@ def made(
     else:
         middle = required_middle(ends, area, None if np.isnan(centroid[0]) else centroid)
     found = with_middle(ends, middle[:, 0], middle[:, 1])[0]
+    if not (np.abs(found) <= _FARTHEST).all():
+        what = f"these parameters put a vertex {np.abs(found).max():.3g} away"
+        raise BadInputError(what, _WHERE, "give smaller curvatures, stretches or tangents")
     return found, notes, (known.start_angle, known.finish_angle)
 
 
@@ -145,12 +150,19 @@ def _checked(values: Mapping[str, Any]) -> FormParameters:
         elif name.endswith("_angle_deg"):
             found[name.removesuffix("_deg")] = math.radians(number(values[name], name, _WHERE))
         else:
-            found[name] = number(values[name], name, _WHERE)
+            found[name] = _large(values[name], name)
     if math.isnan(found["area"]) and not math.isnan(found["centroid"]):
         raise BadInputError("a centroid is given without an area", _WHERE, "give the area as well")
     if found["area"] == 0.0 and not math.isnan(found["centroid"]):
         raise BadInputError("an area of 0 has no centroid", _WHERE, "leave the centroid out")
     return FormParameters(**found)
+
+
+def _large(value: object, name: str) -> float:
+    """Take a number: areas are squares of lengths, curvatures inverses of small ones."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
+        return float(value)
+    return number(value, name, _WHERE)
 
 
 def _tangents(

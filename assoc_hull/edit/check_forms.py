@@ -36,7 +36,7 @@ def find_detached(state: HullState, book: AddressBook) -> Iterator[Finding]:
     lines = {state.line_of(made.curve) for made in lost}
     names = sorted(book.line_name(line) for line in lines)
     if len(names) > _MOST:
-        told = ", ".join(names[:_TOLD])
+        told = ", ".join(names[1 : 1 + _TOLD])
         text = (
             f"and {len(names) - 1} other lines ({told} ...) are detached from the definitions: "
             "their shape was edited since; edit.reattach returns one"

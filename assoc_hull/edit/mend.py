@@ -1,6 +1,7 @@
 """Mending a watched gap: one curve gets a point where the other passes.
 
-The curve of higher rank gives way, unless a crossing or a border holds it just there.
+The curve of higher rank gives way, unless a crossing or a border holds it just there. One that
+comes from definitions never does.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from assoc_hull.edit.ride import ride_links
 from assoc_hull.edit.thread import thread
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.family import Sort
+from assoc_hull.model.generated import attached
 from assoc_hull.model.make import Maker, PointSpec
 
 __all__ = ["mend"]
@@ -57,6 +59,8 @@ def mend(maker: Maker, rows: IntArray, on: IntArray | None = None) -> tuple[IntA
 def _hold(maker: Maker, curve: int, place: FloatArray) -> int | None:
     """Lead a curve through a place: give the point moved there, -1 for a new one, None if held."""
     state = maker.state
+    if curve in attached(state):
+        return None
     defining: IntArray = state.curves.rows.data[curve]
     away = np.sqrt(((state.rows.xyz.data[defining] - place) ** 2).sum(axis=1))
     nearest = int(away.argmin())

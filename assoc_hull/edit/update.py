@@ -32,12 +32,12 @@ from assoc_hull.edit.pending import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
 from assoc_hull.edit.refine_forms import refine_forms
 from assoc_hull.edit.rejoin import rejoin
+from assoc_hull.edit.renew_followers import limit_watched, renew_followers, widen_limits
 from assoc_hull.edit.ride import rebase, ride_links
 from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.take_up_forms import take_up_forms
 from assoc_hull.edit.topology import latent_meetings, settle
-from assoc_hull.edit.unfold import Trial, copied, loosen, put_in_order
 from assoc_hull.edit.work import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
@@ -71,28 +71,6 @@ def update(
     RingError
         If driven links would run in a ring.
     """
-    if not pending.forms:
-        return _run(document, name, journal, pending, settings)
-    before, asked = len(journal.entries), copied(pending)
-    try:
-        return _run(document, name, journal, pending, settings)
-    except RefusedEditError:
-        trial = Trial.of(document.state)
-        if not trial.curves:
-            raise
-        journal.undo(before)
-        for field in attrs.fields(Pending):
-            setattr(pending, field.name, getattr(asked, field.name))
-        document.refresh()
-        if not put_in_order(Maker(document.state, journal), pending, trial):
-            raise
-    return _run(document, name, journal, pending, settings)
-
-
-def _run(
-    document: Document, name: str, journal: Journal, pending: Pending, settings: Settings
-) -> Step:
-    """Run an update once."""
     begin = time.perf_counter()
     origin = document.state.rows.xyz.data.copy() if pending.fields else np.zeros((0, 3))
     try:
@@ -110,12 +88,12 @@ def _run(
             rows, away = _run_fields(work, rows, origin)
         else:
             work.go(rows, np.array(sorted(pending.curves), np.int64))
+            _in_order(work)
             _settle(work)
             _relink(work)
             _follow_up(work)
         _refine(work)
-        if len(work.forms):
-            loosen(work, work.touched())
+        limit_watched(work)
         for curve in pending.fresh:
             network.before.pop(curve, None)
         ran = time.perf_counter()
@@ -270,7 +248,20 @@ def _refine(work: Work) -> None:
     curves = refine_forms(work, work.touched())
     if curves:
         work.go(_NONE, np.array(curves, np.int64))
+        _in_order(work)
         _settle(work)
+
+
+def _in_order(work: Work) -> None:
+    """Choose anew what defines lines on which crossings have passed one another."""
+    if not (work.pending.forms or work.pending.attach):
+        return
+    for _ in range(_ROUNDS):
+        curves, watched = renew_followers(work)
+        work.watched += watched
+        if not curves:
+            return
+        work.go(_NONE, np.array(curves, np.int64))
 
 
 def _confirm(work: Work) -> None:
@@ -316,6 +307,8 @@ def _check(work: Work) -> tuple[str, ...]:
             _settle(work)
             curves = work.touched()
             wide = measure_gaps(work.state, curves, work.journal, work.network.index)
+    if len(wide.rows) and work.pending.forms and widen_limits(work, wide):
+        wide = measure_gaps(work.state, curves, work.journal, work.network.index)
     work.wide = wide
     clean = curves[work.state.curves.state.data[curves] == State.CLEAN]
     batch = splines_of(work.state, clean)

@@ -45,6 +45,8 @@ class Work:
         Gaps over their limit, when they have been measured.
     planned : int
         Curves that could at most be lofted in the main pass.
+    watched : list of int
+        Crossings that define no line any more, as others have passed them.
     forms : (k,) int
         Nodes of the definitions that the edit set; the first pass starts from them as well.
     """
@@ -64,6 +66,7 @@ class Work:
     failed: dict[int, str] = attrs.field(factory=dict)
     wide: Wide | None = None
     planned: int = 0
+    watched: list[int] = attrs.field(factory=list)
     forms: IntArray = attrs.field(factory=lambda: _NONE)
 
     @property

@@ -69,11 +69,12 @@ class AbsentParameterError(BadInputError, KeyError):
 
 def _span(least: float, most: float, unit: str) -> str:
     """Give an interval in words; an infinite end is not told."""
+    unit = f" {unit}" if unit else ""
     if math.isinf(most):
-        return f"from {least:.8g} {unit} up"
+        return f"from {least:.8g}{unit} up"
     if math.isinf(least):
-        return f"up to {most:.8g} {unit}"
-    return f"from {least:.8g} to {most:.8g} {unit}"
+        return f"up to {most:.8g}{unit}"
+    return f"from {least:.8g} to {most:.8g}{unit}"
 
 
 @attrs.define(slots=False, eq=False)
@@ -103,7 +104,8 @@ class OutOfRangeError(AssocHullError, ValueError):
     unit: str
 
     def __str__(self) -> str:
-        what = f"{self.name} of {self.value:.8g} {self.unit} {self.why}".rstrip()
+        size = f"{self.value:.8g} {self.unit}".rstrip()
+        what = f"{self.name} of {size} {self.why}".rstrip()
         return f"{what}, {self.where}; give one {_span(self.least, self.most, self.unit)}"
 
 

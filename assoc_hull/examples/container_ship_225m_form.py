@@ -52,10 +52,10 @@ AREAS: Mapping[str, Any] = {
     "run_area": 0.637,
     "run_centroid": -0.404,
     "entrance_start": 0.02,
-    "entrance_start_tangent": 0.33,
+    "entrance_start_tangent": 0.14,
     "entrance_end_ordinate": BULB,
     "entrance_end_angle_deg": -21.0,
-    "entrance_end_tangent": 0.15,
+    "entrance_end_tangent": 0.213,
 }
 """The curve of areas, in the frame of the ship: -1 at AP, 1 at FP, 1 the midship section. It
 ends with the area of the bulb at FP."""
@@ -139,7 +139,7 @@ KEEL_TANGENT = _at({
 WATERLINE_ANGLE = _at({
     -4.2: 85.0, 0.0: 80.0, 10.0: 62.0, 25.0: 38.0, 40.0: 12.5, 45.0: 7.0, 50.0: 5.0, 56.25: 2.4,
     _SIDE_AFT: 0.0, _SIDE_FORE: 0.0, 158.0: 3.1, 163.0: 8.0, 168.75: 13.4, 180.0: 20.0,
-    190.0: 26.0, 200.0: 29.5, 208.0: 27.5, 215.0: 23.0, 220.0: 21.0, 225.0: 22.0,
+    190.0: 26.5, 200.0: 30.5, 208.0: 27.7, 215.0: 23.0, 220.0: 21.0, 225.0: 22.0,
 })  # fmt: skip
 """Flare at the design draught."""
 
@@ -170,8 +170,8 @@ DECK_ANGLE = _at({
 
 BULB_AREA = {
     **_at({
-        197.9: 13.6, 201.0: 16.7, 204.0: 18.75, 206.5: 21.3, 209.0: 23.8, 211.4: 26.1,
-        213.75: 28.8, 216.0: 31.75, 218.0: 33.2, 220.0: 33.32, 221.5: 32.8, 223.3: 31.82,
+        197.9: 13.6, 201.0: 16.7, 204.0: 18.75, 206.5: 21.7, 209.0: 24.3, 211.4: 26.55,
+        213.75: 28.95, 216.0: 31.85, 218.0: 33.25, 220.0: 33.38, 221.5: 32.8, 223.3: 31.82,
     }),
     "FP": (225.0, BULB * FULL),
     **_at({228.0: 21.7, 229.5: 11.0}), "tip": (230.6, 0.0),

@@ -33,9 +33,12 @@ import math
 from collections.abc import Iterator
 
 import attrs
+import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
+from assoc_hull.geometry.form_forward import forward_centroids
+from assoc_hull.geometry.form_integrals import form_integrals
 from assoc_hull.geometry.form_limits import area_limits, centroid_box, centroid_limits
 from assoc_hull.geometry.form_parameters import FormParameters
 from assoc_hull.geometry.form_shape import crosses_itself, inflections
@@ -204,13 +207,23 @@ def _tangent_area(up: FormParameters) -> Iterator[FormMessage]:
         yield FormMessage("C6", "info", text)
 
 
+def _forward(vertices: FloatArray) -> str:
+    """Say with which centroids the curve would run forward."""
+    area = form_integrals(vertices[None]).area
+    ends = np.delete(vertices, 3, axis=0)[None]
+    low, high = forward_centroids(ends, area)[0].tolist() if area[0] > 0.0 else (math.nan,) * 2
+    if math.isnan(low):
+        return "allowed: 0 or more, with no centroid of this area; change tangents, angles or area"
+    return f"allowed: 0 or more, with this area by a centroid {_span(low, high)}"
+
+
 def check_shape(vertices: FloatArray) -> tuple[FormMessage, ...]:
     """Look at a curve itself, (7, 2)."""
     found = list[FormMessage]()
     pace = float(least_rate(vertices[None], 0)[0])
     size = float(abs(vertices[6] - vertices[0]).max()) * _SAME
     if pace < -size:
-        text = f"the abscissa runs back, at a pace of {pace:.6g} at the least; allowed: 0 or more"
+        text = f"the abscissa runs back, at a pace of {pace:.6g} at the least; {_forward(vertices)}"
         found.append(FormMessage("back", "warning", text))
     ends = sorted(
         float((vertices[k, 1] + 4.0 * vertices[k + 1, 1] + vertices[k + 2, 1]) / 6.0)

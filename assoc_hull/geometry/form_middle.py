@@ -29,8 +29,8 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_integrals import MiddleTerms, middle_terms
 
 __all__ = [
-    "area_vertex", "centroid_limit", "fair_vertex", "middle_vertex", "only_area", "slide_vertex",
-    "with_middle",
+    "area_vertex", "centroid_extreme", "centroid_limit", "fair_vertex", "middle_vertex",
+    "only_area", "slide_vertex", "with_middle",
 ]  # fmt: skip
 
 _LINEAR = 1e-13
@@ -167,6 +167,24 @@ def centroid_limit(ends: FloatArray, area: FloatArray) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
         extreme = line.m0 - line.c1 * line.c1 / (4.0 * line.c2)
         return np.where(line.linear, np.nan, extreme / area)
+
+
+def centroid_extreme(ends: FloatArray, area: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the abscissae of two middle vertices of an area, (n,) each.
+
+    Returns
+    -------
+    (n,), (n,)
+        That of the vertex with the extreme centroid, nan where there is none; and that of the
+        vertex nearest to (P2 + P4)/2, on the side of which the roots of `middle_vertex` lie.
+    """
+    line = _line(ends, area)
+    dx, dy = line.terms.lever.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        want = 0.5 * (ends[:, 2] + ends[:, 3]) - line.p
+        best = (want[:, 0] * dx + want[:, 1] * dy) / (dx * dx + dy * dy)
+        extreme = np.where(line.linear, np.nan, -0.5 * line.c1 / line.c2)
+    return line.p[:, 0] + extreme * dx, line.p[:, 0] + best * dx
 
 
 def only_area(ends: FloatArray) -> FloatArray:

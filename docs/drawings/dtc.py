@@ -9,22 +9,23 @@ from matplotlib.figure import Figure
 import assoc_hull as ah
 from assoc_hull.plot import adoption_deviations, lines_plan
 
-__all__ = ["dtc", "dtc_report"]
+__all__ = ["dtc", "dtc_report", "dtc_ship"]
 
 _TITLE = "Duisburg Test Case"
 
 
 @cache
-def _ship() -> ah.Hull:
+def dtc_ship() -> ah.Hull:
+    """Give the hull, read once."""
     path = Path(os.environ["ASSOC_HULL_DATA"]) / "dtc" / "DTC-scaled.stl.gz"
     return ah.read(path, scale=59.407, length=355.0, draught=14.5)
 
 
 def dtc() -> Figure:
     """Draw the lines plan."""
-    return lines_plan(_ship(), paper="A4", title=_TITLE)
+    return lines_plan(dtc_ship(), paper="A4", title=_TITLE)
 
 
 def dtc_report() -> Figure:
     """Draw the deviations of all curves."""
-    return adoption_deviations(_ship(), title=_TITLE)
+    return adoption_deviations(dtc_ship(), title=_TITLE)

@@ -26,6 +26,7 @@ Examples
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -34,8 +35,10 @@ import attrs
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curve import form_integrals
+from assoc_hull.model.forms.closing import close_sac, closing_area
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.halves import half_number, half_vertices
+from assoc_hull.model.forms.reachable import reachable
 
 if TYPE_CHECKING:
     from assoc_hull.model.state import Particulars
@@ -66,99 +69,6 @@ class Coefficients:
     block: float | None
     centroid: float
     centroid_percent: float
-
-
-def close_sac(
-    fullness: float,
-    centroid: float,
-    *,
-    run_end: float,
-    entrance_start: float,
-    run_area: float,
-    run_centroid: float,
-    top: float = 1.0,
-    end_ordinate: float = 0.0,
-    entrance_end: float = 1.0,
-    where: str = _CALL,
-) -> tuple[float, float]:
-    """Give area and centroid of the entrance, from fullness and centroid of the whole.
-
-    Parameters
-    ----------
-    fullness : float
-        Of the whole curve, C above: the prismatic or the waterplane coefficient.
-    centroid : float
-        Of the whole curve, in half lengths from midship, forward positive.
-    run_end, entrance_start, entrance_end : float
-        Where the run ends, the entrance begins and ends, in half lengths from midship.
-    run_area, run_centroid : float
-        Area of the run over half the length, and its centroid in half lengths.
-    top : float
-        Ordinate of the parallel part, Y above.
-    end_ordinate : float
-        Ordinate at the end of the entrance.
-    where : str
-        Named in errors.
-
-    Returns
-    -------
-    float, float
-
-    Raises
-    ------
-    OutOfRangeError
-        No falling curve has this area, or this centroid with it: fullness or centroid lie
-        outside of the interval that is told.
-    """
-    area = _closing_area(
-        fullness, run_end, entrance_start, entrance_end, top, run_area, end_ordinate, where
-    )
-    length = entrance_end - entrance_start
-    moment = run_area * run_centroid + 0.5 * top * (entrance_start**2 - run_end**2)
-    entrance = 2.0 * fullness * centroid - moment
-    room = _room(area, length, end_ordinate, top)
-    limits = [(moment + area * entrance_start + each) / (2.0 * fullness) for each in room]
-    if not limits[0] <= centroid <= limits[1]:
-        why = "leaves an entrance that falls and rises"
-        raise OutOfRangeError(
-            "centroid", centroid, where, why, limits[0], limits[1], "half lengths"
-        )
-    return area, entrance / area
-
-
-def _closing_area(
-    fullness: float,
-    run_end: float,
-    entrance_start: float,
-    entrance_end: float,
-    top: float,
-    run_area: float,
-    end_ordinate: float,
-    where: str,
-) -> float:
-    """Give the area of the entrance, if it fits between its ends."""
-    length = entrance_end - entrance_start
-    if length <= 0.0:
-        what = f"the entrance begins at {entrance_start:g} and ends at {entrance_end:g}"
-        raise BadInputError(what, where, "let it begin abaft its end")
-    if entrance_start < run_end:
-        what = f"the run ends at {run_end:g}, the entrance begins at {entrance_start:g}"
-        raise BadInputError(what, where, "let the run end abaft the entrance, or where it begins")
-    body = run_area + top * (entrance_start - run_end)
-    area = 2.0 * fullness - body
-    low, high = (0.5 * (body + each * length) for each in (end_ordinate, top))
-    if not low < fullness < high:
-        why = "leaves an entrance that does not fit between its ends"
-        raise OutOfRangeError("fullness", fullness, where, why, low, high, "")
-    return area
-
-
-def _room(area: float, length: float, low: float, high: float) -> tuple[float, float]:
-    """Give the least and the largest moment, about its beginning, of a falling curve."""
-    rise = high - low
-    full = (area / length - low) / rise
-    base = 0.5 * low * length * length
-    return base + 0.5 * rise * (full * length) ** 2, base + 0.5 * rise * full * length * length
 
 
 def coefficients(definition: FormDefinition, particulars: Particulars) -> Coefficients:
@@ -242,9 +152,9 @@ def close_halves(
     ...     "entrance_start_angle_deg": 0.0, "entrance_start_curvature": 0.0,
     ...     "entrance_end": 1.0, "entrance_end_ordinate": 0.0, "entrance_end_angle_deg": -45.0,
     ...     "entrance_end_curvature": 0.0})
-    >>> closed = close_halves(areas, ship, cb=0.62, lcb=-0.4)
+    >>> closed = close_halves(areas, ship, cb=0.62, lcb=-0.76)
     >>> round(coefficients(closed, ship).block, 12), round(coefficients(closed, ship).centroid, 12)
-    (0.62, -0.4)
+    (0.62, -0.76)
     """
     definition = instance(definition, FormDefinition, "definition", _CALL)
     where = f"in the closure of {definition.name!r}"
@@ -258,24 +168,87 @@ def close_halves(
         scale = half_number(definition, "full") / (particulars.breadth * particulars.draught)
     now = None if names and places else coefficients(definition, particulars)
     fullness = given[names[0]] / scale if names else _there(now).fullness
+    centroid: float | None = None
+    if places or definition.value("entrance_centroid") is not None:
+        centroid = (given[places[0]] if places else _there(now).centroid) / ship
+    try:
+        return _closed(definition, fullness, centroid, where)
+    except (BadInputError, OutOfRangeError) as error:
+        asked_for = ((names or ["fullness"])[0], scale), ((places or ["centroid"])[0], ship)
+        told = _admissible(definition, fullness, centroid, asked_for, where, bool(places))
+        if told is not None:
+            raise told from None
+        if isinstance(error, OutOfRangeError) and error.name in ("fullness", "centroid"):
+            raise _told(error, *asked_for[error.name == "centroid"]) from None
+        raise
+
+
+def _closed(
+    definition: FormDefinition, fullness: float, centroid: float | None, where: str
+) -> FormDefinition:
+    """Give the definition with its entrance, which can be made; a centroid of None stays None."""
     run = _half_sums(definition, "run")
     frame = {name: half_number(definition, name) for name in _FRAME}
     end = half_number(definition, "entrance_end_ordinate")
     at: float | None = None
-    try:
-        if not places and definition.value("entrance_centroid") is None:
-            area = _closing_area(fullness, **frame, run_area=run[0], end_ordinate=end, where=where)
-        else:
-            centroid = (given[places[0]] if places else _there(now).centroid) / ship
-            area, at = close_sac(
-                fullness, centroid, **frame, run_area=run[0], run_centroid=run[1],
-                end_ordinate=end, where=where,
-            )  # fmt: skip
-    except OutOfRangeError as error:
-        words = (names or ["fullness"], scale) if error.name == "fullness" else (places, ship)
-        raise _told(error, (words[0] or ["centroid"])[0], words[1]) from None
-    return definition.having({"entrance_area": area, "entrance_centroid": at})
+    if centroid is None:
+        area = closing_area(fullness, **frame, run_area=run[0], end_ordinate=end, where=where)
+    else:
+        area, at = close_sac(
+            fullness, centroid, **frame, run_area=run[0], run_centroid=run[1], end_ordinate=end,
+            where=where,
+        )  # fmt: skip
+    found = definition.having({"entrance_area": area, "entrance_centroid": at})
+    half_vertices(found, "entrance")
+    return found
 
+
+def _admissible(
+    definition: FormDefinition,
+    fullness: float,
+    centroid: float | None,
+    asked: tuple[tuple[str, float], tuple[str, float]],
+    where: str,
+    by_centroid: bool,
+) -> OutOfRangeError | None:
+    """Say between which values what was asked for may lie, all else kept; None if nowhere.
+
+    Each end is the last value at which an entrance can be made.
+    """
+
+    def limits(full: float, at: float | None) -> tuple[float, float]:
+        """Give the interval outside of which there is none for sure."""
+        try:
+            _closed(definition, full, at, where)
+        except OutOfRangeError as error:
+            if error.name in ("fullness", "centroid"):
+                return error.least, error.most
+        except BadInputError:
+            pass
+        return math.nan, math.nan
+
+    ways = [(False, limits(_FAR, centroid), fullness)]
+    if centroid is not None:
+        ways.insert(0 if by_centroid else 1, (True, limits(fullness, _FAR), centroid))
+    for moves, ends, value in ways:
+
+        def made(at: float, moves: bool = moves) -> bool:
+            try:
+                _closed(definition, fullness if moves else at, at if moves else centroid, where)
+            except (BadInputError, OutOfRangeError):
+                return False
+            return True
+
+        room = reachable(made, *ends, value) if math.isfinite(ends[0]) else None
+        if room is not None:
+            why = "leaves no entrance that can be made"
+            found = OutOfRangeError("", value, where, why, room[0], room[1], "")
+            return _told(found, *asked[moves])
+    return None
+
+
+_FAR = 1e3
+"""A coefficient or a centroid (half lengths) that no curve has."""
 
 _FRAME = ("run_end", "entrance_start", "entrance_end", "top")
 

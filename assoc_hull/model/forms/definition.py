@@ -143,10 +143,10 @@ class FormDefinition:
                 raise UnknownNameError("value", name, known)
         object.__setattr__(self, "values", _values({n: self.values.get(n) for n in known}))
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (
-            self.name, self.use, self.kind, dict(self.values), self.rule, self.nodes
-        )  # fmt: skip
+    def __reduce__(self) -> tuple[type[FormDefinition], tuple[object, ...]]:
+        """Let copies and other processes have it: a read-only mapping is not taken along."""
+        given = {name: value for name, value in self.values.items() if value is not None}
+        return type(self), (self.name, self.use, self.kind, given, self.rule, self.nodes)
 
     @property
     def key(self) -> str:

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import Any, Self
+from typing import Self
 
 import attrs
 import numpy as np
@@ -73,8 +73,9 @@ class Forms:
             found[each.use] = each
         return cls(MappingProxyType(found), particulars)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self).of, (tuple(self.definitions.values()), self.particulars)
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        """Let other processes have them: a read-only mapping is not taken along."""
+        return Forms.of, (tuple(self.definitions.values()), self.particulars)
 
     def has(self, use: str) -> bool:
         """Tell whether there is a definition for a use."""

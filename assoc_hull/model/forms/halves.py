@@ -28,9 +28,10 @@ import numpy as np
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_chain import straight_vertices
-from assoc_hull.geometry.form_curve import FormEnd, end_vertices, form_vertices, middle_vertex
-from assoc_hull.geometry.form_extremes import least_rate
+from assoc_hull.geometry.form_curve import FormEnd, form_vertices
+from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.reachable import reachable
 
 __all__ = ["half_number", "half_vertices", "halves_vertices"]
 
@@ -170,56 +171,81 @@ def _ordinate(end: str) -> str:
 
 
 def _vertices(half: _Half) -> FloatArray:
-    _check_area(half)
-    start, finish = FormEnd.of(*half.start), FormEnd.of(*half.finish)
+    """Give the vertices of a half; a refusal tells what can be had."""
+    why = _fault(half)
+    if not why:
+        return _made(half)
+    x0, x1 = half.start[0], half.finish[0]
+    most = max(half.start[1], half.finish[1]) * (x1 - x0)
+    for name, asked, low, high, unit in (
+        ("centroid", half.centroid, x0, x1, "of half the length"),
+        ("area", half.area, 0.0, most, ""),
+    ):
+        found = None if asked is None else _had(half, name, low, high, asked)
+        if asked is not None and found is not None:
+            whole = f"{half.name}_{name}"
+            raise OutOfRangeError(whole, asked, half.where, why, *found, unit)
+    what = f"the {half.name}" if half.area is None else f"{half.name}_area of {half.area:.8g}"
+    raise BadInputError(
+        f"{what} {why}", half.where,
+        f"give other tangents than {half.start[4]:.6g} and {half.finish[4]:.6g} at its ends, or "
+        "another area and centroid",
+    )  # fmt: skip
+
+
+def _had(
+    half: _Half, name: str, low: float, high: float, asked: float
+) -> tuple[float, float] | None:
+    """Give the areas, or the centroids, with which the half can be made and stays in its box."""
+
+    def keeps(value: float) -> bool:
+        other = attrs.evolve(half, **{name: value})
+        return not _fault(other) and not _over(other)
+
+    def made(value: float) -> bool:
+        return not _fault(attrs.evolve(half, **{name: value}))
+
+    return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
+
+
+def _over(half: _Half) -> bool:
+    """Tell whether a half rises above the higher of its ends: no section has that area."""
+    mirrored = _made(half)[None] * np.array([1.0, -1.0])
+    top = max(half.start[1], half.finish[1])
+    return bool(-least_coordinate(mirrored, 1)[0] > top + 1e-6)
+
+
+def _made(half: _Half) -> FloatArray:
+    """Give the vertices, whatever they are worth; nan where there are none."""
     area = None if half.area is None else np.array([half.area])
     centroid = None if half.centroid is None else np.array([half.centroid])
-    if area is not None and centroid is not None:
-        _check_centroid(half, start, finish, area, centroid)
-    found = form_vertices(start, finish, area, centroid)
-    if least_rate(found, 0)[0] < -_SLACK * (half.finish[0] - half.start[0]):
-        raise BadInputError(
-            f"the {half.name} folds back: two ordinates at one abscissa", half.where,
-            f"give other tangent lengths than {half.start[4]:.6g} and {half.finish[4]:.6g} at "
-            "its ends, or another area or centroid",
-        )  # fmt: skip
-    return np.asarray(found[0])
+    return np.asarray(
+        form_vertices(FormEnd.of(*half.start), FormEnd.of(*half.finish), area, centroid)[0]
+    )
 
 
-def _check_area(half: _Half) -> None:
-    """Refuse an area outside the box between the ends."""
-    if half.area is None:
-        return
+def _fault(half: _Half) -> str:
+    """Tell why a half cannot be made; empty if it can."""
     length = half.finish[0] - half.start[0]
-    low, high = sorted((half.start[1] * length, half.finish[1] * length))
-    if not low - _SLACK <= half.area <= high + _SLACK or half.area <= 0.0:
-        why = "lies outside the box between its ends"
-        raise OutOfRangeError(f"{half.name}_area", half.area, half.where, why, low, high, "")
-
-
-def _check_centroid(
-    half: _Half, start: FormEnd, finish: FormEnd, area: FloatArray, centroid: FloatArray
-) -> None:
-    """Refuse a centroid outside the box, or with which no middle vertex gives the area."""
-    x0, x1 = half.start[0], half.finish[0]
     low, high = sorted((half.start[1], half.finish[1]))
-    size, at = float(area[0]), float(centroid[0])
-    half_square = 0.5 * (x1 - x0) ** 2 / size
-    near, far = low * half_square, high * half_square
-    if half.finish[1] < half.start[1]:
-        least, most = x1 - far, x1 - near
-    else:
-        least, most = x0 + near, x0 + far
-    name = f"{half.name}_centroid"
-    if not least - _SLACK <= at <= most + _SLACK:
-        why = "lies outside the box between its ends"
-        raise OutOfRangeError(name, at, half.where, why, least, most, "of half the length")
-    ends = np.concatenate([end_vertices(start), end_vertices(finish)], axis=1)
-    found = middle_vertex(ends, area, centroid)[1][0]
-    if found < 0.0:
-        # The discriminant is linear in the centroid: where it is nil lies the last one.
-        step = middle_vertex(ends, area, centroid + 1.0)[1][0] - found
-        last = at - float(found / step)
-        least, most = (max(least, last), most) if step > 0.0 else (least, min(most, last))
-        why = "cannot be met with this area"
-        raise OutOfRangeError(name, at, half.where, why, least, most, "of half the length")
+    if half.area is not None:
+        if not (low * length - _SLACK <= half.area <= high * length + _SLACK and half.area > 0.0):
+            return "asks for an area outside the box between the ends"
+        if half.centroid is not None and not _in_box(half, low, high):
+            return "asks for a moment outside the box between the ends"
+    vertices = _made(half)
+    if not np.isfinite(vertices).all():
+        return "cannot be met: no curve has this area and centroid"
+    if least_rate(vertices[None], 0)[0] < -_SLACK * length:
+        return "makes the curve fold back, with two ordinates at one abscissa"
+    return ""
+
+
+def _in_box(half: _Half, low: float, high: float) -> bool:
+    """Tell whether the moment about the lower end lies between those of the lowest and highest."""
+    assert half.area is not None
+    assert half.centroid is not None
+    falls = half.finish[1] < half.start[1]
+    arm = half.finish[0] - half.centroid if falls else half.centroid - half.start[0]
+    square = 0.5 * (half.finish[0] - half.start[0]) ** 2
+    return low * square - _SLACK <= half.area * arm <= high * square + _SLACK

@@ -32,7 +32,7 @@ def definitions() -> list[Any]:
     """What a design cannot do without."""
     return [
         sectional_area(SHIP, cm=0.995, cb=0.75, lcb=2.9, **HALF),
-        design_waterline(SHIP, cw=0.77, lcf=5.0, **HALF),
+        design_waterline(SHIP, cw=0.77, lcf=4.2, **HALF),
         course("profile", {"stern": (-4.0, 11.0), "keel": (8.0, 0.0, 0.0), "stem": (182.0, 15.8)}),
         course("deck_side", {"AP": (-4.0, 8.0), "body": (60.0, 14.0), "FP": (182.0, 0.0)}),
         course("deck_height", {"AP": (-4.0, 15.8), "FP": (182.0, 15.8)}, rule="straight"),
@@ -80,19 +80,19 @@ def test_json_may_ask_for_a_closure() -> None:
     document = design_document(design())
     values = document["definitions"][0]["values"]
     del values["entrance_area"], values["entrance_centroid"]
-    document["definitions"][0]["close"] = {"cb": 0.74, "lcb": 1.5}
+    document["definitions"][0]["close"] = {"cb": 0.749, "lcb": 2.8}
     found = coefficients(Design.from_json(json.dumps(document)).definition("sectional_area"), SHIP)
-    assert (found.block, found.centroid) == pytest.approx((0.74, 1.5), abs=1e-12)
+    assert (found.block, found.centroid) == pytest.approx((0.749, 2.8), abs=1e-12)
 
 
 def test_a_design_can_be_closed() -> None:
     """Areas and waterline at once; what is not asked for keeps its definition."""
     one = design()
-    found = one.closed(cb=0.74, lcb=2.0, cw=0.765)
+    found = one.closed(cb=0.749, lcb=2.8, cw=0.769)
     areas = coefficients(found.definition("sectional_area"), SHIP)
     line = coefficients(found.definition("design waterline"), SHIP)
-    assert (areas.block, areas.centroid) == pytest.approx((0.74, 2.0), abs=1e-12)
-    assert (line.fullness, line.centroid) == pytest.approx((0.765, 5.0), abs=1e-12)
+    assert (areas.block, areas.centroid) == pytest.approx((0.749, 2.8), abs=1e-12)
+    assert (line.fullness, line.centroid) == pytest.approx((0.769, 4.2), abs=1e-12)
     assert found.definition("profile") is one.definition("profile")
     with pytest.raises(OutOfRangeError, match=r"cb of 0\.99"):
         one.closed(cb=0.99)

@@ -2,6 +2,8 @@
 
 import json
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,10 +14,12 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, NoMiddleVertexError, UnknownNameError
 from tests.form_curves import CURVES
 
+GOOD: dict[str, Any] = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
+LONG, ODD = {"tangents": "long"}, {"energy": "E4"}
 END = {"x", "y", "angle_deg", "curvature", "tangent", "stretch"}
 
 
-def published(name: str = "T1_run", tangents: object = "default") -> ah.FormCurve:
+def published(name: str = "T1_run", tangents: Any = "default") -> ah.FormCurve:
     """A curve of table 2 of Kim & Kang 1992."""
     g = CURVES[name]["inp"]
     return ah.FormCurve.of(
@@ -170,6 +174,12 @@ def test_scaled_and_mirrored() -> None:
         assert got == pytest.approx(curve.parameters[f"start_{name}"], abs=1e-14)
 
 
+def test_areas_may_be_large() -> None:
+    """They are squares: a curve of 180 km is a curve."""
+    curve = ah.FormCurve.of((0.0, 0.0), (1.8e5, 12.0), **GOOD, area=1.2e6)
+    assert curve.area == pytest.approx(1.2e6, rel=1e-14)
+
+
 def test_words_and_document() -> None:
     """All is in the table, and in the document as JSON takes it."""
     curve = published()
@@ -181,9 +191,6 @@ def test_words_and_document() -> None:
     assert ah.FormCurve(document["vertices"]).vertices.tobytes() == curve.vertices.tobytes()
 
 
-GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
-
-
 @pytest.mark.parametrize(
     ("call", "words"),
     [
@@ -192,9 +199,10 @@ GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
         (lambda: ah.FormCurve.of((0, 0), (0, 0), **GOOD), "start and finish are one place"),
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, centroid=0.5), "without an area"),
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, area=0.0, centroid=1.0), "area of 0"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, tangents="long"), "default or auto"),
+        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD | LONG), "default or auto"),
         (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, tangents=(0.0, 1.0)), "above 0"),
-        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, energy="E4"), "E2 or E3 or J"),
+        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD | ODD), "E2 or E3 or J"),
+        (lambda: ah.FormCurve.of((0, 0), (1, 1), **GOOD, start_curvature=1e9), "a vertex 1.04e"),
         (lambda: ah.FormCurve.from_parameters({"start_x": 0.0}), "start_y is None"),
         (lambda: published().at(4.5), "from 0 to 4"),
         (lambda: published().drag(7, (0.0, 0.0)), "from 0 to 6"),
@@ -204,7 +212,7 @@ GOOD = {"start_angle_deg": 0.0, "finish_angle_deg": 45.0}
         (lambda: published().scaled(0.0, 1.0), "above 0"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_used_is_refused(call: object, words: str) -> None:
+def test_what_cannot_be_used_is_refused(call: Callable[[], object], words: str) -> None:
     """In words that tell what to do."""
     with pytest.raises(BadInputError, match=words):
         call()

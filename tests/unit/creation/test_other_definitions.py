@@ -25,7 +25,7 @@ def test_a_finer_ship(ship: Hull) -> None:
     with ship.edit("finer") as edit:
         edit.set_form("sectional areas", cb=0.676)
     report = ship.history[-1]
-    assert any("come in another order" in note for note in report.notes)
+    assert any("in their new order" in note for note in report.notes)
     assert ship.check() == ()
     assert ship.verify() == ()
     state = ship.state
@@ -45,7 +45,7 @@ def test_a_change_that_keeps_the_order_is_made_at_once(ship: Hull) -> None:
     roles = ship.state.rows.role.data.copy()
     with ship.edit("a little flare") as edit:
         edit.set_form("waterline angle", stem_y=22.5)
-    assert not any("another order" in note for note in ship.history[-1].notes)
+    assert not any("new order" in note for note in ship.history[-1].notes)
     assert np.array_equal(ship.state.rows.role.data[: len(roles)], roles)
     assert ship.check() == ()
 

@@ -225,3 +225,41 @@ def test_bad_values_are_errors_of_the_family(hull: ah.Hull, value: Any) -> None:
         with contextlib.suppress(ah.AssocHullError), hull.edit("bad") as edit:
             edit.set_form("areas", **{name: value})
     assert hull.verify() == ()
+
+
+@pytest.mark.parametrize("angle", [24.0, 28.0], ids=["come close", "pass"])
+def test_crossings_that_pass_one_another_change_places(hull: ah.Hull, angle: float) -> None:
+    """A waterline comes to cross a buttock where a section does: it is watched, nothing folds."""
+    with hull.edit("one more waterline") as edit:
+        edit.add_line("waterlines", 1.58)
+    with hull.edit("a buttock") as edit:
+        edit.add_line("buttocks", 4.0)
+    assert hull.crossings["BTK 4 x WL 1.58"].role == "drives b"
+    before = hull.fingerprint
+    with hull.edit("fuller") as edit:
+        edit.set_form("areas", run_area=0.518)
+        edit.set_form("rise", AP_y=angle)
+    assert edit.report is not None
+    assert "have passed one another" in edit.report.notes[0]
+    assert hull.crossings["BTK 4 x WL 1.58"].role == "watched"
+    assert hull.crossings["BTK 4 x ST 15"].role == "drives b"
+    (curve,) = hull.lines["BTK 4"].curves
+    rows = hull.state.curves.rows.data[curve.row]
+    assert (np.diff(hull.state.rows.xyz.data[rows, 0]) > 0.15).all()
+    assert hull.check() == ()
+    assert hull.verify() == ()
+    hull.undo()
+    assert hull.fingerprint == before
+
+
+def test_a_gap_that_comes_of_a_definition_is_mended_or_told(hull: ah.Hull) -> None:
+    """No point is put on a section; limits are those of a birth."""
+    before = {each.key: each.rows for each in hull.state.generated}
+    with hull.edit("a buttock") as edit:
+        edit.add_line("buttocks", 6.0)
+    with hull.edit("fuller") as edit:
+        edit.set_form("areas", run_area=0.52)
+    after = {each.key: each.rows for each in hull.state.generated}
+    assert all(set(before[key]) <= set(after[key]) for key in before)
+    assert all(each.attached for each in hull.state.generated)
+    assert hull.check() == ()

@@ -1,6 +1,7 @@
 """The middle vertex: by area and centroid, fairest, and where there is none."""
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -108,11 +109,11 @@ def test_bits_alone_and_in_company(drawn: Drawn) -> None:
     fields = ("x", "y", "angle", "curvature", "tangent", "stretch")
     sums = form_integrals(drawn.vertices)
     for rows in (slice(7, 8), slice(1000, 1003), slice(2990, 3000), slice(0, 500)):
-        ends = [
+        start, finish = (
             FormEnd(*(getattr(end, name)[rows] for name in fields))
             for end in (drawn.start, drawn.finish)
-        ]
-        alone = form_vertices(*ends, drawn.area[rows], drawn.centroid[rows])
+        )
+        alone = form_vertices(start, finish, drawn.area[rows], drawn.centroid[rows])
         assert alone.tobytes() == drawn.vertices[rows].tobytes()
         assert form_integrals(alone).moment_y.tobytes() == sums.moment_y[rows].tobytes()
         assert form_integrals(alone).moment.tobytes() == sums.moment[rows].tobytes()
@@ -193,5 +194,9 @@ def test_the_fairest_vertex_of_an_area() -> None:
     assert form_integrals(with_middle(ends, *vertex)).area[0] == pytest.approx(0.37, abs=1e-14)
     free = fair_vertex(ends)[0]
     way = np.array([vertex[1] - free[1], free[0] - vertex[0]])
-    cost = minimize(lambda s: energy(with_middle(ends, *(vertex + s[0] * way)), "E3")[0], [0.3])
-    assert cost.x[0] == pytest.approx(0.0, abs=1e-6)
+
+    def cost(s: np.ndarray) -> float:
+        return float(energy(with_middle(ends, *(vertex + s[0] * way)), "E3")[0])
+
+    found: Any = minimize(cost, [0.3])
+    assert found.x[0] == pytest.approx(0.0, abs=1e-6)

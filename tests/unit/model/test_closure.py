@@ -2,11 +2,13 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.model.forms.closure import close_halves, close_sac, coefficients
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.halves import halves_vertices
 from assoc_hull.model.state import Particulars
 
 SHIP = Particulars("ship", 180.0, 28.0, 15.8, 10.5)
@@ -99,21 +101,23 @@ def test_a_waterline_is_closed_as_well() -> None:
 def test_a_run_by_fairness_is_measured() -> None:
     """Where the run has no area of its own, the closure takes that of its curve."""
     free = bulk(run_area=None, run_centroid=None)
-    found = coefficients(close_halves(free, SHIP, cb=0.75, lcb=1.0), SHIP)
-    assert (found.block, found.centroid) == pytest.approx((0.75, 1.0), abs=1e-12)
+    found = coefficients(close_halves(free, SHIP, cb=0.75, lcb=0.6), SHIP)
+    assert (found.block, found.centroid) == pytest.approx((0.75, 0.6), abs=1e-12)
 
 
 def test_limits_are_where_the_entrance_ends_to_be_one() -> None:
-    """At the told ends of the interval an entrance is still there, beyond them it is refused."""
+    """At the told ends of the interval an entrance can still be made, beyond them none can."""
     with pytest.raises(OutOfRangeError) as caught:
         close_halves(bulk(), SHIP, cb=0.75, lcb=6.0)
     low, high = caught.value.least, caught.value.most
     assert (caught.value.name, caught.value.unit) == ("lcb", "m")
     assert low < 2.9 < high < 6.0
-    for inside, outside in ((low + 1e-9, low - 1e-6), (high - 1e-9, high + 1e-6)):
+    for inside, outside in ((low, low - 1e-6), (high, high + 1e-6)):
         close_halves(bulk(), SHIP, cb=0.75, lcb=inside)
-        with pytest.raises(OutOfRangeError, match="falls and rises"):
+        with pytest.raises(OutOfRangeError, match=r"no entrance that can be made"):
             close_halves(bulk(), SHIP, cb=0.75, lcb=outside)
+    for lcb in np.linspace(low, high, 9).tolist():
+        halves_vertices(close_halves(bulk(), SHIP, cb=0.75, lcb=lcb))
 
 
 def test_limits_of_the_centroid_are_those_of_falling_curves() -> None:
@@ -144,11 +148,16 @@ def test_limits_of_the_centroid_are_those_of_falling_curves() -> None:
     ],
 )
 def test_fullness_outside_its_interval(asked: dict[str, float], words: str) -> None:
-    """The error tells what was asked for, in its own numbers, and between what it may lie."""
+    """The error tells what was asked for, and between what it may lie with the centroid kept."""
     with pytest.raises(OutOfRangeError, match=words) as caught:
         close_halves(bulk(), SHIP, lcb=2.9, **asked)
-    assert caught.value.least < 0.75 < caught.value.most
+    (name,) = asked
     assert "'areas'" in str(caught.value)
+    for value in (caught.value.least, 0.5 * (caught.value.least + caught.value.most)):
+        found = coefficients(close_halves(bulk(), SHIP, lcb=2.9, **{name: value}), SHIP)
+        there = found.block if name == "cb" else found.fullness
+        assert there == pytest.approx(value, abs=1e-12)
+        assert found.centroid == pytest.approx(2.9, abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
-from assoc_hull.errors import BadInputError, OutOfRangeError, UnknownNameError
+from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError, UnknownNameError
 from assoc_hull.model.forms.chains import chain_of
 from assoc_hull.model.forms.course import course_vertices
 from assoc_hull.model.forms.definition import FormDefinition
@@ -57,38 +59,55 @@ def test_no_parallel_part_where_the_halves_meet() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "name", "least", "most"),
+    ("change", "name", "text"),
     [
-        pytest.param({"run_end": 0.4}, "run_end", -1.0, 0.2, id="run past the entrance"),
-        pytest.param({"run_area": 0.8}, "run_area", 0.0, 0.7, id="area outside the box"),
+        pytest.param({"run_end": 0.4}, "run_end", "not between", id="run past the entrance"),
         pytest.param(
-            {"run_centroid": -0.2}, "run_centroid", -1.0, -0.5545454545, id="moment outside the box"
+            {"run_area": 0.8}, "run_area", "area outside the box", id="area outside the box"
         ),
-        pytest.param({"run_end_tangent": -1.0}, "run_end_tangent", 0.0, np.inf, id="no length"),
+        pytest.param(
+            {"run_centroid": -0.2}, "run_centroid", "moment outside", id="moment outside the box"
+        ),
+        pytest.param({"run_centroid": -0.62}, "run_centroid", "fold back", id="fold"),
+        pytest.param(
+            {"entrance_area": 0.79}, "entrance_area", "fold back|outside", id="too full an entrance"
+        ),
     ],
-)
-def test_refused_values_of_halves(
-    change: dict[str, float | None], name: str, least: float, most: float
-) -> None:
-    """What no curve has is refused; the error tells definition, value and interval."""
+)  # fmt: skip
+def test_refused_values_of_halves(change: dict[str, float | None], name: str, text: str) -> None:
+    """What no curve has is refused; all of the interval that the error tells can be had."""
+    values = {**TYPE1, **change}
     with pytest.raises(OutOfRangeError, match="definition 'areas'") as caught:
-        chain_of(areas({**TYPE1, **change}), UNIT)
+        chain_of(areas(values), UNIT)
+    assert re.search(text, str(caught.value))
     assert caught.value.name == name
-    assert (caught.value.least, caught.value.most) == pytest.approx((least, most))
+    least, most = caught.value.least, caught.value.most
+    asked = values[name]
+    assert asked is not None
+    assert least < most
+    if name == "run_end":
+        return
+    for share in np.linspace(0.0, 1.0, 21):
+        chain_of(areas({**values, name: float(least + share * (most - least))}), UNIT)
+    beyond = least - 1e-4 if asked < least else most + 1e-4
+    with pytest.raises(AssocHullError):
+        chain_of(areas({**values, name: beyond}), UNIT)
 
 
-def test_nearest_centroid_is_told() -> None:
-    """A centroid that the area does not admit is refused with the last one that it does admit."""
+def test_a_tangent_is_a_length() -> None:
+    """A tangent below 0 is refused."""
+    with pytest.raises(OutOfRangeError, match="run_end_tangent"):
+        chain_of(areas({**TYPE1, "run_end_tangent": -1.0}), UNIT)
+
+
+def test_nothing_can_be_told() -> None:
+    """Where no area and no centroid would do, the tangents are named."""
     values = {
         **TYPE1, "run_area": 0.22, "run_start_angle_deg": 64.0, "run_start_curvature": -3.5,
-        "run_start_tangent": 0.46, "run_end_tangent": 0.88,
+        "run_start_tangent": 0.46, "run_end_tangent": 0.88, "run_centroid": -0.816,
     }  # fmt: skip
-    with pytest.raises(OutOfRangeError, match="cannot be met with this area") as caught:
-        chain_of(areas({**values, "run_centroid": -0.816}), UNIT)
-    least = caught.value.least
-    for centroid, text in ((least - 1e-6, "cannot be met"), (least + 1e-6, "folds back")):
-        with pytest.raises((OutOfRangeError, BadInputError), match=text):
-            chain_of(areas({**values, "run_centroid": centroid}), UNIT)
+    with pytest.raises(BadInputError, match="other tangents than 0"):
+        chain_of(areas(values), UNIT)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +130,7 @@ def test_run_that_folds_back() -> None:
         **TYPE1, "run_end": -0.1, "run_start_curvature": 0.0, "run_area": 0.775,
         "run_centroid": -0.5,
     }  # fmt: skip
-    with pytest.raises(BadInputError, match="folds back"):
+    with pytest.raises(OutOfRangeError, match="fold back"):
         chain_of(areas(values), UNIT)
     chain_of(areas({**values, "run_start_tangent": 0.085, "run_end_tangent": 0.538}), UNIT)
 
