@@ -18,7 +18,9 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.forms.generate import layout_at
 from assoc_hull.model.make import Maker
+from assoc_hull.model.regenerate import forms_of, place_of
 from assoc_hull.model.state import HullState, form_node
 
 __all__ = ["form_changes", "take_up_forms"]
@@ -81,10 +83,32 @@ def _write(maker: Maker, pending: Pending) -> IntArray:
 
 
 def _other_pieces(state: HullState) -> list[GeneratedCurve]:
-    """Give attached curves that come of other pieces now."""
+    """Give attached curves that come of other pieces now; no section may come in more or fewer."""
+    for made in state.generated:
+        if made.attached and made.what == "section":
+            _refuse_other_number(state, made)
     return [
         made for made in state.generated if made.attached and layout_now(state, made) != made.layout
     ]
+
+
+def _refuse_other_number(state: HullState, made: GeneratedCurve) -> None:
+    """Refuse where a bulb comes to close at a section, or closes there no more."""
+    line = state.line_of(made.curve)
+    curves = [each for each in state.lines.curves.data[line] if state.curves.alive.data[each]]
+    if curves.index(made.curve) + 1 < len(curves):
+        return
+    try:
+        layout_at(forms_of(state), made.what, place_of(state, made.curve), 1)
+    except BadInputError:
+        number = 1
+    else:
+        number = 2
+    if number != len(curves):
+        raise BadInputError(
+            f"{state.lines.name.data[line]} would come in {number} curves instead of {len(curves)}",
+            "in set_form", "remove the line first, and cut it again afterwards",
+        )  # fmt: skip
 
 
 def _remake(maker: Maker, pending: Pending, curves: list[GeneratedCurve]) -> None:

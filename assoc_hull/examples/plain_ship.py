@@ -103,11 +103,11 @@ def _angles() -> list[FormDefinition]:
     }  # fmt: skip
     flat = 0.5 * SHIP.breadth - BILGE
     bottom = {
-        "run": (20.0, 0.0), "quarter": (42.0, 6.2), "aft": (54.0, flat, 0.0),
+        "run": (20.0, 0.0), "quarter": (38.0, 6.4), "aft": (54.0, flat, 0.0),
         "fore": (69.0, flat, 0.0), "shoulder": (78.0, 6.2), "entrance": (100.0, 0.0),
     }  # fmt: skip
     side = {
-        "run": (36.5, 8.5), "quarter": (42.0, 3.4), "aft": (54.0, BILGE, 0.0),
+        "run": (35.0, 8.5), "quarter": (42.0, 3.4), "aft": (54.0, BILGE, 0.0),
         "fore": (69.0, BILGE, 0.0), "shoulder": (78.0, 2.8), "entrance": (87.0, 9.0),
     }  # fmt: skip
     return [

@@ -70,3 +70,12 @@ def test_a_shift_along_a_level_keel_leaves_the_hull_consistent(
     assert len(varied.check()) == 1  # all detached lines in one finding
     moved = varied.lines["ST 14"]
     assert moved.position > carrier.lines["ST 14"].position
+
+
+def test_no_section_comes_in_another_number_of_curves(shipped: Callable[[str], ah.Hull]) -> None:
+    """Where the bulb would no longer close at a section the edit is refused, with the way out."""
+    hull = shipped("container_ship_225m")
+    before = hull.fingerprint
+    with pytest.raises(ah.RefusedEditError, match=r"ST 20\.45 would come in 1 curves instead of 2"):
+        hull.apply("a shorter bulb", [{"op": "set_form", "definition": "profile", "tip_x": 229.5}])
+    assert hull.fingerprint == before

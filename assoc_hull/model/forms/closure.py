@@ -37,7 +37,7 @@ from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curve import form_integrals
 from assoc_hull.model.forms.closing import close_sac, closing_area
 from assoc_hull.model.forms.definition import FormDefinition
-from assoc_hull.model.forms.halves import half_number, half_vertices
+from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
 from assoc_hull.model.forms.reachable import reachable
 
 if TYPE_CHECKING:
@@ -199,7 +199,9 @@ def _closed(
             where=where,
         )  # fmt: skip
     found = definition.having({"entrance_area": area, "entrance_centroid": at})
-    half_vertices(found, "entrance")
+    fault = half_fault(found, "entrance")
+    if fault:
+        raise BadInputError(f"the entrance {fault}", where, "give other tangents, or another run")
     return found
 
 

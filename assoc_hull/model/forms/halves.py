@@ -20,20 +20,20 @@ Examples
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_chain import straight_vertices
-from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.half import Half, fault_of, vertices_of
 from assoc_hull.model.forms.reachable import reachable
 
-__all__ = ["half_number", "half_vertices", "halves_vertices"]
+__all__ = ["half_fault", "half_number", "half_vertices", "halves_vertices"]
 
 _DEFAULTS = {
     "run_start": -1.0, "run_start_ordinate": 0.0, "run_start_curvature": 0.0,
@@ -42,21 +42,6 @@ _DEFAULTS = {
     "entrance_end_ordinate": 0.0, "entrance_end_curvature": 0.0,
 }  # fmt: skip
 """What stands for a value that is None."""
-
-_SLACK = 1e-12
-"""Of the size of an interval: so far outside a value may lie."""
-
-
-@attrs.frozen
-class _Half:
-    """One half: names of its values, and the values."""
-
-    name: str
-    where: str
-    start: tuple[float, ...]
-    finish: tuple[float, ...]
-    area: float | None
-    centroid: float | None
 
 
 def halves_vertices(definition: FormDefinition) -> FloatArray:
@@ -82,13 +67,9 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
         A value that is needed is None; tangents with which the curve folds back.
     """
     where = f"in the definition {definition.name!r}"
-    for least, name, most in (
-        ("run_start", "run_end", "entrance_start"),
-        ("run_end", "entrance_start", "entrance_end"),
-    ):
-        _ordered(definition, where, least, name, most)
-    run = _vertices(_half(definition, where, "run", ("run_start", "run_end")))
-    entrance = _vertices(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
+    if not _in_order(definition, where):
+        raise _out_of_order(definition, where)
+    run, entrance = (half_vertices(definition, name) for name in ("run", "entrance"))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
     if begin == end:
         return np.stack([run, entrance])
@@ -107,6 +88,12 @@ def half_number(definition: FormDefinition, name: str) -> float:
     return _value(definition, f"in the definition {definition.name!r}", name)
 
 
+def half_fault(definition: FormDefinition, name: str) -> str:
+    """Tell why the ``"run"`` or the ``"entrance"`` cannot be made; empty if it can."""
+    where = f"in the definition {definition.name!r}"
+    return fault_of(_half(definition, where, name, _ENDS[name]))
+
+
 def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
     """Give the vertices, (7, 2), of the ``"run"`` or the ``"entrance"`` alone.
 
@@ -116,8 +103,10 @@ def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
         As for `halves_vertices`.
     """
     where = f"in the definition {definition.name!r}"
-    ends = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}[name]
-    return _vertices(_half(definition, where, name, ends))
+    return vertices_of(_half(definition, where, name, _ENDS[name]))
+
+
+_ENDS = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}
 
 
 def _value(definition: FormDefinition, where: str, name: str) -> float:
@@ -129,14 +118,57 @@ def _value(definition: FormDefinition, where: str, name: str) -> float:
     return found
 
 
-def _ordered(definition: FormDefinition, where: str, low: str, name: str, high: str) -> None:
-    least, value, most = (_value(definition, where, each) for each in (low, name, high))
-    if not least <= value <= most:
-        why = f"is not between {low} and {high}"
-        raise OutOfRangeError(name, value, where, why, least, most, "of half the length")
+_ORDER = ("run_start", "run_end", "entrance_start", "entrance_end")
 
 
-def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> _Half:
+def _in_order(definition: FormDefinition, where: str) -> bool:
+    """Tell whether the abscissae of a curve rise; the parallel part may have no length."""
+    first, second, third, last = (_value(definition, where, each) for each in _ORDER)
+    return first < second <= third < last
+
+
+def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
+    """Give the error of abscissae out of order: which could lie elsewhere, and where."""
+    values = [_value(definition, where, each) for each in _ORDER]
+    for number in (1, 2):
+        name, asked = _ORDER[number], values[number]
+
+        def made(value: float, name: str = name) -> bool:
+            return _sound(definition.having({name: value}), where)
+
+        found = _searched(made, values[number - 1], values[number + 1], asked) or _searched(
+            made, values[0], values[3], asked
+        )
+        if found is not None:
+            break
+    else:
+        wrong = next(n for n in (1, 2, 3) if not values[n - 1] < values[n])
+        name, asked, found = _ORDER[wrong], values[wrong], (values[wrong - 1], math.inf)
+    place = _ORDER.index(name)
+    why = f"is not between {_ORDER[place - 1]} and {(*_ORDER, 'the end')[place + 1]}"
+    return OutOfRangeError(name, asked, where, why, *found, "of half the length")
+
+
+def _searched(
+    made: Callable[[float], bool], least: float, most: float, asked: float
+) -> tuple[float, float] | None:
+    """Look for values stretch by stretch, the nearest first: few of them may do."""
+    cuts = itertools.pairwise(np.linspace(least, most, 9).tolist())
+    for low, high in sorted(cuts, key=lambda ends: abs(0.5 * (ends[0] + ends[1]) - asked)):
+        found = reachable(made, low, high, asked)
+        if found is not None:
+            return found
+    return None
+
+
+def _sound(definition: FormDefinition, where: str) -> bool:
+    """Tell whether both halves can be made."""
+    if not _in_order(definition, where):
+        return False
+    return not any(half_fault(definition, name) for name in _ENDS)
+
+
+def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> Half:
     """Gather what a half is made from; None tangents get an eighth of the chord."""
     x = [_value(definition, where, end) for end in ends]
     y = [_value(definition, where, _ordinate(end)) for end in ends]
@@ -162,90 +194,9 @@ def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, st
         raise BadInputError(
             f"{name}_centroid is given and {name}_area is None", where, "give both, or the area"
         )
-    return _Half(name, where, start, finish, area, centroid)
+    return Half(name, where, start, finish, area, centroid)
 
 
 def _ordinate(end: str) -> str:
     """Give the name of the ordinate at an end; both halves share the top."""
     return "top" if end in ("run_end", "entrance_start") else f"{end}_ordinate"
-
-
-def _vertices(half: _Half) -> FloatArray:
-    """Give the vertices of a half; a refusal tells what can be had."""
-    why = _fault(half)
-    if not why:
-        return _made(half)
-    x0, x1 = half.start[0], half.finish[0]
-    most = max(half.start[1], half.finish[1]) * (x1 - x0)
-    for name, asked, low, high, unit in (
-        ("centroid", half.centroid, x0, x1, "of half the length"),
-        ("area", half.area, 0.0, most, ""),
-    ):
-        found = None if asked is None else _had(half, name, low, high, asked)
-        if asked is not None and found is not None:
-            whole = f"{half.name}_{name}"
-            raise OutOfRangeError(whole, asked, half.where, why, *found, unit)
-    what = f"the {half.name}" if half.area is None else f"{half.name}_area of {half.area:.8g}"
-    raise BadInputError(
-        f"{what} {why}", half.where,
-        f"give other tangents than {half.start[4]:.6g} and {half.finish[4]:.6g} at its ends, or "
-        "another area and centroid",
-    )  # fmt: skip
-
-
-def _had(
-    half: _Half, name: str, low: float, high: float, asked: float
-) -> tuple[float, float] | None:
-    """Give the areas, or the centroids, with which the half can be made and stays in its box."""
-
-    def keeps(value: float) -> bool:
-        other = attrs.evolve(half, **{name: value})
-        return not _fault(other) and not _over(other)
-
-    def made(value: float) -> bool:
-        return not _fault(attrs.evolve(half, **{name: value}))
-
-    return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
-
-
-def _over(half: _Half) -> bool:
-    """Tell whether a half rises above the higher of its ends: no section has that area."""
-    mirrored = _made(half)[None] * np.array([1.0, -1.0])
-    top = max(half.start[1], half.finish[1])
-    return bool(-least_coordinate(mirrored, 1)[0] > top + 1e-6)
-
-
-def _made(half: _Half) -> FloatArray:
-    """Give the vertices, whatever they are worth; nan where there are none."""
-    area = None if half.area is None else np.array([half.area])
-    centroid = None if half.centroid is None else np.array([half.centroid])
-    return np.asarray(
-        form_vertices(FormEnd.of(*half.start), FormEnd.of(*half.finish), area, centroid)[0]
-    )
-
-
-def _fault(half: _Half) -> str:
-    """Tell why a half cannot be made; empty if it can."""
-    length = half.finish[0] - half.start[0]
-    low, high = sorted((half.start[1], half.finish[1]))
-    if half.area is not None:
-        if not (low * length - _SLACK <= half.area <= high * length + _SLACK and half.area > 0.0):
-            return "asks for an area outside the box between the ends"
-        if half.centroid is not None and not _in_box(half, low, high):
-            return "asks for a moment outside the box between the ends"
-    vertices = _made(half)
-    if not np.isfinite(vertices).all():
-        return "cannot be met: no curve has this area and centroid"
-    if least_rate(vertices[None], 0)[0] < -_SLACK * length:
-        return "makes the curve fold back, with two ordinates at one abscissa"
-    return ""
-
-
-def _in_box(half: _Half, low: float, high: float) -> bool:
-    """Tell whether the moment about the lower end lies between those of the lowest and highest."""
-    assert half.area is not None
-    assert half.centroid is not None
-    falls = half.finish[1] < half.start[1]
-    arm = half.finish[0] - half.centroid if falls else half.centroid - half.start[0]
-    square = 0.5 * (half.finish[0] - half.start[0]) ** 2
-    return low * square - _SLACK <= half.area * arm <= high * square + _SLACK
