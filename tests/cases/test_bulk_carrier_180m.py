@@ -71,7 +71,7 @@ def test_closure_has_the_block_coefficient_and_the_centre_of_buoyancy() -> None:
     chain = chain_of(design.definition("sectional_area"), design.particulars)
     volume = chain.area()
     assert volume / (LPP * BREADTH * DRAUGHT) == pytest.approx(0.75, abs=1e-12)
-    assert chain.moment() / volume - 0.5 * LPP == pytest.approx(2.9, abs=1e-11)
+    assert chain.moment() / volume - 0.5 * LPP == pytest.approx(2.9, abs=1e-12)
     areas = design.definition("sectional_area")
     assert areas.value("entrance_area") == pytest.approx(0.448228545063, abs=5e-13)
     assert areas.value("entrance_centroid") == pytest.approx(0.584001746435, abs=5e-13)
@@ -134,6 +134,7 @@ def test_the_report_agrees_with_that(ship: ah.Hull) -> None:
     """Closure and net side by side, from AP to FP."""
     report = ship.creation
     assert report.figure("CB").closure == pytest.approx(0.75, abs=1e-12)
+    assert report.figure("LCB").closure == pytest.approx(2.9, abs=1e-12)
     assert report.figure("CB").net == pytest.approx(0.75, rel=5e-4)
     assert report.figure("LCB").net == pytest.approx(2.9, abs=0.02)
     assert report.figure("CW").net == pytest.approx(report.figure("CW").closure, rel=5e-4)
