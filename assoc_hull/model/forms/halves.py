@@ -20,17 +20,17 @@ Examples
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable
 
-import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.form_chain import straight_vertices
-from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.forms.half import Half, fault_of, vertices_of
 from assoc_hull.model.forms.reachable import reachable
 
 __all__ = ["half_fault", "half_number", "half_vertices", "halves_vertices"]
@@ -42,21 +42,6 @@ _DEFAULTS = {
     "entrance_end_ordinate": 0.0, "entrance_end_curvature": 0.0,
 }  # fmt: skip
 """What stands for a value that is None."""
-
-_SLACK = 1e-12
-"""Of the size of an interval: so far outside a value may lie."""
-
-
-@attrs.frozen
-class _Half:
-    """One half: names of its values, and the values."""
-
-    name: str
-    where: str
-    start: tuple[float, ...]
-    finish: tuple[float, ...]
-    area: float | None
-    centroid: float | None
 
 
 def halves_vertices(definition: FormDefinition) -> FloatArray:
@@ -84,8 +69,8 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
     where = f"in the definition {definition.name!r}"
     if not _in_order(definition, where):
         raise _out_of_order(definition, where)
-    run = _vertices(_half(definition, where, "run", ("run_start", "run_end")))
-    entrance = _vertices(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
+    run = vertices_of(_half(definition, where, "run", ("run_start", "run_end")))
+    entrance = vertices_of(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
     if begin == end:
         return np.stack([run, entrance])
@@ -107,7 +92,7 @@ def half_number(definition: FormDefinition, name: str) -> float:
 def half_fault(definition: FormDefinition, name: str) -> str:
     """Tell why the ``"run"`` or the ``"entrance"`` cannot be made; empty if it can."""
     where = f"in the definition {definition.name!r}"
-    return _fault(_half(definition, where, name, _ENDS[name]))
+    return fault_of(_half(definition, where, name, _ENDS[name]))
 
 
 def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
@@ -119,7 +104,7 @@ def half_vertices(definition: FormDefinition, name: str) -> FloatArray:
         As for `halves_vertices`.
     """
     where = f"in the definition {definition.name!r}"
-    return _vertices(_half(definition, where, name, _ENDS[name]))
+    return vertices_of(_half(definition, where, name, _ENDS[name]))
 
 
 _ENDS = {"run": ("run_start", "run_end"), "entrance": ("entrance_start", "entrance_end")}
@@ -152,7 +137,9 @@ def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
         def made(value: float, name: str = name) -> bool:
             return _sound(definition.having({name: value}), where)
 
-        found = reachable(made, values[0], values[3], asked)
+        found = _searched(made, values[number - 1], values[number + 1], asked) or _searched(
+            made, values[0], values[3], asked
+        )
         if found is not None:
             break
     else:
@@ -163,17 +150,29 @@ def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
     return OutOfRangeError(name, asked, where, why, *found, "of half the length")
 
 
+def _searched(
+    made: Callable[[float], bool], least: float, most: float, asked: float
+) -> tuple[float, float] | None:
+    """Look for values stretch by stretch, the nearest first: few of them may do."""
+    cuts = itertools.pairwise(np.linspace(least, most, 9).tolist())
+    for low, high in sorted(cuts, key=lambda ends: abs(0.5 * (ends[0] + ends[1]) - asked)):
+        found = reachable(made, low, high, asked)
+        if found is not None:
+            return found
+    return None
+
+
 def _sound(definition: FormDefinition, where: str) -> bool:
     """Tell whether both halves can be made."""
     if not _in_order(definition, where):
         return False
     ends = (("run", _ORDER[:2]), ("entrance", _ORDER[2:]))
     return not any(
-        _fault(_half(definition, where, name, (first, last))) for name, (first, last) in ends
+        fault_of(_half(definition, where, name, (first, last))) for name, (first, last) in ends
     )
 
 
-def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> _Half:
+def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> Half:
     """Gather what a half is made from; None tangents get an eighth of the chord."""
     x = [_value(definition, where, end) for end in ends]
     y = [_value(definition, where, _ordinate(end)) for end in ends]
@@ -199,94 +198,9 @@ def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, st
         raise BadInputError(
             f"{name}_centroid is given and {name}_area is None", where, "give both, or the area"
         )
-    return _Half(name, where, start, finish, area, centroid)
+    return Half(name, where, start, finish, area, centroid)
 
 
 def _ordinate(end: str) -> str:
     """Give the name of the ordinate at an end; both halves share the top."""
     return "top" if end in ("run_end", "entrance_start") else f"{end}_ordinate"
-
-
-def _vertices(half: _Half) -> FloatArray:
-    """Give the vertices of a half; a refusal tells what can be had."""
-    why = _fault(half)
-    if not why:
-        return _made(half)
-    x0, x1 = half.start[0], half.finish[0]
-    most = max(half.start[1], half.finish[1]) * (x1 - x0)
-    for name, asked, low, high, unit in (
-        ("centroid", half.centroid, x0, x1, "of half the length"),
-        ("area", half.area, 0.0, most, ""),
-    ):
-        found = None if asked is None else _had(half, name, low, high, asked)
-        if asked is not None and found is not None:
-            whole = f"{half.name}_{name}"
-            raise OutOfRangeError(whole, asked, half.where, why, *found, unit)
-    what = f"the {half.name}" if half.area is None else f"{half.name}_area of {half.area:.8g}"
-    raise BadInputError(
-        f"{what} {why}", half.where,
-        f"give other tangents than {half.start[4]:.6g} and {half.finish[4]:.6g} at its ends, or "
-        "another area and centroid",
-    )  # fmt: skip
-
-
-def _had(
-    half: _Half, name: str, low: float, high: float, asked: float
-) -> tuple[float, float] | None:
-    """Give the areas, or the centroids, with which the half can be made and stays in its box."""
-
-    def other(value: float) -> _Half:
-        if name == "area":
-            return attrs.evolve(half, area=value)
-        return attrs.evolve(half, centroid=value)
-
-    def keeps(value: float) -> bool:
-        return made(value) and not _over(other(value))
-
-    def made(value: float) -> bool:
-        return not _fault(other(value))
-
-    return reachable(keeps, low, high, asked) or reachable(made, low, high, asked)
-
-
-def _over(half: _Half) -> bool:
-    """Tell whether a half rises above the higher of its ends: no section has that area."""
-    mirrored = _made(half)[None] * np.array([1.0, -1.0])
-    top = max(half.start[1], half.finish[1])
-    return bool(-least_coordinate(mirrored, 1)[0] > top + 1e-6)
-
-
-def _made(half: _Half) -> FloatArray:
-    """Give the vertices, whatever they are worth; nan where there are none."""
-    area = None if half.area is None else np.array([half.area])
-    centroid = None if half.centroid is None else np.array([half.centroid])
-    return np.asarray(
-        form_vertices(FormEnd.of(*half.start), FormEnd.of(*half.finish), area, centroid)[0]
-    )
-
-
-def _fault(half: _Half) -> str:
-    """Tell why a half cannot be made; empty if it can."""
-    length = half.finish[0] - half.start[0]
-    low, high = sorted((half.start[1], half.finish[1]))
-    if half.area is not None:
-        if not (low * length - _SLACK <= half.area <= high * length + _SLACK and half.area > 0.0):
-            return "asks for an area outside the box between the ends"
-        if half.centroid is not None and not _in_box(half, low, high):
-            return "asks for a moment outside the box between the ends"
-    vertices = _made(half)
-    if not np.isfinite(vertices).all():
-        return "cannot be met: no curve has this area and centroid"
-    if least_rate(vertices[None], 0)[0] < -_SLACK * length:
-        return "makes the curve fold back, with two ordinates at one abscissa"
-    return ""
-
-
-def _in_box(half: _Half, low: float, high: float) -> bool:
-    """Tell whether the moment about the lower end lies between those of the lowest and highest."""
-    assert half.area is not None
-    assert half.centroid is not None
-    falls = half.finish[1] < half.start[1]
-    arm = half.finish[0] - half.centroid if falls else half.centroid - half.start[0]
-    square = 0.5 * (half.finish[0] - half.start[0]) ** 2
-    return low * square - _SLACK <= half.area * arm <= high * square + _SLACK
