@@ -9,7 +9,7 @@ Examples
 ...     edit.set_form("sectional areas", run_area=0.52)
 Traceback (most recent call last):
 ...
-assoc_hull.errors.UnknownNameError: no definition 'sectional areas'; this hull has none
+assoc_hull.errors.UnknownNameError: there is no definition named 'sectional areas'; list them first
 """
 
 from __future__ import annotations
