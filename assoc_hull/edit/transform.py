@@ -204,7 +204,8 @@ def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
     adopted = state.live("rows")
     adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
     fresh = [row for _, row in work.contacts]
-    pending.computed |= set(fresh) | work.driven
+    # all that is computed: the plane of a line may move along a driver of which no bit changes
+    pending.computed |= set(fresh) | work.driven | set(live[computed].tolist())
     pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
     pending.held |= set(adopted.tolist())
     pending.curves |= set(state.live("curves").tolist())

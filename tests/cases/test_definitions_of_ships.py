@@ -60,6 +60,20 @@ def test_one_value_lofts_what_depends_on_it_and_nothing_else(
     assert hull.fingerprint == start
 
 
+def test_a_shift_along_a_level_keel_leaves_the_hull_consistent(
+    shipped: Callable[[str], ah.Hull],
+) -> None:
+    """Ends of sections follow their planes along a profile of which no bit changes."""
+    carrier = shipped("bulk_carrier_180m")
+    varied = ah.vary(carrier, set={"fore_shift": 0.5}).hull
+    assert varied.verify() == ()
+    assert len(varied.check()) == 1  # all detached lines in one finding
+    before, after = (hull.lines["ST 14"].position for hull in (carrier, varied))
+    assert before is not None
+    assert after is not None
+    assert after > before
+
+
 def test_no_section_comes_in_another_number_of_curves(shipped: Callable[[str], ah.Hull]) -> None:
     """Where the bulb would no longer close at a section the edit is refused, with the way out."""
     hull = shipped("container_ship_225m")

@@ -69,8 +69,7 @@ def halves_vertices(definition: FormDefinition) -> FloatArray:
     where = f"in the definition {definition.name!r}"
     if not _in_order(definition, where):
         raise _out_of_order(definition, where)
-    run = vertices_of(_half(definition, where, "run", ("run_start", "run_end")))
-    entrance = vertices_of(_half(definition, where, "entrance", ("entrance_start", "entrance_end")))
+    run, entrance = (half_vertices(definition, name) for name in ("run", "entrance"))
     begin, end = (_value(definition, where, n) for n in ("run_end", "entrance_start"))
     if begin == end:
         return np.stack([run, entrance])
@@ -137,9 +136,7 @@ def _out_of_order(definition: FormDefinition, where: str) -> OutOfRangeError:
         def made(value: float, name: str = name) -> bool:
             return _sound(definition.having({name: value}), where)
 
-        found = _searched(made, values[number - 1], values[number + 1], asked) or _searched(
-            made, values[0], values[3], asked
-        )
+        found = _searched(made, values[number - 1], values[number + 1], asked)
         if found is not None:
             break
     else:
@@ -166,10 +163,7 @@ def _sound(definition: FormDefinition, where: str) -> bool:
     """Tell whether both halves can be made."""
     if not _in_order(definition, where):
         return False
-    ends = (("run", _ORDER[:2]), ("entrance", _ORDER[2:]))
-    return not any(
-        fault_of(_half(definition, where, name, (first, last))) for name, (first, last) in ends
-    )
+    return not any(half_fault(definition, name) for name in _ENDS)
 
 
 def _half(definition: FormDefinition, where: str, name: str, ends: tuple[str, str]) -> Half:
