@@ -51,7 +51,7 @@ def _areas() -> FormDefinition:
     return sectional_area(
         SHIP, cm=midship, cb=0.68, lcb=-0.6,
         run_start_ordinate=0.045, run_start_angle_deg=22.0, run_area=0.598, run_centroid=-0.424,
-        run_start_tangent=0.1, run_end_tangent=0.25,
+        run_start_tangent=0.13, run_end_tangent=0.25,
         run_end=-0.1, entrance_start=0.15, entrance_end_angle_deg=-40.0,
         entrance_start_tangent=0.12,
     )  # fmt: skip
@@ -93,7 +93,7 @@ def _boundary() -> list[FormDefinition]:
 
 def _angles() -> list[FormDefinition]:
     keel = {
-        "transom": (-4.0, 80.0), "counter": (0.0, 70.0), "heel": (7.0, 15.0), "run": (25.0, 60.0),
+        "transom": (-4.0, 80.0), "counter": (0.0, 40.0), "heel": (7.0, 4.0), "run": (25.0, 60.0),
         "aft": (54.0, 90.0, 0.0), "fore": (69.0, 90.0, 0.0), "entrance": (100.0, 65.0),
         "stem": (121.8, 15.0),
     }  # fmt: skip
