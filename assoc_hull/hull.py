@@ -265,8 +265,8 @@ class Hull:
         """Give what an address names; see `assoc_hull.model.address`."""
         return handle(self.state, address)
 
-    def why(self, thing: Thing | str) -> Why:
-        """Explain the last change of a point or curve, or of the first curve of a line.
+    def why(self, thing: Thing | FormDefinition | str) -> Why:
+        """Explain the last change of a point, curve, definition, or a line's first curve.
 
         Raises
         ------
@@ -301,7 +301,7 @@ class Hull:
     def graph(
         self,
         *,
-        around: Thing | str | None = None,
+        around: Thing | FormDefinition | str | None = None,
         up: int = 1,
         down: int = 1,
         only: OnlyName | None = None,

@@ -24,7 +24,8 @@ def add(commands: Commands) -> None:
     add_hull(parser)
     parser.add_argument(
         "object", metavar="OBJECT",
-        help="a point, a curve, or a line (of which the first curve is meant): address or key",
+        help="a point, a curve, a line (of which the first curve is meant) or a definition: its "
+        "address, name or key",
     )  # fmt: skip
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--tree", action="store_true", help="draw the tree of causes")

@@ -10,6 +10,7 @@ from assoc_hull.arguments import shown
 from assoc_hull.edit.cause import Why
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.report import told_change
+from assoc_hull.edit.set_form import definition_meant
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph.explain import Trace, Tracer
@@ -18,7 +19,7 @@ from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.generated import attached_rows
 from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
-from assoc_hull.model.state import HullState, form_of
+from assoc_hull.model.state import HullState, form_node, form_of
 
 __all__ = ["Thing", "Why", "node_of", "why", "why_after"]
 
@@ -78,15 +79,15 @@ def why_after(state: HullState, steps: Sequence[Step], node: int) -> Why:
     return Why(_key(state, node), _name(book, node), None, 0, None, _still(state, node))
 
 
-def node_of(state: HullState, thing: Thing | str) -> int:
-    """Give the engine's node of a point, a curve, or the first curve of a line.
+def node_of(state: HullState, thing: Thing | FormDefinition | str) -> int:
+    """Give the engine's node of a point, a curve, the first curve of a line, or a definition.
 
     Parameters
     ----------
     state : HullState
         The tables.
-    thing : handle or address
-        The object.
+    thing : handle, address, FormDefinition, or a name or key of one
+        The object; where a line and a definition have one name, the line.
 
     Raises
     ------
@@ -102,6 +103,11 @@ def node_of(state: HullState, thing: Thing | str) -> int:
     >>> node_of(wigley(), "ST 1") % 2  # curves have odd nodes
     1
     """
+    definition = definition_meant(state, thing)
+    if definition is not None:
+        formed = state.formed.definition.data
+        number = next(n for n in state.live("formed").tolist() if formed[n].key == definition.key)
+        return int(form_node(np.array([number]))[0])
     found = handle(state, thing) if isinstance(thing, str) else thing
     if not isinstance(found, Thing):
         what = f"the object is {shown(found)}"

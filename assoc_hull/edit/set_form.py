@@ -18,12 +18,13 @@ from collections.abc import Mapping
 
 from assoc_hull.arguments import number, shown
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.errors import AssocHullError, BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.model.forms.chains import chain_of
 from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.handles import handle
 from assoc_hull.model.state import HullState
 
-__all__ = ["CLOSED", "definition_named", "set_form"]
+__all__ = ["CLOSED", "definition_meant", "definition_named", "set_form"]
 
 CLOSED: Mapping[str, tuple[str, ...]] = {
     "sectional_area": ("cb", "cp", "lcb"), "design_waterline": ("cw", "lcf"),
@@ -50,6 +51,26 @@ def definition_named(state: HullState, name: FormDefinition | str) -> FormDefini
         if wanted in (each.name, each.use, each.key):
             return each
     raise UnknownNameError("definition", wanted, tuple(each.name for each in known))
+
+
+def definition_meant(state: HullState, thing: object) -> FormDefinition | None:
+    """Give the definition that is asked for by itself, its key, name or use; None if none is.
+
+    A line, curve or point of that name comes first.
+    """
+    if isinstance(thing, FormDefinition):
+        return definition_named(state, thing)
+    if not isinstance(thing, str):
+        return None
+    for each in state.definitions:
+        if thing == each.key:
+            return each
+        if thing in (each.name, each.use):
+            try:
+                handle(state, thing)
+            except AssocHullError:
+                return each
+    return None
 
 
 def set_form(

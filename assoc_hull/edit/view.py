@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from assoc_hull.arguments import choice, integer, shown
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.explain import Thing
+from assoc_hull.edit.set_form import definition_meant
 from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
 from assoc_hull.graph import view as filters
+from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.handles import Crossing, Line, Point, handle
 from assoc_hull.model.state import HullState
 from assoc_hull.model.view import graph, point_id
@@ -25,7 +27,7 @@ ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed")
 
 def graph_of(
     document: Document,
-    around: Thing | str | None = None,
+    around: Thing | FormDefinition | str | None = None,
     hops: tuple[int, int] = (1, 1),
     only: OnlyName | None = None,
     edit: int | None = None,
@@ -36,7 +38,7 @@ def graph_of(
     ----------
     document : Document
         The hull with its history.
-    around : object, address, node or None
+    around : object, definition, address, node or None
         Only what lies within some hops of this object; of a line, of its curves too.
     hops : (int, int)
         Most hops against and along the links, counted in the whole graph.
@@ -99,10 +101,15 @@ def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.Multi
     return filters.only(found, nodes, kept)
 
 
-def _nodes(state: HullState, thing: Thing | str, found: networkx.MultiDiGraph[str]) -> list[str]:
+def _nodes(
+    state: HullState, thing: Thing | FormDefinition | str, found: networkx.MultiDiGraph[str]
+) -> list[str]:
     """Give the nodes of an object; a line lies no nearer to its curves than they themselves."""
     if isinstance(thing, str) and thing in found and found.nodes[thing].get("kind") == "point":
         return [thing]
+    definition = definition_meant(state, thing)
+    if definition is not None:
+        return [definition.key]
     given = handle(state, thing) if isinstance(thing, str) else thing
     if not isinstance(given, Thing):
         what = f"the object is {shown(given)}"

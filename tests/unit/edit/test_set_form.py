@@ -263,3 +263,17 @@ def test_a_gap_that_comes_of_a_definition_is_mended_or_told(hull: ah.Hull) -> No
     assert all(set(before[key]) <= set(after[key]) for key in before)
     assert all(each.attached for each in hull.state.generated)
     assert hull.check() == ()
+
+
+def test_a_definition_is_asked_for_by_name(hull: ah.Hull) -> None:
+    """Why and graph take its name, its key or itself; a line of the same name comes first."""
+    assert "no edit has reached it" in str(hull.why("areas"))
+    with hull.edit("fuller") as edit:
+        edit.set_form("areas", run_area=0.513)
+    told = hull.why("areas")
+    assert "run_area" in told.what
+    assert hull.why("form:sectional_area") == told == hull.why(hull.definitions["areas"])
+    near = set(hull.graph(around="areas", up=0))
+    assert "form:sectional_area" in near
+    assert any(each.startswith("sections:") for each in near)
+    assert "definition" not in str(hull.why("profile"))
