@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
-from assoc_hull.arguments import once
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json
+from assoc_hull.cli.json_file import read_json
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.pairs import pairs
 from assoc_hull.cli.problems import UsageError, check_target
@@ -108,25 +107,11 @@ def _made(arguments: argparse.Namespace) -> FormCurve:
 
 def _read(path: Path) -> dict[str, Any]:
     """Read a JSON object."""
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-        found = json.loads(text, object_pairs_hook=once, parse_constant=_not_finite)
-    except OSError as error:
-        what = f"the file cannot be read ({error.strerror})"
-        raise BadInputError(what, f"at {path}", "check name and permissions") from error
-    except json.JSONDecodeError as error:
-        where = f"in {path}, line {error.lineno}, column {error.colno}"
-        raise BadInputError(f"this is no JSON ({error.msg})", where, "mend it") from error
-    except (ValueError, RecursionError) as error:
-        raise BadInputError(f"this is no curve ({error})", f"in {path}", "mend it") from error
+    found = read_json(path, "curve")
     if not isinstance(found, dict):
         remedy = 'give {"vertices": [...]} or {"parameters": {...}}'
         raise BadInputError("this is no JSON object", f"in {path}", remedy)
     return found
-
-
-def _not_finite(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no finite number")
 
 
 def _whole(text: str) -> int:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from assoc_hull.cli.arguments import (
     Commands,
@@ -19,6 +18,7 @@ from assoc_hull.cli.arguments import (
     add_wait,
 )
 from assoc_hull.cli.changed import open_to_change
+from assoc_hull.cli.json_file import read_json
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.preview_words import preview_words
 from assoc_hull.cli.problems import InFileError
@@ -170,18 +170,7 @@ def _read(path: Path) -> Changes:
     BadInputError
         With file, place and remedy.
     """
-    try:
-        found = json.loads(path.read_bytes().decode("utf-8-sig"), parse_constant=_not_finite)
-    except OSError as error:
-        what = f"the file cannot be read ({error.strerror})"
-        raise BadInputError(what, f"at {path}", "check name and permissions") from error
-    except json.JSONDecodeError as error:
-        where = f"in {path}, line {error.lineno}, column {error.colno}"
-        raise BadInputError(f"this is no JSON ({error.msg})", where, "mend it") from error
-    except (ValueError, RecursionError) as error:
-        raise BadInputError(
-            f"this is no list of edits ({error})", f"in {path}", "mend it"
-        ) from error
+    found = read_json(path, "list of edits")
     if not isinstance(found, list) or not found:
         what = "this is no list of modifications, or an empty one"
         raise BadInputError(what, f"in {path}", 'give [{"op": "move", "point": ...}, ...]')
@@ -190,7 +179,3 @@ def _read(path: Path) -> Changes:
             where = f"in {path}, modification {number}"
             raise BadInputError("it has no 'op'", where, 'give {"op": "move", "point": ...}')
     return found
-
-
-def _not_finite(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no finite number")
