@@ -222,3 +222,16 @@ def test_an_unknown_parameter_is_named() -> None:
     """With the nearest known one."""
     with pytest.raises(UnknownNameError, match="start_angle_deg"):
         ah.FormCurve.from_parameters({"start_angle": 0.0})
+
+
+def test_printed_areas_are_those_of_the_half_curves_themselves() -> None:
+    """Taken as fullness, or with the parallel body, the centroids of the paper cannot be."""
+    fullness = ah.FormCurve.of(
+        start=(-0.1, 1.0), start_angle_deg=0.0, finish=(1.0, 0.0), finish_angle_deg=-20.0,
+        area=0.775 * 1.1, centroid=0.325, tangents="default",
+    )  # fmt: skip
+    told = next(str(each) for each in fullness.messages if each.code == "C4s")
+    assert "allowed in [0.32625, " in told
+    area = 0.55 - 0.3  # less the parallel body from -0.3 to midship
+    centroid = (0.55 * -0.59 - 0.3 * -0.15) / area
+    assert centroid == pytest.approx(-1.118, abs=5e-4)  # abaft the start of the curve at -1
