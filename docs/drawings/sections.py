@@ -17,7 +17,7 @@ COLOURS = {
     "wall": WATCHED,
 }  # fmt: skip
 STATIONS = (
-    (3.0, -1.0, 0.7), (18.0, -1.0, -0.7), (60.0, 1.0, -3.0), (96.0, 1.0, 0.3), (114.0, 1.0, 0.2),
+    (3.0, -1.0, 0.7), (18.0, -1.0, 0.3), (60.0, 1.0, -3.0), (96.0, 1.0, 0.3), (114.0, 1.0, 0.2),
 )  # fmt: skip
 """Places, sides, and how far (m) above the deck edge they are named."""
 

@@ -44,7 +44,7 @@ def test_a_change_that_keeps_the_order_is_made_at_once(ship: Hull) -> None:
     """No crossing loses its place, no role changes."""
     roles = ship.state.rows.role.data.copy()
     with ship.edit("a little flare") as edit:
-        edit.set_form("waterline angle", stem_y=22.5)
+        edit.set_form("waterline angle", FP_y=16.2)
     assert not any("new order" in note for note in ship.history[-1].notes)
     assert np.array_equal(ship.state.rows.role.data[: len(roles)], roles)
     assert ship.check() == ()
@@ -52,21 +52,21 @@ def test_a_change_that_keeps_the_order_is_made_at_once(ship: Hull) -> None:
 
 def test_an_edit_by_hand_survives(ship: Hull) -> None:
     """A detached section keeps its shape when definitions change, and can be returned."""
-    point = next(each for each in ship.points if each.startswith("ST 16 @"))
+    point = next(each for each in ship.points if each.startswith("ST 17 @"))
     with ship.edit("by hand") as edit:
         _, y, z = ship.points[point].position
         edit.move(point, y=y + 0.02, z=z)
     (finding,) = ship.check()
-    assert (finding.kind, finding.object) == ("detached", "ST 16")
-    drawn = ship.lines["ST 16"].curves[0].polyline(8)
+    assert (finding.kind, finding.object) == ("detached", "ST 17")
+    drawn = ship.lines["ST 17"].curves[0].polyline(8)
     with ship.edit("keel") as edit:
         edit.set_form("keel angle", entrance_y=62.0)
-    assert np.array_equal(ship.lines["ST 16"].curves[0].polyline(8), drawn)
+    assert np.array_equal(ship.lines["ST 17"].curves[0].polyline(8), drawn)
     with ship.edit("back") as edit:
-        edit.reattach("ST 16")
+        edit.reattach("ST 17")
     assert ship.check() == ()
     keel = plain_ship_design().definition("keel_angle").having({"entrance_y": 62.0})
-    few = attrs.evolve(plain_ship_design().having(keel), stations=(10.0, 16.0), waterlines=(3.6,))
+    few = attrs.evolve(plain_ship_design().having(keel), stations=(10.0, 17.0), waterlines=(3.6,))
     made = ah.create(attrs.evolve(few, buttocks=()))
-    back, new = (each.lines["ST 16"].curves[0].polyline(8) for each in (ship, made))
+    back, new = (each.lines["ST 17"].curves[0].polyline(8) for each in (ship, made))
     assert np.array_equal(back, new)
