@@ -14,10 +14,12 @@ from assoc_hull.model.state import HullState
 __all__ = ["container_ship_225m", "container_ship_225m_design", "container_ship_225m_net"]
 
 _STATIONS = (
-    -0.2, 0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0,
-    10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 17.5, 18.0, 18.5, 19.0, 19.25, 19.5, 19.75,
-    20.0, 20.2, 20.35, 20.45,
+    -0.2, 0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 5.75, 6.0,
+    6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 11.0, 12.0, 12.5, 12.75, 13.0, 13.5, 14.0, 14.5, 14.75, 15.0,
+    16.0, 17.0, 17.5, 18.0, 18.5, 19.0, 19.25, 19.5, 19.75, 20.0, 20.2, 20.35, 20.45,
 )  # fmt: skip
+"""Closer together where lines leave the flats: between stations they are splines."""
+
 _WATERLINES = (0.6, 1.5, 3.0, 4.5, 6.0, 7.5, 9.0, 10.8, 12.5, 14.5, 16.5, 18.5)
 _BUTTOCKS = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0)
 
@@ -40,7 +42,7 @@ def container_ship_225m_design() -> Design:
 
 
 def container_ship_225m() -> HullState:
-    """Make the net of 37 stations, 12 waterlines and 7 buttocks.
+    """Make the net of 47 stations, 12 waterlines and 7 buttocks.
 
     Lpp 225 m, B 32 m, T 10.8 m, depth 19.6 m, block coefficient 0.65, centre of buoyancy
     2.8125 m abaft midship. The bulb has 9.1 % of the area of the midship section at FP; its tip
