@@ -107,7 +107,7 @@ def _boundary() -> list[FormDefinition]:
 
 def _angles() -> list[FormDefinition]:
     keel = {
-        "transom": (-3.5, 46.0), "AP": (0.0, 48.0), "arch": (3.3, 40.0), "post": (4.7, 1.5),
+        "transom": (-3.5, 46.0), "AP": (0.0, 48.0), "arch": (3.3, 40.0), "post": (4.7, 12.0),
         "ST 1": (6.0, 12.0), "ST 1.5": (9.0, 33.0), "ST 2": (12.0, 68.0),
         "bottom aft": (17.0, 90.0), "bottom fore": (100.0, 90.0), "entrance": (108.0, 64.0),
         "ST 19": (114.0, 34.0), "FP": (120.0, 12.0), "stem": (123.0, 18.0),
