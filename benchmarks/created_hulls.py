@@ -7,7 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import attrs
+
 import assoc_hull as ah
+from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
 from benchmarks.clock import Figure, side_by_side
 
 __all__ = ["figures"]
@@ -39,19 +42,28 @@ def _lofted_again(hull: ah.Hull, name: str, values: dict[str, float]) -> int:
     return count
 
 
+def _fewer() -> ah.Hull:
+    """Make the bulk carrier of every second station."""
+    design = bulk_carrier_180m_design()
+    return ah.create(attrs.evolve(design, stations=design.stations[::2]))
+
+
 def figures(quick: bool = False) -> list[Figure]:
-    """Measure."""
+    """Measure: making anew and setting, side by side in one run."""
     hull = ah.examples.bulk_carrier_180m()
     jobs: dict[str, Callable[[], object]] = {
         "bulk carrier 180 m": ah.examples.bulk_carrier_180m,
+        "the same of half its stations": _fewer,
         "container ship 225 m": ah.examples.container_ship_225m,
     }
-    rounds = 2 if quick else 5
-    times = side_by_side(jobs, rounds)
-    found = [Figure(f"create: {name}", seconds, "s") for name, seconds in times.items()]
     setting = {name: _setting(hull, *asked) for name, asked in _SETS.items()}
-    times = side_by_side(setting, rounds)
-    for name, seconds in times.items():
-        found.append(Figure(f"set and undo: {name}", seconds, "s"))
+    times = side_by_side({**jobs, **setting}, 2 if quick else 5)
+    found = [Figure(f"create: {name}", times[name], "s") for name in jobs]
+    whole = times["bulk carrier 180 m"]
+    grows = whole / times["the same of half its stations"]
+    found.append(Figure("create: all stations / half of them", grows, "x", 3.0, "most"))
+    for name in setting:
+        found.append(Figure(f"set and undo: {name}", times[name], "s"))
         found.append(Figure("    curves lofted again", _lofted_again(hull, *_SETS[name]), ""))
+        found.append(Figure("    create anew / set and undo", whole / times[name], "x", 5.0))
     return found
