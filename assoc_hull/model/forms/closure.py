@@ -35,7 +35,7 @@ import attrs
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.form_curve import form_integrals
-from assoc_hull.model.forms.closing import close_sac, closing_area
+from assoc_hull.model.forms.closure_sums import close_sac, closing_area
 from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
 from assoc_hull.model.forms.reachable import reachable

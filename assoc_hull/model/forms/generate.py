@@ -29,7 +29,7 @@ from assoc_hull.model.forms.layout import COURSES, ends_for, layout_at
 from assoc_hull.model.forms.marks import finer, first_marks, near_enough
 from assoc_hull.model.forms.pieces import Shape
 from assoc_hull.model.forms.sections import parted, section_shape
-from assoc_hull.model.forms.water import water_points
+from assoc_hull.model.forms.waterline_flats import water_points
 from assoc_hull.model.state import Ends
 
 __all__ = ["generated_points", "layout_at", "marks_for", "marks_suffice", "reads"]

@@ -33,7 +33,7 @@ from assoc_hull.model.forms.course_layout import course_layout, deck_layout
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.middle_body import in_middle_body
 from assoc_hull.model.forms.section_bulb import bulb_layout
-from assoc_hull.model.forms.water import water_layout
+from assoc_hull.model.forms.waterline_flats import water_layout
 from assoc_hull.model.state import Ends
 
 __all__ = ["COURSES", "ends_for", "joints_of", "layout_at"]

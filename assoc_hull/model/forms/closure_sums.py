@@ -2,7 +2,7 @@
 
 Examples
 --------
->>> from assoc_hull.model.forms.closing import closing_area
+>>> from assoc_hull.model.forms.closure_sums import closing_area
 >>> round(closing_area(0.7536, -0.208, 0.34, 1.0, 1.0, 0.511, 0.0, "here"), 4)
 0.4482
 """

@@ -3,7 +3,7 @@
 Examples
 --------
 >>> from assoc_hull.model.forms.forms import Forms
->>> from assoc_hull.model.forms.water import water_layout
+>>> from assoc_hull.model.forms.waterline_flats import water_layout
 >>> from assoc_hull.model.state import Particulars
 >>> water_layout(Forms.of([], Particulars("ship", 180.0, 28.0, 15.5, 10.5)), 6.0)
 ''
