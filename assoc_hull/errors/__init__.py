@@ -14,6 +14,7 @@ True
 """
 
 from assoc_hull.errors.aiming import DependentTargetsError, TooFewFreeError, UnreachableError
+from assoc_hull.errors.classical import GeometryError
 from assoc_hull.errors.family import (
     AbsentParameterError,
     AssocHullError,
@@ -51,6 +52,7 @@ __all__ = [
     "FoldError",
     "ForeignPointError",
     "FreedomError",
+    "GeometryError",
     "HullFileError",
     "MissingExtraError",
     "NameTakenError",

@@ -70,6 +70,13 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ValueError,
         ["a form-parameter curve", "area 0.55", "centroid -0.3", "-0.45 down"],
     ),
+    (
+        errors.GeometryError(
+            "midship: R=20 exceeds the limit 14.3", "give a smaller R", {"R": 20.0}, "line 4 of a"
+        ),
+        ValueError,
+        ["midship: R=20", "14.3", "line 4 of a", "give a smaller R"],
+    ),
     (errors.RingError(("A", "B", "A")), ValueError, ["A -> B -> A", "two-way"]),
     (
         errors.RefusedEditError("fair WL 1", ("gap of 3 mm at ST 7", "gap of 2 mm at ST 8")),

@@ -1,0 +1,1 @@
+"""Classical curves and sections, each as its author defined it, errors of print corrected."""
