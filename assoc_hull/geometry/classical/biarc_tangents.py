@@ -143,18 +143,17 @@ def _refuse_points(points: FloatArray) -> None:
         )  # fmt: skip
 
 
-def _breaks(knuckles: Iterable[int], count: int) -> list[int]:
+def _breaks(knuckles: object, count: int) -> list[int]:
     """Give the numbers of both ends and of the knuckles between, in order."""
-    given = list(knuckles) if isinstance(knuckles, Iterable) else [knuckles]
+    given: Iterable[object] = knuckles if isinstance(knuckles, Iterable) else (knuckles,)
     found = set[int]()
     for each in given:
-        whole = isinstance(each, int | np.integer) and not isinstance(each, bool)
-        place = int(each) if whole else 0
+        place = each if isinstance(each, int | np.integer) else 0
         if not 0 < place < count - 1:
             raise GeometryError(
                 f"biarc: knuckle {each} is no inner point of {count}",
                 f"give numbers from 1 to {count - 2}" if count > 2 else "there is none",
                 {"knuckle": each, "count": count},
             )  # fmt: skip
-        found.add(place)
+        found.add(int(place))
     return [0, *sorted(found), count - 1]
