@@ -28,6 +28,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = ["Arcs", "sinc"]
 
+_STRAIGHT = 1e-290
+"""A turn (rad) below this has lost digits of its own."""
+
 
 def sinc(h: ArrayLike) -> FloatArray:
     """Give sin(h) / h, 1 at nil; h in rad.
@@ -155,11 +158,11 @@ class Arcs:
 
     def centres(self) -> FloatArray:
         """Give centres for output, (n, 2), m; infinite for straight lines."""
-        normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            radius = 1.0 / self.curvature[:, None]
-            found = self.start + normal * radius
-        return np.where(np.isfinite(radius), found, np.inf)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            radius = 1.0 / self.curvature
+            normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
+            centre = self.start + normal * radius[:, None]
+        return np.asarray(np.where(np.isfinite(radius)[:, None], centre, np.inf))
 
     def distance(self, arc: IntArray, points: FloatArray) -> FloatArray:
         """Give the distance (m) of each point (k, 2) from one arc each, (k,).
@@ -187,4 +190,5 @@ class Arcs:
         turn = np.sign(bend) * np.arctan2(bend * along, 1.0 - bend * left)
         turn = np.where(turn < 0.0, turn + 2.0 * np.pi, turn)
         straight = (along >= 0.0) & (along <= length)
-        return np.asarray(np.where(bend == 0.0, straight, turn <= np.abs(bend) * length))
+        turned = np.abs(bend) * length
+        return np.asarray(np.where(turned < _STRAIGHT, straight, turn <= turned))

@@ -152,7 +152,7 @@ def _breaks(knuckles: object, count: int) -> list[int]:
         if not 0 < place < count - 1:
             raise GeometryError(
                 f"biarc: knuckle {each} is no inner point of {count}",
-                f"give numbers from 1 to {count - 2}" if count > 2 else "there is none",
+                f"give whole numbers from 1 to {count - 2}" if count > 2 else "there is none",
                 {"knuckle": each, "count": count},
             )  # fmt: skip
         found.add(int(place))
