@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.biarc_family import biarc_points
 from assoc_hull.geometry.classical.biarc_part import TangentForm
 from assoc_hull.geometry.classical.biarc_rules import BiarcRule
 from assoc_hull.geometry.classical.biarc_tangents import BiarcTangents, biarc_tangents
@@ -157,7 +158,7 @@ def biarc_chain(
     >>> chain.biarcs.kind.tolist(), chain.length
     (['line', 'line', 'line'], 5.0)
     """
-    placed = finite(points, "biarc", (None, 2))
+    placed = biarc_points(points)
     tangents = biarc_tangents(placed, start=start, end=end, knuckles=knuckles, form=form)
     begin, finish = tangents.leaving_angles[:-1], tangents.arriving_angles[1:]
     found = biarcs(placed[:-1], begin, placed[1:], finish, rule=rule, least_radius=least_radius)

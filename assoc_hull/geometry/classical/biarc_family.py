@@ -39,17 +39,40 @@ from assoc_hull.geometry.classical.arcs import Arcs, sinc
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
 from assoc_hull.geometry.curves import FloatArray, freeze
 
-__all__ = ["BiarcChords", "directions_to_shares", "interval", "one_sided_shares", "shared"]
+__all__ = [
+    "BiarcChords", "biarc_points", "directions_to_shares", "interval", "one_sided_shares", "shared",
+]  # fmt: skip
 
 _BACK = np.pi - 1e-9
 """End angles from here on: the tangent points back along the chord."""
 
 _NIL = 4.0 * np.finfo(np.float64).eps
+_SMALLEST, _LARGEST = 1e-150, 1e150
+"""Of chords and coordinates, m: squares of what lies beyond have no digits."""
 
 
 def interval(index: int, count: int) -> str:
     """Say which of several biarcs is meant; nothing where there is one only."""
     return f"interval {index}" if count > 1 else ""
+
+
+def biarc_points(points: ArrayLike, count: int | None = None) -> FloatArray:
+    """Take points (n, 2), m, of a count if one is given.
+
+    Raises
+    ------
+    GeometryError
+        Another shape, a number that is not finite, or one beyond 1e150.
+    """
+    found = finite(points, "biarc", (count, 2))
+    large = np.argwhere(np.abs(found) > _LARGEST)
+    if len(large):
+        index = tuple(large[0].tolist())
+        raise GeometryError(
+            f"biarc: coordinate {found[index]:g} at index {index}", "give metres",
+            {"index": index, "coordinate": float(found[index])},
+        )  # fmt: skip
+    return found
 
 
 @attrs.frozen(eq=False)
@@ -92,13 +115,13 @@ class BiarcChords:
             ``"biarc: zero chord"``, ``"biarc: end angle {} to the chord exceeds 90 deg"`` where it
             is 180 degrees; shapes, and numbers that are not finite.
         """
-        first = finite(start, "biarc", (None, 2))
-        last = finite(end, "biarc", first.shape)
+        first = biarc_points(start)
+        last = biarc_points(end, len(first))
         one, other = (finite(each, "biarc", (len(first),)) for each in (start_angle, end_angle))
         step = last - first
         chord = np.hypot(step[:, 0], step[:, 1])
         size = np.maximum(np.abs(first), np.abs(last)).max(axis=1, initial=0.0)
-        nil = np.flatnonzero(chord <= _NIL * size)
+        nil = np.flatnonzero(chord <= np.maximum(_NIL * size, _SMALLEST))
         if len(nil):
             index = int(nil[0])
             raise GeometryError(

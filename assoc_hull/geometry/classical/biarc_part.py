@@ -11,7 +11,7 @@ Examples
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Literal, Self, get_args
 
 import attrs
 import numpy as np
@@ -22,10 +22,27 @@ from assoc_hull.geometry.classical.biarc_runs import straight_runs
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["TangentForm", "TangentPart"]
+__all__ = ["TangentForm", "TangentPart", "known_form"]
 
 TangentForm = Literal["chord", "graph"]
 Known = FloatArray | None
+
+
+def known_form(form: object) -> TangentForm:
+    """Take the name of a form.
+
+    Raises
+    ------
+    GeometryError
+        No such form.
+    """
+    for each in get_args(TangentForm):
+        if isinstance(form, str) and form == each:
+            return each  # type: ignore[no-any-return]
+    raise GeometryError(
+        f"biarc: no form of tangents is called {form!r}",
+        f"there are {', '.join(get_args(TangentForm))}", {"form": form},
+    )  # fmt: skip
 
 
 @attrs.frozen(eq=False)
@@ -53,7 +70,7 @@ class TangentPart:
     graph: bool
 
     @classmethod
-    def of(cls, points: FloatArray, offset: int, form: str, collinear: float) -> Self:
+    def of(cls, points: FloatArray, offset: int, form: object, collinear: float) -> Self:
         """Look at points (n, 2), m, none twice in a row; `offset` is the number of the first.
 
         Raises
@@ -64,13 +81,8 @@ class TangentPart:
         step = np.diff(points, axis=0)
         length = np.hypot(step[:, 0], step[:, 1])
         runs = straight_runs(step / length[:, None], collinear, offset)
-        if form == "chord":
+        if known_form(form) == "chord":
             return cls(points, length, step / length[:, None], runs, False)
-        if form != "graph":
-            raise GeometryError(
-                f"biarc: no form of tangents is called {form!r}", "there are chord, graph",
-                {"form": form},
-            )  # fmt: skip
         _refuse_graph(step[:, 0], offset)
         return cls(points, step[:, 0], step / step[:, :1], runs, True)
 

@@ -35,22 +35,31 @@ Chords = tuple[FloatArray, FloatArray]
 
 _SLACK = 1e-12
 """So much of a radius is rounding."""
+_LEAST = 1e-12
+"""So much of a chord is none."""
 
 
-def least_radii(radius: ArrayLike, count: int) -> FloatArray:
+def least_radii(radius: ArrayLike, chords: BiarcChords) -> FloatArray:
     """Take one radius for all, or one each, m; 0 asks for none.
 
     Raises
     ------
     GeometryError
-        Not finite, below 0, or of another count.
+        Not finite, below 0, of another count, or too small to be seen beside the chord.
     """
+    count = len(chords)
     flat = np.ndim(radius) == 0
     found = np.broadcast_to(finite(radius, "biarc", () if flat else (count,)), (count,))
     if (found < 0.0).any():
         index = int(np.flatnonzero(found < 0.0)[0])
         what = f"biarc: least radius {figure(found[index])} is below 0"
         raise GeometryError(what, "give 0 for none", {"index": index, "radius": found[index]})
+    minute = np.flatnonzero((found > 0.0) & (found < _LEAST * chords.chord))
+    if len(minute):
+        index = int(minute[0])
+        what = f"biarc: least radius {figure(found[index])} is none beside the chord"
+        told = {"index": index, "radius": float(found[index])}
+        raise GeometryError(what, "give 0 for none", told, interval(index, count))
     return found
 
 

@@ -50,7 +50,7 @@ def known_rule(rule: object) -> BiarcRule:
         No such rule.
     """
     for each in get_args(BiarcRule):
-        if rule == each:
+        if isinstance(rule, str) and rule == each:
             return each  # type: ignore[no-any-return]
     raise GeometryError(
         f"biarc: no rule is called {rule!r}", f"there are {', '.join(get_args(BiarcRule))}",

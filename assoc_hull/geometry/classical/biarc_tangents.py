@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.biarc_family import biarc_points
 from assoc_hull.geometry.classical.biarc_part import TangentForm, TangentPart
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.curves import FloatArray, freeze
@@ -37,6 +38,7 @@ __all__ = ["BiarcTangents", "biarc_tangents"]
 
 _TOLERANCE = 1e-9
 """Points as near as this part of the size of all coincide."""
+_SMALLEST = 1e-150
 
 
 @attrs.frozen(eq=False)
@@ -112,7 +114,7 @@ def biarc_tangents(
     >>> found.arriving[2].tolist(), found.leaving[2].tolist()
     ([1.0, 0.0], [0.0, 1.0])
     """
-    placed = finite(points, "biarc", (None, 2))
+    placed = biarc_points(points)
     _refuse_points(placed)
     sine = float(finite(collinear, "biarc", ()))
     breaks = _breaks(knuckles, len(placed))
@@ -133,8 +135,8 @@ def _refuse_points(points: FloatArray) -> None:
             "biarc: at least 2 points", f"there are {len(points)}", {"count": len(points)}
         )
     step = np.diff(points, axis=0)
-    size = float(np.hypot(*np.ptp(points, axis=0)))
-    same = np.flatnonzero(np.hypot(step[:, 0], step[:, 1]) <= _TOLERANCE * size)
+    least = max(_TOLERANCE * float(np.hypot(*np.ptp(points, axis=0))), _SMALLEST)
+    same = np.flatnonzero(np.hypot(step[:, 0], step[:, 1]) <= least)
     if len(same):
         index = int(same[0])
         raise GeometryError(

@@ -41,6 +41,8 @@ BoolArray = NDArray[np.bool_]
 StrArray = NDArray[np.str_]
 
 _SHARP = 1.0 + 1e-12
+_LEAST = 1e-12
+"""Share of a chord below which an arc is none."""
 
 
 @attrs.frozen(eq=False)
@@ -145,7 +147,7 @@ def biarcs(
     """
     chords = BiarcChords.of(start, start_angle, end, end_angle)
     taken = known_rule(rule)
-    least = least_radii(least_radius, len(chords))
+    least = least_radii(least_radius, chords)
     kind = biarc_kinds(chords)
     chords = _straightened(chords, kind)
     first, second, fallback = ruled_chords(chords, kind, taken)
@@ -189,12 +191,14 @@ def free_biarcs(
     """
     chords = BiarcChords.of(start, start_angle, end, end_angle)
     part = finite(share, "biarc", (len(chords),))
-    bad = np.flatnonzero((part <= 0.0) | (part >= 1.0))
+    bad = np.flatnonzero((part < _LEAST) | (1.0 - part < _LEAST))
     if len(bad):
         index = int(bad[0])
         what = f"biarc: share {figure(part[index])} of the first chord"
         told = {"index": index, "share": float(part[index])}
-        raise GeometryError(what, "give one between 0 and 1", told, interval(index, len(part)))
+        raise GeometryError(
+            what, "give one between 0 and 1, each by 1e-12", told, interval(index, len(part))
+        )
     arcs, tau = shared(chords, part, 1.0 - part)
     none = np.zeros(len(chords), bool)
     return Biarcs(arcs, tau, biarc_kinds(chords), none, none.copy(), _wide(chords))

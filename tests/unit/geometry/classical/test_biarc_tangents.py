@@ -213,6 +213,17 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: biarc_tangents(FIVE, form=cast(TangentForm, "cubic")),
         "biarc: no form of tangents is called 'cubic'; there are chord, graph",
     ),
+    "form of several words": (
+        lambda: biarc_tangents(FIVE, form=cast(TangentForm, np.array(["chord", "graph"]))),
+        "biarc: no form of tangents is called array(",
+    ),
+    "beyond all measure": (
+        lambda: biarc_tangents([[0.0, 0.0], [1e200, 1.0]]),
+        "biarc: coordinate 1e+200 at index (1, 0); give metres",
+    ),
+    "nearer than anything": (
+        lambda: biarc_tangents([[0.0, 0.0], [1e-200, 0.0]]), "biarc: coincident points 0,1; ",
+    ),
     "not finite": (
         lambda: biarc_tangents([[0.0, 0.0], [np.inf, 1.0]]), "biarc: non-finite value at index (1",
     ),

@@ -268,6 +268,21 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, "fair")),
         "biarc: no rule is called 'fair'; there are inverse, as_printed, min_jump, equal_chord",
     ),
+    "least radius of nothing": (
+        lambda: over_ten(60.0, -15.0, least=1e-300),
+        "biarc: least radius 1e-300 is none beside the chord; give 0 for none",
+    ),
+    "rule of several words": (
+        lambda: over_ten(1.0, 1.0, cast(BiarcRule, np.array(["inverse", "fair"]))),
+        "biarc: no rule is called array(",
+    ),
+    "beyond all measure": (
+        lambda: biarcs([[0, 0]], [0], [[1, -1e300]], [0]),
+        "biarc: coordinate -1e+300 at index (0, 1); give metres",
+    ),
+    "a chord of next to nothing": (
+        lambda: biarcs([[0, 0]], [0.1], [[1e-300, 0]], [0]), "biarc: zero chord; ",
+    ),
     "not finite": (
         lambda: biarcs([[0, np.nan]], [0], [[1, 0]], [0]),
         "biarc: non-finite value at index (0, 1); ",
@@ -281,7 +296,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "share of all": (
         lambda: free_biarcs([[0, 0]], [0], [[1, 0]], [0.1], [1.0]),
-        "biarc: share 1 of the first chord; give one between 0 and 1",
+        "biarc: share 1 of the first chord; give one between 0 and 1, each by 1e-12",
     ),
 }  # fmt: skip
 
