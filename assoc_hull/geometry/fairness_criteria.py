@@ -232,7 +232,7 @@ def criteria(
     >>> import numpy as np
     >>> from scipy.interpolate import CubicSpline
     >>> from assoc_hull.geometry.fairness import criteria
-    >>> from assoc_hull.geometry.fairness_pieces import GraphPieces
+    >>> from assoc_hull.geometry.fairness_graph import GraphPieces
     >>> y = [0, 1, 1.8, 2.45, 2.85, 3.1, 3.2]
     >>> record = criteria(GraphPieces.of(CubicSpline(np.arange(7.0), y, bc_type="natural")))[0]
     >>> round(record.variation, 8), round(record.support_jumps, 10), record.inflections
@@ -289,7 +289,7 @@ def _check_lengths(size: FloatArray, titles: Sequence[str]) -> None:
 
 
 def _knot(joint: int, first: int) -> int | None:
-    """Number a joint by the knots of its own curve."""
+    """Give the knot of its own curve at which a joint lies."""
     return int(joint - first) + 1 if joint >= 0 else None
 
 
@@ -343,7 +343,9 @@ def _arcs(
     apart = 0.5 * (length[1:] + length[:-1])
     step = np.where(joint, np.diff(bend), 0.0)
     variation = np.bincount(owner[:-1], step**2 / apart, minlength=count)
-    return variation, _sign_changes(step[:, None], owner[:-1], count, np.zeros(count))
+    return np.asarray(variation, np.float64), _sign_changes(
+        step[:, None], owner[:-1], count, np.zeros(count)
+    )
 
 
 def _deviation(offsets: Offsets | None, count: int) -> tuple[IntArray, FloatArray, FloatArray]:
@@ -355,4 +357,4 @@ def _deviation(offsets: Offsets | None, count: int) -> tuple[IntArray, FloatArra
     hits = np.bincount(offsets.curve, minlength=count)
     np.maximum.at(worst, offsets.curve, share)
     np.add.at(squares, offsets.curve, share**2)
-    return hits, worst, np.sqrt(squares / np.maximum(hits, 1))
+    return hits.astype(np.int64), worst, np.sqrt(squares / np.maximum(hits, 1))

@@ -9,7 +9,8 @@ from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
 from assoc_hull.geometry.classical.elastica import Elastica
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.fairness_pieces import Seen, SplinePieces, searched_distance
+from assoc_hull.geometry.fairness_graph import searched_distance
+from assoc_hull.geometry.fairness_pieces import Seen, SplinePieces
 
 __all__ = ["ArcPieces", "ElasticaPieces", "chord_pieces"]
 
