@@ -24,8 +24,10 @@ from scipy.optimize import brentq
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.quadratics import Quadratics
+from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["DeckCorner", "deck_corner"]
+__all__ = ["DeckCorner", "deck_corner", "deck_pieces"]
 
 
 @attrs.frozen
@@ -113,3 +115,36 @@ def deck_corner(
     top = zs + c * (1.0 - (part * part if kind == "parabola" else part))
     side = middle - r * inward
     return DeckCorner((float(side[0]), float(side[1])), (y, top), tuple(middle.tolist()), r)
+
+
+def deck_pieces(
+    top: FloatArray, rise: float, kind: str = "parabola", corner: DeckCorner | None = None
+) -> Quadratics:
+    """Give the camber from the side, or from the corner, to the centre line.
+
+    Parameters
+    ----------
+    top : (2,), m
+        (y, z) of the side.
+    rise : float, m
+        From there to the centre line.
+    kind : {"line", "parabola"}
+        Its curve.
+    corner : DeckCorner or None
+        Where it begins.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.classical.deck_corner import deck_pieces
+    >>> round(2 * deck_pieces(np.array([15.0, 18.0]), 0.45).area(), 9)
+    9.0
+    """
+    half, side = np.asarray(top, np.float64).tolist()
+    start = half if corner is None else corner.deck_point[0]
+    bend = rise / half**2 if kind == "parabola" and half else 0.0
+    slope = 2.0 * bend * start if kind == "parabola" or not half else rise / half
+    level = side + rise - (bend * start**2 if kind == "parabola" else slope * start)
+    return Quadratics(
+        np.array([[start, -1.0, 0.0]]), np.array([[level, slope, -bend]]), np.array([start])
+    )
