@@ -35,6 +35,7 @@ from assoc_hull.geometry.classical.ordinate_checks import (
     notes_of_section,
     read_sizes,
 )
+from assoc_hull.geometry.classical.ordinate_outline import outline_steps
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 from assoc_hull.geometry.curves import FloatArray
 
@@ -234,17 +235,14 @@ class OrdinateSection:
             raise GeometryError(what, "ask below the deck", {"z": level, "hd": self.hd})
         return 2.0 * area_below(self.bottom, self.side, level, self.hb)
 
+    def steps(self) -> FloatArray:
+        """Give the curve from one given point to the next; see `outline_steps`."""
+        return outline_steps(self.bottom, self.side, self.hd, self.keel)
+
     def outline(self) -> FloatArray:
         """Give the given points from the centre line up to the deck side, (n, 2) as y, z in m.
 
         The last is where the main part meets the deck side, not the half-breadth `bd`.
         """
-        z = self.side.places
-        below = z < self.hd - 1e-9 * self.sw
-        parts = [np.stack([self.side.values, z], axis=1)[below]]
-        if self.bottom is not None:
-            parts.insert(0, np.stack([self.bottom.places, self.bottom.values], axis=1))
-        elif self.side.values[0] > 0.0:
-            parts.insert(0, np.array([[0.0, self.keel]]))
-        parts.append(np.array([[self.deck_breadth, self.hd]]))
-        return np.concatenate(parts)
+        steps = self.steps()
+        return np.concatenate([steps[:, 0], steps[-1].sum(axis=0)[None]])
