@@ -7,6 +7,7 @@ closely, their parallel part is straight. Flat ends are transoms.
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -78,7 +79,7 @@ def _profile(ship: Seaking) -> LineSource:
         rows = np.concatenate([[(ship.ends[0], top)], rows])
     if breadth <= _SAME and head > rows[-1, 1] + _SAME:
         rows = np.concatenate([rows, [(ship.ends[1], head)]])
-    pieces = [straight(a, b) for a, b in zip(rows[:-1], rows[1:], strict=True)]
+    pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
     return Outline.of(pieces).boundary("profile", 1, 0.0)
 
 
@@ -113,7 +114,7 @@ def _flat_of_bottom(ship: Seaking) -> list[LineSource]:
     rows = np.concatenate([ends[:1], inner, ends[1:]])
     if not (rows[:, 1] > _SAME).any():
         return []
-    pieces = [straight(a, b) for a, b in zip(rows[:-1], rows[1:], strict=True)]
+    pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
     kind = BoundaryKind.FLAT
     return [Outline.of(pieces).boundary("flat of bottom", 2, 0.0, kind=kind)]
 
