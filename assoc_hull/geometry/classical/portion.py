@@ -23,6 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import all_of
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
@@ -91,6 +92,7 @@ class Portion:
             odd number (>=3) of stations, got {m}"``, ``"portion {k}: stations not equally spaced
             at index {i} (step {d}, expected {s})"``.
         """
+        sections = all_of(sections, OrdinateSection, "sections", "in a portion")
         x = _stations(number, stations, len(sections))
         areas = np.array([each.area for each in sections])
         moments = np.array([each.moment for each in sections])
