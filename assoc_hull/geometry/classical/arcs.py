@@ -156,10 +156,9 @@ class Arcs:
         """Give centres for output, (n, 2), m; infinite for straight lines."""
         with np.errstate(divide="ignore", invalid="ignore"):
             radius = 1.0 / self.curvature
-        normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
-        return np.asarray(
-            np.where(np.isfinite(radius)[:, None], self.start + normal * radius[:, None], np.inf)
-        )
+            normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
+            centre = self.start + normal * radius[:, None]
+        return np.asarray(np.where(np.isfinite(radius)[:, None], centre, np.inf))
 
     def distance(self, arc: IntArray, points: FloatArray) -> FloatArray:
         """Give the distance (m) of each point (k, 2) from one arc each, (k,).
