@@ -184,6 +184,7 @@ class CamberKind:
         most = float(finite(y, "camber", ()))
         if not most > 0.0:
             raise GeometryError(f"camber: mean up to y={figure(most)}", "give y above 0")
+        self.drop(most, half_breadth)
         ratio = 1.0 if half_breadth is None else half_breadth / self.half_breadth
         inner = self.y * ratio if self.scale == "local" else self.y
         ends = np.concatenate([inner[inner < most], [most]])
