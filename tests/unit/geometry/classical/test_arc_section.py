@@ -144,7 +144,7 @@ def test_circles_and_lines_are_reproduced(clockwise: bool) -> None:
         points = centre + radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
         seen = through_points(points).sampled(0.05 * radius) - centre
         np.testing.assert_allclose(np.hypot(*seen.T), radius, rtol=1e-11)
-    line = np.outer(np.sort(rng.uniform(0.0, 9.0, 8)), [0.6, 0.8]) + [1.0, 2.0]
+    line = np.outer(np.sort(rng.uniform(0.0, 9.0, 8)), [0.6, 0.8]) + np.array([1.0, 2.0])
     straight = through_points(line)
     assert straight.length == pytest.approx(float(np.hypot(*(line[-1] - line[0]))), rel=1e-14)
     seen = straight.sampled(0.1) - line[0]
@@ -219,7 +219,8 @@ def test_all_places_at_a_height_are_found() -> None:
         curve = through_points(points, radius=rng.choice([-9.0, 9.0, 40.0], 6).tolist())
         drawn = curve.sampled(curve.length / 200_000)
         for axis in (0, 1):
-            for value in rng.uniform(*np.quantile(drawn[:, axis], [0.02, 0.98]), 4):
+            low, high = np.quantile(drawn[:, axis], [0.02, 0.98]).tolist()
+            for value in rng.uniform(low, high, 4):
                 off = drawn[:, axis] - value
                 k = np.flatnonzero(off[:-1] * off[1:] < 0.0)
                 part = off[k] / (off[k] - off[k + 1])
