@@ -42,41 +42,51 @@ class Lying:
         x of that section.
     count : int
         Sections that it passes.
-    corners : bool
-        Whether all of these have a corner there.
+    joints : bool
+        Whether two pieces of each of these sections meet there.
+    corners : int
+        How many of these sections have a corner there.
     """
 
     distance: float
     where: float
     count: int
-    corners: bool
+    joints: bool
+    corners: int
 
     @property
     def is_knuckle(self) -> bool:
-        """Whether it is a line of the hull at which all sections have a corner."""
-        return self.count >= 2 and self.distance <= AT and self.corners
+        """Whether it is a line of the hull along which sections have a corner, or may have one."""
+        return self.count >= 2 and self.distance <= AT and self.joints and self.corners > 0
 
 
 def lies_on(curve: SpaceCurve, stations: Sequence[Station]) -> Lying:
     """Tell how a space curve lies to sections (cut off at the deck)."""
-    worst, where, count, corners = 0.0, np.nan, 0, True
+    worst, where, count, joints, corners = 0.0, np.nan, 0, True, 0
     for station in stations:
         for point in curve.where(0, station.x):
             arcs = station.curve.arcs
             every = np.arange(len(arcs))
             off = float(arcs.distance(every, np.tile(point[1:], (len(arcs), 1))).min())
             count += 1
-            corners &= _has_corner(station, point[1:])
+            turn = _turn_at(station, point[1:])
+            joints &= turn is not None
+            corners += turn is not None and abs(turn) > _SHARP
             if off >= worst:
                 worst, where = off, station.x
-    return Lying(worst, where, count, corners)
+    return Lying(worst, where, count, joints, corners)
 
 
-def _has_corner(station: Station, yz: FloatArray) -> bool:
+def _turn_at(station: Station, yz: FloatArray) -> float | None:
+    """Give the jump of the tangent (rad) of a section at a place, None where no pieces meet.
+
+    The upper end counts as a place where they meet, without a jump.
+    """
     curve = station.curve
-    joints = curve.joints()[1:-1]
-    sharp = np.abs(curve.turns()) > _SHARP
-    return bool((np.hypot(*(joints[sharp] - yz).T) <= AT).any())
+    joints = curve.joints()[1:]
+    away = np.hypot(*(joints - yz).T)
+    k = int(np.argmin(away))
+    return None if away[k] > AT else float(np.append(curve.turns(), 0.0)[k])
 
 
 def deck_edge(stations: Sequence[Station], profile: Profile, deck: Deck | None) -> LineSource:

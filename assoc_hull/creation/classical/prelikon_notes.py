@@ -60,7 +60,7 @@ def _of_curve(curve: SpaceCurve, stations: Sequence[Station]) -> str:
     if lying.distance > AT:
         off = f"{figure(round(lying.distance, 4))} m at x={figure(lying.where)}"
         return f"{title}: it leaves the sections by up to {off}"
-    return f"{title}: it lies on the sections, which have no corner there"
+    return f"{title}: it lies on the sections, of which not all have a corner there"
 
 
 def _of_boundary(boundary: ArcBoundary, stations: Sequence[Station]) -> str:
