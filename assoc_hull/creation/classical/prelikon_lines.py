@@ -9,7 +9,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.creation.classical.outline import Outline
-from assoc_hull.creation.classical.prelikon_profile import Profile, pieces_of
+from assoc_hull.creation.classical.prelikon_pieces import pieces_of
+from assoc_hull.creation.classical.prelikon_profile import Profile
 from assoc_hull.creation.classical.prelikon_stations import AT, Station
 from assoc_hull.creation.classical.runs import kinds_along
 from assoc_hull.geometry.classical.deck_surface import Deck

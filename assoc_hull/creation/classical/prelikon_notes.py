@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.creation.classical.prelikon_lines import lies_on
+from assoc_hull.creation.classical.prelikon_pieces import Joint, joints_of
 from assoc_hull.creation.classical.prelikon_profile import ENDS, Profile
 from assoc_hull.creation.classical.prelikon_stations import AT, Station
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
@@ -16,6 +17,9 @@ from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 
 __all__ = ["default_cuts", "notes_of"]
+
+_TOLD = 1e-4
+"""Jumps of direction (rad) that are told."""
 
 
 def default_cuts(stations: Sequence[Station], draught: float) -> dict[str, tuple[float, ...]]:
@@ -39,7 +43,8 @@ def notes_of(
     houses: Sequence[DeckHouse],
 ) -> tuple[str, ...]:
     """Tell what the net leaves out, and how what it leaves out lies to the sections."""
-    found = [note for each in curves if (note := _of_curve(each, stations))]
+    found = _of_joints(stations)
+    found += [note for each in curves if (note := _of_curve(each, stations))]
     found += [_of_boundary(each, stations) for each in boundaries if each.name not in ENDS]
     for name, count in (("appendage box", len(boxes)), ("deck house", len(houses))):
         if count:
@@ -47,6 +52,23 @@ def notes_of(
             title = f"1 {name} is" if count == 1 else f"{count} {plural} are"
             found.append(f"{title} told here and not in the net")
     return tuple(found)
+
+
+def _of_joints(stations: Sequence[Station]) -> list[str]:
+    """Tell of the corners between mean circles that the net passes smoothly."""
+    passed = [
+        abs(float(turn))
+        for each in stations
+        for joint, turn in zip(joints_of(each.curve), each.curve.turns(), strict=True)
+        if joint != Joint.CORNER and abs(turn) > _TOLD
+    ]
+    if not passed:
+        return []
+    most = figure(round(max(passed), 4))
+    return [
+        f"sections have {len(passed)} joints at which their direction jumps, by up to {most} rad: "
+        "the net is smooth there"
+    ]
 
 
 def _of_curve(curve: SpaceCurve, stations: Sequence[Station]) -> str:

@@ -8,7 +8,8 @@ import attrs
 import numpy as np
 from scipy.optimize import brentq
 
-from assoc_hull.creation.classical.outline import Outline, Piece, circular, smooth, straight
+from assoc_hull.creation.classical.outline import Outline, Piece, smooth, straight
+from assoc_hull.creation.classical.prelikon_pieces import pieces_of
 from assoc_hull.creation.classical.prelikon_stations import AT, Station
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
@@ -18,7 +19,7 @@ from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.deck_surface import Deck
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["ENDS", "Profile", "pieces_of", "profile_of"]
+__all__ = ["ENDS", "Profile", "profile_of"]
 
 ENDS = ("stern", "stem")
 """Names of the boundary curves that are parts of the profile."""
@@ -180,7 +181,8 @@ def _turned(curve: ArcCurve) -> ArcCurve:
         arcs.ends()[back].copy(), (arcs.end_angles() + np.pi)[back].copy(),
         -arcs.curvature[back], arcs.length[back].copy(),
     )  # fmt: skip
-    return ArcCurve(turned, curve.points[back].copy(), curve.name)
+    knuckles = frozenset(len(arcs) - k for k in curve.knuckles)
+    return ArcCurve(turned, curve.points[back].copy(), curve.name, knuckles)
 
 
 def _require_on(profile: Profile, stations: Sequence[Station]) -> None:
@@ -194,16 +196,6 @@ def _require_on(profile: Profile, stations: Sequence[Station]) -> None:
                 f"the profile lies at {lies} there: change one of them",
                 {"x": each.x, "z": each.keel, "off": float(off)},
             )  # fmt: skip
-
-
-def pieces_of(curve: ArcCurve) -> list[Piece]:
-    """Give the pieces of a curve for an outline."""
-    joints = curve.joints()
-    return [
-        straight(joints[k], joints[k + 1]) if curve.arcs.curvature[k] == 0.0
-        else circular(curve.arcs, k)
-        for k in range(len(curve.arcs))
-    ]  # fmt: skip
 
 
 def _keel(points: FloatArray) -> list[Piece]:

@@ -19,12 +19,15 @@ from scipy.integrate import simpson
 from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.creation.classical.prelikon_profile import Profile
-from assoc_hull.creation.classical.prelikon_stations import Station
+from assoc_hull.creation.classical.prelikon_stations import AT, Station
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.classical.deck_surface import Deck
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["Along", "Sum", "above_side", "along_ship", "volume_below", "volume_to_deck"]
+
+_ABOVE = 1e6
+"""A height (m) above all hulls."""
 
 
 @attrs.frozen
@@ -105,8 +108,8 @@ def above_side(station: Station, deck: Deck, level: float = np.inf) -> tuple[flo
 def volume_below(stations: Sequence[Station], profile: Profile, draught: float) -> Sum:
     """Give what lies below a height (m): exact areas, parabolas along the ship.
 
-    Beyond the last section, up to the place where the profile is farthest out below that height,
-    the areas go to nil.
+    The integral runs between the places where the profile is farthest out below that height; areas
+    go to nil there, unless the hull ends flat.
     """
     area, moment = np.array([_below(each, draught) for each in stations]).T
     return _summed(stations, profile, draught, area, moment)
@@ -134,14 +137,17 @@ def _summed(
     moment: FloatArray,
 ) -> Sum:  # fmt: skip
     x = np.array([each.x for each in stations])
-    level = min(draught, 1e6)
-    for place, end in ((profile.aftermost(level), 0), (profile.foremost(level), len(x))):
-        beyond = place < x[0] - 1e-3 if end == 0 else place > x[-1] + 1e-3
-        if beyond:
-            x, area, moment = (
-                np.insert(each, end, value)
-                for each, value in ((x, place), (area, 0.0), (moment, 0.0))
-            )
+    level = min(draught, _ABOVE)
+    after, fore = profile.aftermost(level), profile.foremost(level)
+    within = (x > after + AT) & (x < fore - AT)
+    ends = [np.abs(x - place) <= AT for place in (after, fore)]
+    sides = [np.concatenate([area[at][:1], np.zeros(1)])[0] for at in ends]
+    tops = [np.concatenate([moment[at][:1], np.zeros(1)])[0] for at in ends]
+    x = np.concatenate([[after], x[within], [fore]])
+    area = np.concatenate([sides[:1], area[within], sides[1:]])
+    moment = np.concatenate([tops[:1], moment[within], tops[1:]])
+    if len(x) < 3 and not area.any():
+        return Sum(0.0, float(x.mean()), draught, 0.0)
     volume, height = along_ship(x, 2.0 * area), along_ship(x, 2.0 * moment)
     if volume.total == 0.0:
         return Sum(0.0, float(x.mean()), draught, 0.0)

@@ -87,5 +87,5 @@ class ArcBoundary:
         moved = Arcs(
             arcs.start + shift, arcs.angle.copy(), arcs.curvature.copy(), arcs.length.copy()
         )
-        curve = ArcCurve(moved, self.curve.points + shift, self.curve.name)
+        curve = attrs.evolve(self.curve, arcs=moved, points=self.curve.points + shift)
         return attrs.evolve(self, curve=curve)

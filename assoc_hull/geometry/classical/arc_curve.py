@@ -40,11 +40,14 @@ class ArcCurve:
         The given points: the ends of the pieces, or the corners of the polygon.
     name : str
         Of the curve, for messages.
+    knuckles : frozenset of int
+        Joints that are meant as corners, whatever the angle: 1 between the first two pieces.
     """
 
     arcs: Arcs
     points: FloatArray
     name: str = "section"
+    knuckles: frozenset[int] = frozenset()
 
     def __attrs_post_init__(self) -> None:
         freeze(self.points)
@@ -178,7 +181,7 @@ class ArcCurve:
             length[-1] = t
         part = Arcs(arcs.start[:count].copy(), arcs.angle[:count].copy(),
                     arcs.curvature[:count].copy(), length)  # fmt: skip
-        return ArcCurve(part, self.points.copy(), self.name)
+        return attrs.evolve(self, arcs=part, points=self.points.copy())
 
     def moments_below(self, level: float) -> tuple[float, float, float]:
         """Integrate between the second axis and the curve, below a level of the second coordinate.

@@ -164,7 +164,7 @@ def through_points(
     bend = np.where(np.abs(2.0 * sine) < _STRAIGHT, 0.0, bend)
     half = np.arcsin(np.clip(0.5 * bend * chord, -1.0, 1.0))
     arcs = Arcs(given[:-1].copy(), way - half, bend, chord / sinc(half))
-    return ArcCurve(arcs, given, name)
+    return ArcCurve(arcs, given, name, frozenset(_indices(knuckles, len(given), name)))
 
 
 def round_corners(
