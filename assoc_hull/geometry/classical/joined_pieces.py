@@ -3,8 +3,8 @@
 A *line* runs straight between the half-breadths at its boundaries; a *quintic* begins with the
 slope of the piece before it, ends with that of a line after it, and takes what is left from
 offsets; a *circle* goes on tangentially to its end; a *conic* goes on with value and slope, a
-*cubic conic* with the second derivative too, and both stand upright at their end. The first piece goes on from a
-parallel side: level and straight.
+*cubic conic* with the second derivative too, and both stand upright at their end. The first piece
+goes on from a parallel side: level and straight.
 
 Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design and
 Production", J. SNAK, the combined method. There a circle is written with abscissae from 0 to 1,

@@ -241,6 +241,14 @@ def positive_weights(weights: ArrayLike | None, count: int, name: str) -> FloatA
     return found
 
 
+def whole_number(value: object, name: str, least: int, most: int) -> int:
+    """Take a whole number of a range."""
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+        what = f"{name} {value!s:.40}"
+        raise GeometryError(what, f"give a whole number from {least} to {most}")
+    return value
+
+
 def _rms(residual: FloatArray, root: FloatArray) -> float:
     return float(np.sqrt(np.sum((root * residual) ** 2) / np.sum(root * root)))
 
