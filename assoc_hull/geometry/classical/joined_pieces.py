@@ -20,11 +20,11 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.combined_waterline import conic, conic_notes, quintic_notes
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import fit_quintic
 from assoc_hull.geometry.classical.regions import Region
-from assoc_hull.geometry.classical.waterline_pieces import conic, conic_notes, quintic_notes
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["circle_piece", "joined_pieces"]

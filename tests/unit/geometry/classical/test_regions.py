@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.combined_waterline import waterline
 from assoc_hull.geometry.classical.joined_pieces import circle_piece, joined_pieces
 from assoc_hull.geometry.classical.regions import Region, Regions
-from assoc_hull.geometry.classical.waterline_pieces import waterline
 from tests.piece_values import PIECES
 
 FLAT = [(0, 30), (5, 42), (10, 50)]

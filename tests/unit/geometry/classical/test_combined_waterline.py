@@ -11,13 +11,13 @@ import pytest
 from scipy.optimize import least_squares
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.combined_waterline import conic, conic_coefficients, waterline
 from assoc_hull.geometry.classical.cubic_conic import (
     cubic_conic,
     cubic_conic_coefficients,
     fit_cubic_conic,
 )
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
-from assoc_hull.geometry.classical.waterline_pieces import conic, conic_coefficients, waterline
 from tests.piece_values import PIECES
 
 OFFSETS = [(24, 11.97), (30, 11.72), (36, 11.2), (42, 10.4), (48, 9.3), (54, 8)]

@@ -49,7 +49,7 @@ def conic_coefficients(height: ArrayLike, slope: ArrayLike) -> FloatArray:
 
     Examples
     --------
-    >>> from assoc_hull.geometry.classical.waterline_pieces import conic_coefficients
+    >>> from assoc_hull.geometry.classical.combined_waterline import conic_coefficients
     >>> conic_coefficients([2.0, 2.0], [1.0, 0.0]).tolist()
     [[4.0, 0.0], [8.0, -4.0]]
     """
@@ -81,7 +81,7 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
 
     Examples
     --------
-    >>> from assoc_hull.geometry.classical.waterline_pieces import conic
+    >>> from assoc_hull.geometry.classical.combined_waterline import conic
     >>> nose = conic(60.0, 75.0, 6.5, -0.2628518890)
     >>> float(nose.at(70.0).round(6)), round(nose.nose_radius(), 6)
     (3.475913, 1.108129)
@@ -177,7 +177,7 @@ def waterline(
 
     Examples
     --------
-    >>> from assoc_hull.geometry.classical.waterline_pieces import waterline
+    >>> from assoc_hull.geometry.classical.combined_waterline import waterline
     >>> given = [(24, 11.97), (30, 11.72), (36, 11.2), (42, 10.4), (48, 9.3), (54, 8)]
     >>> fore = waterline(20, 60, 75, 12, 6.5, given)
     >>> fore.at([50.0, 70.0]).round(6).tolist(), round(fore.area(), 6)
