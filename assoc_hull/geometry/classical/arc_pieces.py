@@ -121,6 +121,10 @@ class Pieces:
         found = np.where(w == self.first[piece], self.angle[piece, 0], found)
         return np.where(w == self.stop[piece], self.angle[piece, 1], found)
 
+    def tilt(self, piece: IntArray, w: FloatArray, angle: FloatArray) -> FloatArray:
+        """Give how far directions (rad) are turned from those of the curve, to the left."""
+        return wrap(angle - self.direction(piece, w))
+
     def curvature(self, piece: IntArray, w: FloatArray) -> FloatArray:
         """Give the curvature (1/m), positive to the left, at parameters w."""
         number, u = self._split(piece, w)

@@ -1,7 +1,6 @@
-"""How far one biarc reaches along a curve: the best ratio of a candidate, and the search.
+"""Arcs and biarcs tried on stretches of curves: how far they leave them.
 
-Many pieces are searched at once, each with several candidates a round: first ends around the reach
-of the biarc before, then ends between the farthest that will do and the next that will not.
+Distances come without centres, so that radii of any size lose no digits.
 """
 
 from __future__ import annotations
@@ -15,19 +14,13 @@ from assoc_hull.geometry.classical.arc_ratio import biarcs_by_ratio
 from assoc_hull.geometry.classical.checks import wrap
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["Limits", "Trials", "trials"]
+__all__ = ["Limits", "Trials", "single_arcs", "trials"]
 
 _WIDEST = 1.5
 """rad: an end of a candidate turns no farther from its chord."""
 _RATIOS = np.linspace(0.14, 0.86, 7)
 _CLOSER = np.linspace(-0.09, 0.09, 6)
 """Parts of the first chord that are tried, and how far around the best of them then."""
-_FIRST = np.array([0.3, 0.55, 0.8, 1.0, 1.25, 1.8])
-"""First ends that are tried, as multiples of the reach before."""
-_ENDS = 6
-_CLOSE = 0.01
-"""The search ends when what is open is this part of the reach."""
-_ROUNDS = 24
 
 
 @attrs.frozen
@@ -82,10 +75,7 @@ def trials(
     limits : Limits
         Curvature and samples.
     """
-    part = np.linspace(0.0, 1.0, limits.samples + 2)
-    w = low[:, None] + (high - low)[:, None] * part
-    w[:, -1] = high
-    places = pieces.at(piece[:, None], w)
+    places = _places(pieces, piece, low, high, limits.samples)
     begin = places[:, 0]
     step = places[:, -1] - begin
     chord, way = np.hypot(step[:, 0], step[:, 1]), np.arctan2(step[:, 1], step[:, 0])
@@ -135,9 +125,7 @@ def _off(
     x, y, left, square = seen
     made = biarcs_by_ratio(chord[:, None], alpha[:, None], beta[:, None], ratio)
     curved = made.bend[..., None]
-    across = curved * square[:, :, None] - left[:, :, None]
-    # The way off a circle without its centre, as in `Arcs.distance`.
-    off = np.abs(across) / (1.0 + np.sqrt(np.maximum(1.0 + curved * across, 0.0)))
+    off = _off_circle(curved, square[:, :, None], left[:, :, None])
     cosine, sine = np.cos(made.tau)[..., None], np.sin(made.tau)[..., None]
     before = cosine * (x[:, None] - made.join[0][..., None]) < sine * (
         made.join[1][..., None] - y[:, None]
@@ -145,3 +133,56 @@ def _off(
     most = np.where(before, off[0], off[1]).max(axis=-1)
     good = np.isfinite(made.bend).all(axis=0) & (np.abs(made.bend).max(axis=0) <= bend)
     return np.asarray(np.where(good, most, np.inf))
+
+
+def single_arcs(
+    pieces: Pieces, piece: IntArray, low: FloatArray, high: FloatArray, angle: FloatArray,
+    limits: Limits,
+) -> tuple[FloatArray, NDArray[np.bool_]]:  # fmt: skip
+    """Lay single arcs through the ends of stretches, (c,), in given directions.
+
+    Parameters
+    ----------
+    pieces, piece, low, high, limits
+        As for `trials`.
+    angle : (c,), rad
+        Directions at the beginnings.
+
+    Returns
+    -------
+    (c,), rad
+        Directions at the ends.
+    (c,) bool
+        Which keep the limits.
+    """
+    places = _places(pieces, piece, low, high, limits.samples)
+    step = places[:, -1] - places[:, 0]
+    chord, course = np.hypot(step[:, 0], step[:, 1]), np.arctan2(step[:, 1], step[:, 0])
+    alpha = wrap(angle - course)
+    fits = (np.abs(alpha) < _WIDEST) & (chord > 0.0)
+    bend = -2.0 * np.sin(alpha) / np.where(chord > 0.0, chord, 1.0)
+    x, y = (places[:, 1:-1, axis] - places[:, :1, axis] for axis in (0, 1))
+    left = 2.0 * (np.cos(angle)[:, None] * y - np.sin(angle)[:, None] * x)
+    off = _off_circle(bend[:, None], x * x + y * y, left)
+    fits &= (off.max(axis=1) <= limits.within) & (np.abs(bend) <= limits.bend)
+    return course - alpha, fits
+
+
+def _places(
+    pieces: Pieces, piece: IntArray, low: FloatArray, high: FloatArray, samples: int
+) -> FloatArray:
+    """Give places along stretches, (c, samples + 2, 2), m; the ends are exact."""
+    part = np.linspace(0.0, 1.0, samples + 2)
+    w = low[:, None] + (high - low)[:, None] * part
+    w[:, -1] = high
+    return pieces.at(piece[:, None], w)
+
+
+def _off_circle(bend: FloatArray, square: FloatArray, left: FloatArray) -> FloatArray:
+    """Give the way (m) off circles, by squared way from a point of theirs, twice that to the left.
+
+    As in `Arcs.distance`, on the whole circle.
+    """
+    across = bend * square - left
+    found: FloatArray = np.abs(across) / (1.0 + np.sqrt(np.maximum(1.0 + bend * across, 0.0)))
+    return found
