@@ -198,7 +198,7 @@ def test_an_angle_of_1e_10_is_one() -> None:
 
 
 def test_a_radius_that_is_there_already_changes_nothing() -> None:
-    """To ask for the sharper radius itself is to ask for nothing, of circles, too."""
+    """To ask for the sharper radius, to rounding, is to ask for nothing, of circles, too."""
     rng = np.random.default_rng(11)
     one, two = rng.uniform(-1.2, 1.2, (2, 300))
     two[:100] = -one[:100]
