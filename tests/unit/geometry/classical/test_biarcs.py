@@ -204,7 +204,8 @@ def test_a_radius_that_is_there_already_changes_nothing() -> None:
     two[:100] = -one[:100]
     span = ([[0, 0]] * 300, one, [[1, 0]] * 300, two)
     free = biarcs(*span, rule="equal_chord")
-    kept = biarcs(*span, rule="equal_chord", least_radius=1.0 / np.abs(free.curvatures).max(axis=1))
+    sharper = (1.0 + 1e-13) / np.abs(free.curvatures).max(axis=1)
+    kept = biarcs(*span, rule="equal_chord", least_radius=sharper)
     assert not kept.repaired.any()
     assert np.array_equal(kept.arcs.length, free.arcs.length)
 
@@ -216,9 +217,8 @@ def test_the_limits_of_radii_are_sharp() -> None:
     with pytest.raises(GeometryError):
         over_ten(60.0, -15.0, least=limit)
     assert over_ten(60.0, -15.0, least=limit * (1.0 - 1e-9)).repaired.all()
-    even = float(
-        ratio_radii(np.array([CHORD]), np.radians([40.0]), np.radians([20.0]), np.ones(1))[0][0]
-    )
+    a, b = np.radians([40.0]), np.radians([20.0])
+    even = float(ratio_radii(np.array([CHORD]), a, b, np.ones(1))[0][0])
     assert_allclose(radii(over_ten(40.0, 20.0, least=even)), even, rtol=1e-12)
 
 
