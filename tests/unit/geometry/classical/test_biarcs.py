@@ -311,13 +311,21 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, "fair")),
         "biarc: no rule is called 'fair'; there are inverse, as_printed, min_jump, equal_chord",
     ),
+    "least radii of other counts": (
+        lambda: biarcs([[0, 0]], [0.1], [[1, 0]], [0.2], least_radius=[1, 2]),
+        "biarc: expected shape (1), got (2,); ",
+    ),
+    "complex directions": (
+        lambda: biarcs([[0, 0]], np.array([1j]), [[1, 0]], [0.2]),
+        "biarc: expected shape (1), got no array of numbers; ",
+    ),
     "least radius of nothing": (
         lambda: over_ten(60.0, -15.0, least=1e-300),
         "biarc: least radius 1e-300 is none beside the chord; give 0 for none",
     ),
     "rule of several words": (
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, np.array(["inverse", "fair"]))),
-        "biarc: no rule is called array(",
+        "biarc: no rule is called a ndarray; there are ",
     ),
     "beyond all measure": (
         lambda: biarcs([[0, 0]], [0], [[1, -1e300]], [0]),
