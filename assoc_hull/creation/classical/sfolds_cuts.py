@@ -18,9 +18,7 @@ _APART = 0.05
 """A waterline nearer to the draught than this part of it stands for it."""
 
 
-def default_cuts(
-    portions: Sequence[Portion], draught: float
-) -> dict[str, tuple[float, ...]]:
+def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple[float, ...]]:
     """Give heights of waterlines and half-breadths of buttocks, m.
 
     Parameters

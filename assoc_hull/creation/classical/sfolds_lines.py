@@ -40,6 +40,9 @@ _SAME = 1e-6
 _PROFILE_CORNER = 30.0
 """Keel, stem and deck edge have a knuckle where chords turn by more than this, degrees."""
 
+_PASSED = 1e-5
+"""Lines pass the given points within this, m."""
+
 _NO_CORNER = 1e-6
 """Degrees; by rounding."""
 
@@ -149,7 +152,7 @@ def _profile(frames: Sequence[Frame]) -> LineSource:
     kind, direction = kinds_along(points, _PROFILE_CORNER)
     return LineSource.make(
         "boundary", "profile", points, plane=((0.0, 1.0, 0.0), 0.0), boundary=BoundaryKind.END,
-        kind=kind.tolist(), direction=direction, placed=True,
+        kind=kind.tolist(), direction=direction, tolerance=_PASSED,
     )  # fmt: skip
 
 
@@ -160,7 +163,7 @@ def _deck_edge(frames: Sequence[Frame]) -> LineSource:
     plane = ((0.0, 0.0, 1.0), float(points[0, 2])) if np.ptp(points[:, 2]) <= 1e-9 else None
     return LineSource.make(
         "boundary", "deck edge", points, plane=plane, boundary=BoundaryKind.END,
-        kind=kind.tolist(), direction=direction, placed=True,
+        kind=kind.tolist(), direction=direction, tolerance=_PASSED,
     )  # fmt: skip
 
 
@@ -176,11 +179,11 @@ def _section(frame: Frame, corner: float, name: str) -> LineSource:
     if name in (AFT, FORE):
         return LineSource.make(
             "boundary", name, points, plane=plane, boundary=BoundaryKind.END, kind=kind.tolist(),
-            direction=direction, placed=True,
+            direction=direction, tolerance=_PASSED,
         )  # fmt: skip
     return LineSource.make(
         "sections", name, points, plane=plane, kind=kind.tolist(),
-        direction=direction, placed=True,
+        direction=direction, tolerance=_PASSED,
     )  # fmt: skip
 
 

@@ -17,7 +17,9 @@ def notes_of(portions: Sequence[Portion]) -> tuple[str, ...]:
         for x, section in zip(portion.stations.tolist(), portion.sections, strict=False):
             if id(section) not in seen:
                 seen.add(id(section))
-                found += [f"{n}, at x={figure(x)} of portion {portion.number}" for n in section.notes]
+                found += [
+                    f"{n}, at x={figure(x)} of portion {portion.number}" for n in section.notes
+                ]
     for portion in portions:
         if not portion.is_main:
             found.append(

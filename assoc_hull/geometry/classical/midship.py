@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
 from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.checks import figure, finite, inside
 from assoc_hull.geometry.curves import FloatArray
@@ -120,21 +121,35 @@ class Midship:
     def area(self, draught: float) -> float:
         """Give the area of both sides below a draught (m), m2.
 
-        Parameters
-        ----------
-        draught : float, m
-            At or above the upper end of the bilge.
-
         Raises
         ------
         GeometryError
-            The draught lies below it.
+            A draught below the base line.
         """
-        (_, top), turn = self.centre, 0.5 * math.pi - self.floor_angle
-        level = float(inside(draught, "midship area", top, math.inf, 1e-9))
-        corner = self.radius**2 * (math.tan(0.5 * turn) - 0.5 * turn)
-        a, b = self.half_breadth, self.flat
-        return 2.0 * (a * level - 0.5 * self.rise * (a - b) - corner)
+        level = float(inside(draught, "midship area", 0.0, math.inf))
+        a, b, top = self.half_breadth, self.flat, self.centre[1]
+        if level >= top:
+            turn = 0.5 * math.pi - self.floor_angle
+            corner = self.radius**2 * (math.tan(0.5 * turn) - 0.5 * turn)
+            return 2.0 * (a * level - 0.5 * self.rise * (a - b) - corner)
+        floor = min(level, self.floor_point[1])
+        width = b + (floor / math.tan(self.floor_angle) if self.rise else 0.0)
+        bilge = self.bilge()
+        arc = 0.0 if bilge is None else arc_area(bilge, self.centre, level)
+        return (b + width) * floor + 2.0 * arc
+
+    def moment(self, draught: float) -> float:
+        """Give the moment of that area about the base line, m3."""
+        level = float(inside(draught, "midship area", 0.0, math.inf))
+        top, bilge = self.centre[1], self.bilge()
+        floor = min(level, self.floor_point[1])
+        lean = 1.0 / math.tan(self.floor_angle) if self.rise else 0.0
+        found = self.flat * floor**2 / 2.0 + lean * floor**3 / 3.0
+        if bilge is not None:
+            found += arc_moment(bilge, self.centre, level)
+        if level > top:
+            found += 0.5 * self.half_breadth * (level**2 - top**2)
+        return 2.0 * found
 
     def bilge(self) -> Arcs | None:
         """Give the bilge, from the floor up; None of a chine."""

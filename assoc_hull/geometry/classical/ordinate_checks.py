@@ -7,6 +7,7 @@ import math
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
@@ -67,7 +68,7 @@ def read_sizes(*values: float) -> Sizes:
 
 
 def check_section(
-    sizes: Sizes, zb: FloatArray, yw: FloatArray, nb: int, nw: int, form: str | None
+    sizes: Sizes, zb: FloatArray, yw: FloatArray, counts: tuple[object, object], form: str | None
 ) -> str:
     """Refuse what makes no section, and give its form.
 
@@ -77,8 +78,8 @@ def check_section(
         As read.
     zb, yw : (nb + 1,), (nw,), m
         Heights and half-breadths.
-    nb, nw : int
-        Counts.
+    counts : (int, int)
+        nb and nw.
     form : str or None
         One of `FORMS`, or to be told by the counts.
 
@@ -87,12 +88,12 @@ def check_section(
     GeometryError
         What is wrong.
     """
-    _counts(zb, yw, nb, nw)
+    nb, nw = _counts(zb, yw, *counts)
     shape = form
     if shape is None:
         shape = FORMS[0] if nb else FORMS[1] if sizes.hb < sizes.hd else FORMS[2]
     if shape not in FORMS:
-        _refuse(f"section: no form {form!r}", f"use one of {', '.join(FORMS)}", form=form)
+        _refuse(f"section: no form {shown(form)}", f"use one of {', '.join(FORMS)}", form=form)
     if shape == FORMS[0] and nb < _LEAST_BUTTOCKS:
         what = f"section: bottom part needs at least {_LEAST_BUTTOCKS} buttocks, got {nb}"
         _refuse(what, "give more, or the form main+camber", nb=nb)
@@ -110,13 +111,19 @@ def check_section(
     return shape
 
 
-def _counts(zb: FloatArray, yw: FloatArray, nb: int, nw: int) -> None:
-    for name, value in (("buttocks", nb), ("waterlines", nw)):
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            _refuse(f"section: {value!r} {name}", "give a whole number from 0 on", count=value)
-    if nb or len(zb):
-        finite(zb, "section heights", (nb + 1,))
-    finite(yw, "section half-breadths", (nw,))
+def _counts(zb: FloatArray, yw: FloatArray, nb: object, nw: object) -> tuple[int, int]:
+    buttocks, waterlines = _whole(nb, "buttocks"), _whole(nw, "waterlines")
+    if buttocks or len(zb):
+        finite(zb, "section heights", (buttocks + 1,))
+    finite(yw, "section half-breadths", (waterlines,))
+    return buttocks, waterlines
+
+
+def _whole(value: object, name: str) -> int:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 0:
+        what = f"section: {shown(value)} {name}"
+        raise GeometryError(what, "give a whole number from 0 on", {name: value})
+    return int(value)
 
 
 def _heights(sizes: Sizes, zb: FloatArray, nw: int, form: str) -> None:

@@ -126,7 +126,7 @@ class OrdinateSection:
         heights, breadths = finite(zb, "section", (None,)), finite(yw, "section", (None,))
         buttocks = max(len(heights) - 1, 0) if nb is None else nb
         waterlines = len(breadths) if nw is None else nw
-        shape = check_section(sizes, heights, breadths, buttocks, waterlines, form)
+        shape = check_section(sizes, heights, breadths, (buttocks, waterlines), form)
         if not len(heights):
             heights = np.array([sizes.hb])
         bottom = None
@@ -135,8 +135,10 @@ class OrdinateSection:
         foot = float(heights[0]) if shape == FORMS[2] else sizes.hb
         side = PairedParabolas.make("section side", foot, sizes.sw, breadths)
         notes = notes_of_section(sizes, bottom, side)
-        return cls(*attrs.astuple(sizes), buttocks, waterlines, shape, bottom, side,
-                   float(heights[0]), notes)  # fmt: skip
+        return cls(
+            sizes.hb, sizes.sb, sizes.sw, sizes.hd, sizes.bd, sizes.cam, buttocks, waterlines,
+            shape, bottom, side, float(heights[0]), notes,
+        )  # fmt: skip
 
     @property
     def bottom_area(self) -> float:

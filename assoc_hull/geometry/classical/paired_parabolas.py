@@ -2,10 +2,10 @@
 
 On the nodes 2j, 2j + 1, 2j + 2 and with t from 0 to 2 the curve is
 f0 (t - 1)(t - 2) / 2 - f1 t (t - 2) + f2 t (t - 1) / 2. It passes all nodes and bends at those of
-even number, where two parabolas meet. Its exact integral is Simpson's value; over a first step alone
-it is s (5 f0 + 8 f1 - f2) / 12. A last step without a partner has the parabola of the last three
-nodes. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for Design
-and Production", J. SNAK.
+even number, where two parabolas meet. Its exact integral is Simpson's value; over a first step
+alone it is s (5 f0 + 8 f1 - f2) / 12. A last step without a partner has the parabola of the last
+three nodes. Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
+Design and Production", J. SNAK.
 
 Examples
 --------
@@ -80,7 +80,8 @@ class PairedParabolas:
     @property
     def places(self) -> FloatArray:
         """Where the values stand, (n,), m."""
-        return self.first + self.step * np.arange(len(self.values))
+        found: FloatArray = self.first + self.step * np.arange(len(self.values), dtype=np.float64)
+        return found
 
     @property
     def last(self) -> float:

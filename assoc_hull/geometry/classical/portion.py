@@ -15,6 +15,7 @@ Examples
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Self
 
@@ -22,6 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import all_of
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
@@ -71,9 +73,7 @@ class Portion:
         freeze(self.stations, self.areas, self.moments)
 
     @classmethod
-    def make(
-        cls, number: int, stations: ArrayLike, sections: Sequence[OrdinateSection]
-    ) -> Self:
+    def make(cls, number: int, stations: ArrayLike, sections: Sequence[OrdinateSection]) -> Self:
         """Make a portion of sections.
 
         Parameters
@@ -92,6 +92,7 @@ class Portion:
             odd number (>=3) of stations, got {m}"``, ``"portion {k}: stations not equally spaced
             at index {i} (step {d}, expected {s})"``.
         """
+        sections = all_of(sections, OrdinateSection, "sections", "in a portion")
         x = _stations(number, stations, len(sections))
         areas = np.array([each.area for each in sections])
         moments = np.array([each.moment for each in sections])
@@ -183,7 +184,7 @@ class Portion:
         return np.array([each.area_below(min(level, each.hd)) for each in self.sections])
 
 
-def _stations(number: int, stations: ArrayLike, count: int) -> FloatArray:
+def _stations(number: object, stations: ArrayLike, count: int) -> FloatArray:
     """Take the number of a portion and its stations, or refuse them."""
     if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(KINDS):
         what = f"portion {number}: number must be 1..{len(KINDS)}"
@@ -242,7 +243,7 @@ def require_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
     """
     main = sorted((each for each in portions if each.is_main), key=lambda each: each.stations[0])
     notes = []
-    for one, two in zip(main[:-1], main[1:], strict=True):
+    for one, two in itertools.pairwise(main):
         end, begin = float(one.stations[-1]), float(two.stations[0])
         near = _EQUAL * float(one.stations[1] - one.stations[0])
         text = f"portions {one.number} and {two.number} of the main body"

@@ -44,7 +44,8 @@ def read_particulars(cards: Cards) -> Particulars:
             what = f"{word} is {size:g} m" if size <= 0.0 else f"{word} has rows of numbers"
             raise BadInputError(what, card.where, "give one number above 0")
         sizes.append(size)
-    made = Particulars(cards.title, *sizes)
+    length, breadth, depth, draught = sizes
+    made = Particulars(cards.title, length, breadth, depth, draught)
     deck = cards.maybe("deck")
     if deck is None:
         return made

@@ -121,8 +121,9 @@ def _section(card: Card) -> OrdinateSection:
         raise BadInputError(what, card.where, remedy)
     try:
         return OrdinateSection.make(
-            **sizes, **counts, zb=values[:heights], yw=values[heights:], form=cells.get("form")
-        )
+            **sizes, nb=counts["nb"], nw=counts["nw"], zb=values[:heights], yw=values[heights:],
+            form=cells.get("form"),
+        )  # fmt: skip
     except GeometryError as error:
         raise error.at(f"section {shown(card.cells[0])}, {card.where}") from None
 
