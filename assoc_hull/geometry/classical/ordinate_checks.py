@@ -20,6 +20,9 @@ FORMS = ("bottom+main+camber", "main+camber", "bottom+camber")
 
 _LEAST_BUTTOCKS, _LEAST_WATERLINES = 4, 3
 
+_MOST = 10_000
+"""More ordinates than this are a mistake."""
+
 _STEP = 0.15
 """The last buttock may end below the first waterline by this part of its height, unremarked."""
 
@@ -92,7 +95,7 @@ def check_section(
     shape = form
     if shape is None:
         shape = FORMS[0] if nb else FORMS[1] if sizes.hb < sizes.hd else FORMS[2]
-    if shape not in FORMS:
+    if not isinstance(shape, str) or shape not in FORMS:
         _refuse(f"section: no form {shown(form)}", f"use one of {', '.join(FORMS)}", form=form)
     if shape == FORMS[0] and nb < _LEAST_BUTTOCKS:
         what = f"section: bottom part needs at least {_LEAST_BUTTOCKS} buttocks, got {nb}"
@@ -120,9 +123,9 @@ def _counts(zb: FloatArray, yw: FloatArray, nb: object, nw: object) -> tuple[int
 
 
 def _whole(value: object, name: str) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 0:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 0 <= value <= _MOST:
         what = f"section: {shown(value)} {name}"
-        raise GeometryError(what, "give a whole number from 0 on", {name: value})
+        raise GeometryError(what, f"give a whole number from 0 to {_MOST}", {name: value})
     return int(value)
 
 
