@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.shifts import shift_sections, swing
-    from assoc_hull.sources import create, examples, open, read
+    from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
     from assoc_hull.tolerance import Tolerances
@@ -118,6 +118,7 @@ __all__ = [
     "open",
     "panels",
     "read",
+    "read_classical",
     "sample",
     "sectional_area",
     "sensitivities",
@@ -172,7 +173,7 @@ _HOMES = {
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
     "shifts": ("shift_sections", "swing"),
-    "sources": ("create", "examples", "open", "read"),
+    "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
     "tolerance": ("Tolerances",),

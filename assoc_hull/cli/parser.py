@@ -7,6 +7,7 @@ import sys
 from typing import NoReturn
 
 from assoc_hull.cli import (
+    classical,
     compare,
     create,
     curve,
@@ -75,7 +76,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, create, curve, look, edit, history, replay, why, graph, hydrostatics,
+        demo, make, create, classical, curve, look, edit, history, replay, why, graph, hydrostatics,
         parameters, stability, transform, panels, vary, shift, study, compare, sensitivities,
         fairness, plot, export, shell,
     )  # fmt: skip

@@ -20,13 +20,16 @@ from typing import Self
 
 import attrs
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = ["Arcs", "sinc"]
+
+_STRAIGHT = 1e-290
+"""A turn (rad) below this has lost digits of its own."""
 
 
 def sinc(h: ArrayLike) -> FloatArray:
@@ -115,7 +118,8 @@ class Arcs:
         >>> float(arc.length[0].round(6)), float(arc.angle[0].round(6)) + 0.0
         (3.141593, 0.0)
         """
-        first, last = (finite(each, "arcs", (None, 2)) for each in (start, end))
+        first = finite(start, "arcs", (None, 2))
+        last = finite(end, "arcs", first.shape)
         bends = finite(curvature, "arcs", (len(first),))
         step = last - first
         chord = np.hypot(step[:, 0], step[:, 1])
@@ -156,10 +160,9 @@ class Arcs:
         """Give centres for output, (n, 2), m; infinite for straight lines."""
         with np.errstate(divide="ignore", invalid="ignore"):
             radius = 1.0 / self.curvature
-        normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
-        return np.asarray(
-            np.where(np.isfinite(radius)[:, None], self.start + normal * radius[:, None], np.inf)
-        )
+            normal = np.stack([-np.sin(self.angle), np.cos(self.angle)], axis=1)
+            centre = self.start + normal * radius[:, None]
+        return np.asarray(np.where(np.isfinite(radius)[:, None], centre, np.inf))
 
     def distance(self, arc: IntArray, points: FloatArray) -> FloatArray:
         """Give the distance (m) of each point (k, 2) from one arc each, (k,).
@@ -171,16 +174,21 @@ class Arcs:
         cosine, sine = np.cos(self.angle[arc]), np.sin(self.angle[arc])
         along = cosine * away[:, 0] + sine * away[:, 1]
         left = cosine * away[:, 1] - sine * away[:, 0]
-        # Seen from the start in axes of the tangent: the foot on the circle lies at the angle
-        # atan2(k along, 1 - k left), and how far off it is follows without the centre.
-        turn = np.arctan2(bend * along, 1.0 - bend * left)
-        straight = np.abs(bend) * length < 1e-9
-        with np.errstate(divide="ignore", invalid="ignore"):
-            foot = np.where(straight, along, turn / bend)
-        on = (foot >= 0.0) & (foot <= length)
+        on = self._abreast(bend, length, along, left)
+        # How far off the circle a point is follows without the centre, for a straight line too.
         root = np.hypot(bend * along, 1.0 - bend * left)
-        square = bend * (along * along + left * left) - 2.0 * left
-        off = np.where(straight, np.abs(left), np.abs(square) / (1.0 + root))
+        off = np.abs(bend * (along * along + left * left) - 2.0 * left) / (1.0 + root)
         far = np.hypot(*away.T)
         last = np.hypot(*(points - self.at(arc, length)).T)
         return np.asarray(np.where(on, off, np.minimum(far, last)))
+
+    @staticmethod
+    def _abreast(
+        bend: FloatArray, length: FloatArray, along: FloatArray, left: FloatArray
+    ) -> NDArray[np.bool_]:
+        """Whether the foot on the circle lies on the arc, seen in axes of the tangent."""
+        turn = np.sign(bend) * np.arctan2(bend * along, 1.0 - bend * left)
+        turn = np.where(turn < 0.0, turn + 2.0 * np.pi, turn)
+        straight = (along >= 0.0) & (along <= length)
+        turned = np.abs(bend) * length
+        return np.asarray(np.where(turned < _STRAIGHT, straight, turn <= turned))

@@ -78,9 +78,8 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Float
         )  # fmt: skip
     bad = np.argwhere(~np.isfinite(found))
     if len(bad):
-        index: object = tuple(bad[0].tolist()) if found.ndim > 1 else int(bad[0, 0])
-        if not found.ndim:
-            index = 0
+        place = tuple(bad[0].tolist()) or (0,)
+        index: object = place if found.ndim > 1 else place[0]
         raise GeometryError(
             f"{name}: non-finite value at index {index}", "give a number", {"index": index}
         )

@@ -146,9 +146,7 @@ def power_columns(x: ArrayLike) -> FloatArray:
     beyond = np.maximum(places[:, None] - places[None, 1:-1], 0.0)
     values = np.column_stack([places[:, None] ** np.arange(4), beyond**3])
     ends = places[[0, -1]]
-    bends = np.column_stack(
-        [np.zeros((2, 2)), np.full(2, 2.0), 6.0 * ends, 6.0 * beyond[[0, -1]]]
-    )
+    bends = np.column_stack([np.zeros((2, 2)), np.full(2, 2.0), 6.0 * ends, 6.0 * beyond[[0, -1]]])
     return np.vstack([values, bends])
 
 
