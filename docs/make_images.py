@@ -13,6 +13,7 @@ from pathlib import Path
 
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.conics import combined_waterline, conformal_sections
 from drawings.container import (
     container_ship_225m,
     container_ship_225m_bodies,
@@ -129,6 +130,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curve_series": series,
     "panels": mesh,
     "form_curve": form_curve,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

@@ -31,6 +31,10 @@ _NOTE = (
 )
 
 
+_SLACK = 1e-12
+"""So far outside, in parts of the range, a level counts as the end."""
+
+
 @attrs.frozen(eq=False)
 class DraftFunctions:
     """Coefficients of one formula at some levels, and between them.
@@ -105,7 +109,8 @@ class DraftFunctions:
         """
         from scipy.interpolate import PPoly
 
-        places = inside(z, "draft functions", self.levels[0], self.levels[-1])
+        low, high = self.levels[[0, -1]].tolist()
+        places = inside(z, "draft functions", low, high, _SLACK * (high - low))
         if self.degree is None:
             return np.asarray(PPoly(self._pieces, self.levels)(places))
         found = polynomial.polyval(_unit(places, self.levels), self._pieces)
