@@ -72,7 +72,8 @@ class DraftFunctions:
         values : (n, k)
             Coefficients at each level.
         degree : int or None
-            Of polynomials of least squares; None for a natural cubic spline through all.
+            Of polynomials of least squares; None for a cubic spline through all, its
+            ends free (no knot beside them).
 
         Raises
         ------
@@ -94,7 +95,7 @@ class DraftFunctions:
             what = f"draft functions: {len(z)} levels that do not all rise"
             raise GeometryError(what, "give two or more, from below upward")
         if degree is None:
-            pieces = CubicSpline(z, table, bc_type="natural").c
+            pieces = CubicSpline(z, table).c
         else:
             pieces = _polynomials(z, table, degree)
         return cls(z, table, degree, (_NOTE,), np.array(pieces))
