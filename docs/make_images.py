@@ -14,6 +14,7 @@ from pathlib import Path
 from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.conics import combined_waterline, conformal_sections
 from drawings.container import (
     container_ship_225m,
     container_ship_225m_bodies,
@@ -131,6 +132,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "panels": mesh,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,
