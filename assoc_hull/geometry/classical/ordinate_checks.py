@@ -123,7 +123,11 @@ def _counts(zb: FloatArray, yw: FloatArray, nb: object, nw: object) -> tuple[int
 
 
 def _whole(value: object, name: str) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not 0 <= value <= _MOST:
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, int | np.integer)
+        or not 0 <= value <= _MOST
+    ):
         what = f"section: {shown(value)} {name}"
         raise GeometryError(what, f"give a whole number from 0 to {_MOST}", {name: value})
     return int(value)
