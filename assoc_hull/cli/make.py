@@ -36,6 +36,7 @@ _EXAMPLES = {
     "container-ship-225m": lambda: examples.container_ship_225m(),
     "plain-ship": lambda: examples.plain_ship(),
     "sfolds-ship": lambda: examples.sfolds_ship(),
+    "prelikon-ship": lambda: examples.prelikon_ship(),
 }
 
 
