@@ -197,7 +197,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "knuckle of words": (
         lambda: biarc_tangents(FIVE, knuckles=cast(list[int], ["2"])),
-        "biarc: knuckle 2 is no inner point of 5; give whole numbers from 1 to 3",
+        "biarc: knuckle '2' is no inner point of 5; give whole numbers from 1 to 3",
     ),
     "knuckles that are one number": (
         lambda: biarc_tangents(FIVE, knuckles=cast(list[int], 9)),
@@ -217,7 +217,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "form of several words": (
         lambda: biarc_tangents(FIVE, form=cast(TangentForm, np.array(["chord", "graph"]))),
-        "biarc: no form of tangents is called array(",
+        "biarc: no form of tangents is called a ndarray; there are ",
     ),
     "beyond all measure": (
         lambda: biarc_tangents([[0.0, 0.0], [1e200, 1.0]]),

@@ -198,13 +198,14 @@ def test_an_angle_of_1e_10_is_one() -> None:
 
 
 def test_a_radius_that_is_there_already_changes_nothing() -> None:
-    """To ask for the sharper radius itself is to ask for nothing, of circles, too."""
+    """To ask for the sharper radius, to rounding, is to ask for nothing, of circles, too."""
     rng = np.random.default_rng(11)
     one, two = rng.uniform(-1.2, 1.2, (2, 300))
     two[:100] = -one[:100]
     span = ([[0, 0]] * 300, one, [[1, 0]] * 300, two)
     free = biarcs(*span, rule="equal_chord")
-    kept = biarcs(*span, rule="equal_chord", least_radius=1.0 / np.abs(free.curvatures).max(axis=1))
+    sharper = (1.0 + 1e-13) / np.abs(free.curvatures).max(axis=1)
+    kept = biarcs(*span, rule="equal_chord", least_radius=sharper)
     assert not kept.repaired.any()
     assert np.array_equal(kept.arcs.length, free.arcs.length)
 
@@ -216,9 +217,8 @@ def test_the_limits_of_radii_are_sharp() -> None:
     with pytest.raises(GeometryError):
         over_ten(60.0, -15.0, least=limit)
     assert over_ten(60.0, -15.0, least=limit * (1.0 - 1e-9)).repaired.all()
-    even = float(
-        ratio_radii(np.array([CHORD]), np.radians([40.0]), np.radians([20.0]), np.ones(1))[0][0]
-    )
+    a, b = np.radians([40.0]), np.radians([20.0])
+    even = float(ratio_radii(np.array([CHORD]), a, b, np.ones(1))[0][0])
     assert_allclose(radii(over_ten(40.0, 20.0, least=even)), even, rtol=1e-12)
 
 
@@ -311,13 +311,21 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, "fair")),
         "biarc: no rule is called 'fair'; there are inverse, as_printed, min_jump, equal_chord",
     ),
+    "least radii of other counts": (
+        lambda: biarcs([[0, 0]], [0.1], [[1, 0]], [0.2], least_radius=[1, 2]),
+        "biarc: expected shape (1), got (2,); ",
+    ),
+    "complex directions": (
+        lambda: biarcs([[0, 0]], np.array([1j]), [[1, 0]], [0.2]),
+        "biarc: expected shape (1), got no array of numbers; ",
+    ),
     "least radius of nothing": (
         lambda: over_ten(60.0, -15.0, least=1e-300),
         "biarc: least radius 1e-300 is none beside the chord; give 0 for none",
     ),
     "rule of several words": (
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, np.array(["inverse", "fair"]))),
-        "biarc: no rule is called array(",
+        "biarc: no rule is called a ndarray; there are ",
     ),
     "beyond all measure": (
         lambda: biarcs([[0, 0]], [0], [[1, -1e300]], [0]),
