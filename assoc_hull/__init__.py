@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.curve_transforms import curve_transform
     from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
+    from assoc_hull.analysis.fairness import fairness
     from assoc_hull.analysis.form.form_parameters import form_parameters
     from assoc_hull.analysis.form.screw import Screw
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
@@ -55,7 +56,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.production import production_arcs
     from assoc_hull.shifts import shift_sections, swing
-    from assoc_hull.sources import create, examples, open, read
+    from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
     from assoc_hull.tolerance import Tolerances
@@ -108,6 +109,7 @@ __all__ = [
     "design_waterline",
     "equilibrium",
     "examples",
+    "fairness",
     "form_parameters",
     "hydrostatic_derivatives",
     "hydrostatic_table",
@@ -118,6 +120,7 @@ __all__ = [
     "panels",
     "production_arcs",
     "read",
+    "read_classical",
     "sample",
     "sectional_area",
     "sensitivities",
@@ -136,6 +139,7 @@ _HOMES = {
     "analysis.curve_transforms": ("curve_transform",),
     "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
+    "analysis.fairness": ("fairness",),
     "analysis.form.form_parameters": ("form_parameters",),
     "analysis.form.screw": ("Screw",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
@@ -172,7 +176,7 @@ _HOMES = {
     "model.state": ("Association", "Ends", "Particulars"),
     "production": ("production_arcs",),
     "shifts": ("shift_sections", "swing"),
-    "sources": ("create", "examples", "open", "read"),
+    "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
     "tolerance": ("Tolerances",),

@@ -22,7 +22,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.io.progress import Tell
 from assoc_hull.io.saving import holds_hull
 from assoc_hull.model.state import DECKS
-from assoc_hull.sources import examples
+from assoc_hull.sources import create, examples, read_classical
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add"]
@@ -35,6 +35,9 @@ _EXAMPLES = {
     "bulk-carrier-180m": lambda: examples.bulk_carrier_180m(),
     "container-ship-225m": lambda: examples.container_ship_225m(),
     "plain-ship": lambda: examples.plain_ship(),
+    "seaking-ship": lambda: examples.seaking_ship(),
+    "sfolds-ship": lambda: examples.sfolds_ship(),
+    "prelikon-ship": lambda: examples.prelikon_ship(),
 }
 
 
@@ -70,7 +73,7 @@ def _add_import(commands: Commands) -> None:
         metavar="FILE",
         type=Path,
         help="CSV, TSV, XLSX, STL, OBJ, PLY, DXF, BRITFAIR (.bri), DELFTship (.txt), GHS (.gf), "
-        "or a saved hull (.hull, .hull.json)",
+        "a text of a classical definition, or a saved hull (.hull, .hull.json)",
     )
     _add_target(parser)
     for name, what in (
@@ -178,10 +181,13 @@ _OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance"
 
 
 def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
+    from assoc_hull.io.classical.read import holds_definition
     from assoc_hull.io.slice_read import holds_lines, require_file
 
     if holds_hull(arguments.file):
         return _adopt_nothing(arguments)
+    if holds_definition(arguments.file):
+        return _adopt_definition(arguments)
     if holds_lines(arguments.file):
         if arguments.station_zero != "auto":
             raise BadInputError(
@@ -200,19 +206,33 @@ def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, A
 
 def _adopt_nothing(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
     """Take a hull that was saved; its history comes along where the file has one."""
-    plain_unit, plain_zero = arguments.unit == "auto", arguments.station_zero == "auto"
-    names = (*_OF_SLICES, "length", "breadth", "draught", "deck", "report", "picture")
-    given = [name for name in names if getattr(arguments, name) is not None]
-    given += ["unit"] * (not plain_unit) + ["station-zero"] * (not plain_zero)
-    if given:
-        where = f"with {arguments.file}, which is a hull already"
-        raise BadInputError(f"--{given[0]} cannot be given", where, "leave it out")
+    _refuse_all(arguments, ("report", "picture"), "which is a hull already")
     if arguments.out.exists() and arguments.out.samefile(arguments.file):
         what = "it would be written over itself"
         raise BadInputError(what, f"at {arguments.out}", "give another name after -o")
     hull = open_hull(arguments.file)
     hull.detach()
     return hull, _SCHEMA | {"source": str(arguments.file)}, f"taken from {arguments.file}"
+
+
+def _refuse_all(arguments: argparse.Namespace, more: tuple[str, ...], why: str) -> None:
+    """Refuse all options that say how numbers of a file are to be taken."""
+    names = (*_OF_SLICES, "length", "breadth", "draught", "deck", *more)
+    given = [name for name in names if getattr(arguments, name) is not None]
+    given += [name for name in ("unit", "station_zero") if getattr(arguments, name) != "auto"]
+    if given:
+        what = f"--{given[0].replace('_', '-')} cannot be given"
+        raise BadInputError(what, f"with {arguments.file}, {why}", "leave it out")
+
+
+def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
+    """Make the net of a classical definition; the report is the definition's, beside the net."""
+    _refuse_all(arguments, (), "which is a definition")
+    definition = read_classical(arguments.file)
+    hull = create(definition)
+    report = definition.report(hull.state)
+    facts = _SCHEMA | {"definition": report.as_dict(), "adoption": hull.adoption}
+    return hull, facts, str(report)
 
 
 def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:

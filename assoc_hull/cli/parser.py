@@ -7,12 +7,14 @@ import sys
 from typing import NoReturn
 
 from assoc_hull.cli import (
+    classical,
     compare,
     create,
     curve,
     demo,
     edit,
     export,
+    fairness,
     graph,
     history,
     hydrostatics,
@@ -74,9 +76,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
-        demo, make, create, curve, look, edit, history, replay, why, graph, hydrostatics,
-        parameters, stability, transform, panels, vary, shift, study, compare, sensitivities, plot,
-        export, shell,
+        demo, make, create, classical, curve, look, edit, history, replay, why, graph, hydrostatics,
+        parameters, stability, transform, panels, vary, shift, study, compare, sensitivities,
+        fairness, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -1,1 +1,1 @@
-"""Classical definitions of hulls: what they hold, what they evaluate to, nets made of them."""
+"""Classical definitions of whole hulls, their own exact numbers, and the nets made of them."""
