@@ -14,6 +14,7 @@ from pathlib import Path
 from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.conics import combined_waterline, conformal_sections
 from drawings.container import (
     container_ship_225m,
     container_ship_225m_bodies,
@@ -115,6 +116,11 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def sfolds_ship() -> Figure:
+    """Draw the lines plan of the ferry of portions."""
+    return lines_plan(examples.sfolds_ship(), paper="A4")
+
+
 def definitions() -> Figure:
     """Draw the definitions of the plain ship."""
     return definition_curves(examples.plain_ship().state, paper="A4")
@@ -123,6 +129,7 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
+    "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,
@@ -131,6 +138,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "panels": mesh,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

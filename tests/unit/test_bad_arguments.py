@@ -15,7 +15,10 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.parameters import DRAUGHT
+from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
+from assoc_hull.geometry.classical.portion import Portion
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -183,6 +186,7 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "Design.from_json": (ah.Design.from_json, {"source": "{}"}),
     "create": (ah.create, {"design": None}),
+    "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
     "sectional_area": (
         ah.sectional_area,
@@ -301,6 +305,28 @@ FLOATING: dict[str, Given] = {
     },
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip
+
+CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
+    "OrdinateSection.make": (
+        OrdinateSection.make,
+        {
+            "hb": 0.0, "sb": 1.0, "sw": 2.0, "hd": 3.5, "bd": 4.75, "cam": 0.1, "zb": [0.0],
+            "yw": [3.0, 4.0, 5.0], "nb": 0, "nw": 3, "form": "main+camber",
+        },
+    ),
+    "Portion.make": (Portion.make, {"number": 3, "stations": [0.0, 4.0, 8.0], "sections": ()}),
+    "Portion.of_areas": (
+        Portion.of_areas, {"number": 3, "stations": [0.0, 4.0, 8.0], "areas": [1.0, 2.0, 1.0]}
+    ),
+    "Sfolds.make": (
+        Sfolds.make,
+        {
+            "particulars": SHIP, "portions": [Portion.of_areas(3, [0, 4, 8], [1, 2, 1])],
+            "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
+        },
+    ),
+}  # fmt: skip
+"""What definitions of a classical kind are made of; not public names of the package."""
 
 
 def cases(table: dict[str, Given]) -> list[Any]:
@@ -454,7 +480,8 @@ def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, na
 
 
 @pytest.mark.parametrize(
-    ("method", "given", "name"), cases({name: given for name, (_, given) in MAKERS.items()})
+    ("method", "given", "name"),
+    cases({name: given for name, (_, given) in (MAKERS | CLASSICAL).items()}),
 )
 def test_what_is_made_is_made_of_good_values(method: str, given: Given, name: str) -> None:
     """Constructors and readers refuse what they cannot use."""
@@ -465,7 +492,7 @@ def test_what_is_made_is_made_of_good_values(method: str, given: Given, name: st
 
 def make(method: str, given: Given) -> None:
     """Call a constructor or reader with what may be no value for it."""
-    function = MAKERS[method][0]
+    function = (MAKERS | CLASSICAL)[method][0]
     if method in ("BoundaryKind", "PointKind"):
         value = given["value"]
         # An enumeration compares arrays before it asks its class what is missing.
@@ -568,4 +595,5 @@ def test_every_public_name_is_tried() -> None:
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
+    takes_nothing |= {"sfolds_ship", "prelikon_ship"}
     assert made == {"wigley", "series60"} | takes_nothing

@@ -29,8 +29,8 @@ def default_cuts(stations: Sequence[Station], draught: float) -> dict[str, tuple
     heights = [part * draught for part in (0.15, 0.4, 0.7, 1.0)]
     heights.append(0.5 * (draught + top))
     return {
-        "waterlines": tuple(z for z in heights if z < top - AT),
         "buttocks": tuple(part * wide for part in (0.25, 0.5, 0.75)),
+        "waterlines": tuple(z for z in heights if z < top - AT),
     }
 
 
