@@ -10,8 +10,8 @@ Examples
 >>> import numpy as np
 >>> from assoc_hull.geometry.classical.arc_ratio import biarcs_by_ratio
 >>> quarter = biarcs_by_ratio(np.array([2.0]), np.array([0.7]), np.array([-0.7]), np.array([0.5]))
->>> bool(abs(quarter.bend[0, 0] - quarter.bend[1, 0]) < 1e-15), round(abs(quarter.tau[0]), 12)
-(True, 0.0)
+>>> bool(abs(quarter.bend[0, 0] - quarter.bend[1, 0]) < 1e-15), quarter.tau.round(12) + 0.0
+(True, array([0.]))
 """
 
 from __future__ import annotations
