@@ -274,6 +274,9 @@ FLOATING: dict[str, Given] = {
         "curve": "sectional areas", "kind": "chebyshev", "terms": 2, "along": None, "across": None,
         "span": None, "relative": None, **ONE, "heel_deg": 0.0,
     },
+    "fairness": {
+        "lines": ["WL 2.5"], "allowed": 0, "offsets": None, "tolerances": 0.005,
+    },
     "form_parameters": {
         **ONE, "screw": None, "rho": 1.0, "shell_factor": 1.0, "transom": False, "only": None,
         "further": (),
