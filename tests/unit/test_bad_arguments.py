@@ -17,6 +17,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.parameters import DRAUGHT
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.portion import Portion
 from assoc_hull.sources import Examples
@@ -536,6 +537,23 @@ def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None
     assert set(inspect.signature(ah.compare).parameters) == set(given)
 
 
+@pytest.mark.parametrize("name", ["of", "lines", "allowed", "offsets", "tolerances"])
+def test_fairness_is_asked_for_with_good_values(hull: ah.Hull, name: str) -> None:
+    """Of a hull and of a plane curve: an error of the family or a result."""
+    before = hull.fingerprint
+    curve = Arcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
+    of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "allowed": 0, "offsets": None}
+    of_curve: Given = {"of": curve, "lines": None, "allowed": 0, "offsets": [(1.0, 0.1)]}
+    for given in (of_hull, of_curve):
+        given = {**given, "tolerances": 0.005}
+        assert not call(ah.fairness, given)
+        for trial in spoilt(given, name):
+            with trial as bad:
+                call(ah.fairness, bad)
+    assert hull.fingerprint == before
+    assert set(inspect.signature(ah.fairness).parameters) == {*of_hull, "tolerances"}
+
+
 @pytest.mark.parametrize("method", FLOATING)
 def test_every_argument_of_hydrostatics_is_tried(method: str) -> None:
     """As those of the methods."""
@@ -591,7 +609,7 @@ def test_every_public_name_is_tried() -> None:
         and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
     }
     tried = tried - {"wigley", "series60"} | set(FLOATING)
-    tried |= {"compare", "Study"}  # a study is made by `study`; see test_bad_targets
+    tried |= {"compare", "fairness", "Study"}  # a study is made by `study`; see test_bad_targets
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
