@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from assoc_hull.analysis.curve_transforms import curve_transform
     from assoc_hull.analysis.derivatives import hydrostatic_derivatives
     from assoc_hull.analysis.equilibrium import immersion
+    from assoc_hull.analysis.fairness import fairness
     from assoc_hull.analysis.form.form_parameters import form_parameters
     from assoc_hull.analysis.form.screw import Screw
     from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
@@ -107,6 +108,7 @@ __all__ = [
     "design_waterline",
     "equilibrium",
     "examples",
+    "fairness",
     "form_parameters",
     "hydrostatic_derivatives",
     "hydrostatic_table",
@@ -135,6 +137,7 @@ _HOMES = {
     "analysis.curve_transforms": ("curve_transform",),
     "analysis.derivatives": ("hydrostatic_derivatives",),
     "analysis.equilibrium": ("immersion",),
+    "analysis.fairness": ("fairness",),
     "analysis.form.form_parameters": ("form_parameters",),
     "analysis.form.screw": ("Screw",),
     "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),

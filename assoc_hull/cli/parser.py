@@ -14,6 +14,7 @@ from assoc_hull.cli import (
     demo,
     edit,
     export,
+    fairness,
     graph,
     history,
     hydrostatics,
@@ -76,8 +77,8 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     modules = (
         demo, make, create, classical, curve, look, edit, history, replay, why, graph, hydrostatics,
-        parameters, stability, transform, panels, vary, shift, study, compare, sensitivities, plot,
-        export, shell,
+        parameters, stability, transform, panels, vary, shift, study, compare, sensitivities,
+        fairness, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

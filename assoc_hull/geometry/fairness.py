@@ -1,4 +1,7 @@
-"""Fairness of plane curves: inflections counted exactly, and curvature combs.
+"""Fairness of curves: inflections counted exactly, and the five criteria as numbers.
+
+The five criteria (`criteria`, `FairnessRecord`) are computed in
+`assoc_hull.geometry.fairness_criteria`; curvature combs in `assoc_hull.geometry.combs`.
 
 The numerator of the signed curvature of a cubic, ``n . (P' x P'')``, is a quadratic in the
 segment's parameter: of the products of P' (degree 2) and P'' (degree 1) the term of degree 3
@@ -13,14 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curvature import plane_curvature, space_curvature
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.fairness_criteria import FairnessRecord, criteria
 from assoc_hull.geometry.polynomials import differentiate, horner
 from assoc_hull.geometry.roots import quadratic_roots
 from assoc_hull.geometry.segments import power, segment_curve, segment_start
 from assoc_hull.geometry.vectors import check_normals, dot
 
-__all__ = ["Places", "combs", "inflections"]
+__all__ = ["FairnessRecord", "Places", "criteria", "inflections"]
 
 _STRAIGHT = 1e-9  # rad: a turn below this is the rounding of a straight stretch
 
@@ -116,77 +119,6 @@ def inflections(
     count = np.bincount(places.curve, minlength=batch.count)
     freeze(count)
     return count, places
-
-
-def combs(
-    batch: SplineBatch, normals: ArrayLike, per_segment: int = 8, scale: float = 1.0
-) -> tuple[FloatArray, FloatArray]:
-    """Give curvature combs: points of the curves, and the tips of the teeth on them.
-
-    A tooth points to the centre of curvature and is `scale` times the curvature long; with
-    a negative scale the comb stands on the outside. Both ends of each segment have a tooth,
-    so that a knuckle shows both of its curvatures.
-
-    Parameters
-    ----------
-    batch : SplineBatch
-        The curves.
-    normals : (m, 3) or (3,)
-        Unit normal of the plane of each curve; a row of nan for the comb of a space curve.
-    per_segment : int
-        Teeth on each segment, two or more.
-    scale : float
-        Length of a tooth (m) at unit curvature (1/m), m2.
-
-    Returns
-    -------
-    base : (s, per_segment, 3), m
-        Points at equal steps of the parameter, segment by segment.
-    tip : (s, per_segment, 3), m
-        The tips; nan where the curve has no direction.
-
-    Raises
-    ------
-    BadInputError
-        A normal is not of unit length, or there are fewer than two teeth per segment.
-    TooFewPointsError
-        A curve has fewer than two points.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from assoc_hull.geometry.curves import SplineBatch
-    >>> from assoc_hull.geometry.fairness import combs
-    >>> xyz = np.array([[0.0, 0, 0], [2, 0, 0]])
-    >>> leave, arrive = np.array([[1.0, -2, 0]] * 2), np.array([[1.0, 2, 0]] * 2)
-    >>> parabola = SplineBatch(np.array([0, 2]), np.array([0.0, 2]), xyz, leave, arrive)
-    >>> base, tip = combs(parabola, [0, 0, 1], per_segment=3, scale=0.5)
-    >>> base[0, 1].tolist(), tip[0, 1].tolist()
-    ([1.0, -1.0, 0.0], [1.0, 0.0, 0.0])
-    """
-    if per_segment < 2:
-        raise BadInputError(
-            f"{per_segment} teeth per segment", "in a curvature comb", "give two or more"
-        )
-    normal = check_normals(normals, batch.count)[segment_curve(batch), None]
-    cubics = power(batch)
-    u = np.broadcast_to(np.linspace(0.0, 1.0, per_segment), (len(cubics), per_segment))
-    slopes = differentiate(cubics)
-    base = horner(cubics, u).copy()
-    base[:, -1] = batch.xyz[segment_start(batch) + 1]
-    tooth = _teeth(horner(slopes, u), horner(differentiate(slopes), u), normal)
-    tip = base + scale * tooth
-    freeze(base, tip)
-    return base, tip
-
-
-def _teeth(first: FloatArray, second: FloatArray, normal: FloatArray) -> FloatArray:
-    """Give curvature vectors: in the plane where there is one, else in space."""
-    left = np.cross(normal, first)
-    size = np.sqrt(dot(left, left))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        signed = plane_curvature(first, second, normal) / size
-    return np.where(np.isnan(normal), space_curvature(first, second), signed[..., None] * left)
 
 
 def _hodographs(batch: SplineBatch, normals: FloatArray) -> FloatArray:

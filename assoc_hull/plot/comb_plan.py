@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
+from assoc_hull.geometry.combs import combs
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fairness import combs, inflections
+from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import evaluate
 from assoc_hull.plot.block import caption, frame, title_block
 from assoc_hull.plot.drawing import Drawing, DrawnLine, Sketchable, drawing

@@ -9,8 +9,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.combs import combs
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fairness import combs, inflections
+from assoc_hull.geometry.fairness import inflections
 from assoc_hull.geometry.spline import evaluate
 from assoc_hull.plot.drawing import DrawnLine, Sketchable, drawing
 from assoc_hull.plot.paper import PaperName, Pen

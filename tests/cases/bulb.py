@@ -70,19 +70,23 @@ def onto(level: float, at: Floats) -> Floats:
     """
     of = fullness if level == 0.0 else breadth_at
     for _ in range(3):
-        slope = gradient(of, at)
-        off = of(at[:, 0], at[:, 1]) - level
+        value, slope = rates(of, at)
+        off = value - level
         at = at - (off / (slope * slope).sum(axis=1))[:, None] * slope
     return at
 
 
 def gradient(of: Callable[[Floats, Floats], Floats], at: Floats) -> Floats:
     """Give the derivatives of a function along x and z, (n, 2)."""
-    (x, z), h = at.T, 1e-6
-    ahead, back, above, below = np.split(
-        of(np.concatenate([x + h, x - h, x, x]), np.concatenate([z, z, z + h, z - h])), 4
-    )
-    return np.column_stack([ahead - back, above - below]) / (2.0 * h)
+    return rates(of, at)[1]
+
+
+def rates(of: Callable[[Floats, Floats], Floats], at: Floats) -> tuple[Floats, Floats]:
+    """Give a function's values (n,) and its derivatives along x and z (n, 2)."""
+    step = 1e-6 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])[:, None]
+    x, z = (at + step).transpose(2, 0, 1)
+    here, ahead, back, above, below = of(x, z)
+    return here, np.stack([ahead - back, above - below], axis=1) / 2e-6
 
 
 @cache

@@ -15,15 +15,15 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray
-from tests.cases.net_branches import branches_of_net
 from tests.cases.true_branches import Branch
 
-__all__ = ["CLOSE", "NetWatch"]
+__all__ = ["AXIS", "CLOSE", "NetWatch", "events"]
 
 CLOSE = 3e-3
 """Shifts may change other lines by millimetres, and with them where a branch ends (m)."""
 
 AXIS = {"waterlines": 2, "buttocks": 1}
+"""Of the planes of a group."""
 
 
 @attrs.frozen
@@ -36,7 +36,7 @@ class Seen:
 
 
 class NetWatch:
-    """Watches a line that is shifted between two places.
+    """Watches a line that is shifted between two places, along the branches of all others.
 
     Attributes
     ----------
@@ -48,10 +48,8 @@ class NetWatch:
         The farthest that a crossing was from its branch: how far the other lines moved.
     """
 
-    def __init__(self, hull: ah.Hull, line: str, low: float, high: float) -> None:
-        self.hull, self.line = hull, line
-        group = hull.lines[line].group.name
-        self.branches = branches_of_net(hull, group, AXIS[group], low, high)
+    def __init__(self, hull: ah.Hull, line: str, branches: dict[str, list[Branch]]) -> None:
+        self.hull, self.line, self.branches = hull, line, branches
         lines = hull.lines
         self.bounds = [
             branch
@@ -62,11 +60,6 @@ class NetWatch:
         self.wrong, self.count, self.off = list[str](), Counter[str](), 0.0
         self.life, self.dead = dict[str, str](), set[str]()
         self.seen = self.look(float(hull.lines[line].position or 0.0))
-
-    def events(self, low: float, high: float) -> list[float]:
-        """Give the places between two others at which branches begin or end, ascending."""
-        every = [end for some in self.branches.values() for each in some for end in _ends(each)]
-        return sorted({round(end, 3) for end in every if low < end < high})
 
     def shift(self, place: float) -> None:
         """Shift the line, and note all that is wrong."""
@@ -156,6 +149,12 @@ class NetWatch:
 
     def _say(self, place: float, text: str) -> None:
         self.wrong.append(f"at {place:.4f} m: {text}")
+
+
+def events(branches: dict[str, list[Branch]], low: float, high: float) -> list[float]:
+    """Give the places between two others at which branches begin or end, ascending."""
+    every = [end for some in branches.values() for each in some for end in _ends(each)]
+    return sorted({round(end, 3) for end in every if low < end < high})
 
 
 def _ends(branch: Branch) -> tuple[float, float]:

@@ -10,12 +10,16 @@ the whole ranges, and the shifts also in steps of 1 mm round every event, in a q
 from __future__ import annotations
 
 import os
-from pathlib import Path
+from collections.abc import Callable
+from functools import cache
 
 import pytest
 
 import assoc_hull as ah
-from tests.cases.net_watch import CLOSE, NetWatch
+from tests.cases.net_branches import branches_of_net
+from tests.cases.net_watch import AXIS, CLOSE, NetWatch, events
+from tests.cases.true_branches import Branch
+from tests.taken_back import taken_back
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
@@ -42,12 +46,21 @@ WITHIN = {
 """For each step: the range on its own, some of its 12, 7 and 25 events, the closest of them."""
 
 
+Truth = Callable[[str], dict[str, list[Branch]]]
+
+
 @pytest.fixture(scope="module")
-def path(dtc: ah.Hull, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The hull in a file: what is tried here stays here."""
-    made = tmp_path_factory.mktemp("dtc") / "dtc.hull.json"
-    dtc.save(made)
-    return made
+def truth(dtc: ah.Hull) -> Truth:
+    """The path along each range, followed once: every watch takes its shifts back."""
+    start = dtc.fingerprint
+
+    @cache
+    def follow(where: str) -> dict[str, list[Branch]]:
+        assert dtc.fingerprint == start
+        group, low, high = RANGES[where]
+        return branches_of_net(dtc, group, AXIS[group], low, high)
+
+    return follow
 
 
 def steps(low: float, high: float, step: float) -> list[float]:
@@ -56,12 +69,13 @@ def steps(low: float, high: float, step: float) -> list[float]:
     return [*up[1:], high, *up[::-1]]
 
 
-def watch(path: Path, where: str, places: list[float]) -> NetWatch:
+def watch(
+    hull: ah.Hull, where: str, truth: dict[str, list[Branch]], places: list[float]
+) -> NetWatch:
     """Shift a new line from place to place; say how it went; undo all at the end."""
-    hull, (group, low, high) = ah.open(path), RANGES[where]
     with hull.edit("cut") as edit:
-        edit.add_line(group, places[-1], "moved")
-    start, watched = hull.fingerprint, NetWatch(hull, "moved", low, high)
+        edit.add_line(RANGES[where][0], places[-1], "moved")
+    start, watched = hull.fingerprint, NetWatch(hull, "moved", truth)
     for place in places:
         watched.shift(place)
     print(f"\n{where}: {dict(watched.count)}, {len(watched.wrong)} wrong, {watched.off:.1e} m off")
@@ -76,11 +90,12 @@ def watch(path: Path, where: str, places: list[float]) -> NetWatch:
 @pytest.mark.parametrize("step", [0.5, 0.1, 0.01], ids=["50 cm", "10 cm", "1 cm"])
 @pytest.mark.parametrize("where", list(RANGES))
 def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
-    path: Path, where: str, step: float
+    dtc: ah.Hull, truth: Truth, where: str, step: float
 ) -> None:
     """There and back: every crossing keeps its branch, and every branch its crossing."""
     low, high = (RANGES if LONG else WITHIN[step])[where][1:]
-    watched = watch(path, where, steps(low, high, step))
+    with taken_back(dtc) as hull:
+        watched = watch(hull, where, truth(where), steps(low, high, step))
     assert watched.wrong == []
     assert watched.off < CLOSE
 
@@ -88,17 +103,17 @@ def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
 if LONG:
 
     @pytest.mark.parametrize("where", list(RANGES))
-    def test_in_steps_of_1_mm_round_every_event_none_is_either(path: Path, where: str) -> None:
+    def test_in_steps_of_1_mm_round_every_event_none_is_either(
+        dtc: ah.Hull, truth: Truth, where: str
+    ) -> None:
         """There and back over 1 cm on either side of every birth and death, by leaps between."""
-        group, low, high = RANGES[where]
-        hull = ah.open(path)
-        with hull.edit("cut") as edit:
-            edit.add_line(group, low, "moved")
+        low, high = RANGES[where][1:]
         around = [
             round(event + 1e-3 * i, 4)
-            for event in NetWatch(hull, "moved", low, high).events(low, high)
+            for event in events(truth(where), low, high)
             for i in range(-10, 11)
         ]
         up = sorted({place for place in around if low < place < high})
-        watched = watch(path, where, [low, *up, high, *up[::-1], low][1:])
+        with taken_back(dtc) as hull:
+            watched = watch(hull, where, truth(where), [low, *up, high, *up[::-1], low][1:])
         assert watched.wrong == []

@@ -241,9 +241,10 @@ def refuse(
     node: int,
     error: BaseException = FAILED,
     policy: PolicyName = "all_or_nothing",
+    *,
+    before: tuple[object, ...],
 ) -> None:
-    """Carry out an edit that fails at a node: it must meet the failure and leave no trace."""
-    before = tables(hull)
+    """Carry out an edit that fails at a node: the tables must be what they were before."""
     try:
         with failing_at(stage, node, error), hull.edit("failing", policy, "report") as edit:
             change(edit)
@@ -276,11 +277,11 @@ def test_a_failure_at_any_node_leaves_the_hull_as_it_was(name: str, policy: Poli
     """
     hull = smallest()
     change = CHANGES[name](hull)
-    reach, before = reach_of(hull, change), whole(hull)
+    reach, before, there = reach_of(hull, change), whole(hull), tables(hull)
     for stage in _STAGES if policy == "all_or_nothing" else (*_CHECKS, "publish"):
         assert reach.of(stage)
         for node in reach.of(stage):
-            refuse(hull, change, stage, node, policy=policy)
+            refuse(hull, change, stage, node, policy=policy, before=there)
     assert whole(hull) == before
     with hull.edit("after all", gaps="report") as edit:
         change(edit)
@@ -299,10 +300,10 @@ def test_any_kind_of_failure_is_taken_back(error: BaseException) -> None:
     """A defect of the kernel or an interrupt too, at the first and the last node of each stage."""
     hull = smallest()
     for change in (drag(hull), structural(hull)):
-        reach, before = reach_of(hull, change), whole(hull)
+        reach, before, there = reach_of(hull, change), whole(hull), tables(hull)
         for stage in _STAGES:
             for node in (reach.of(stage)[0], reach.of(stage)[-1]):
-                refuse(hull, change, stage, node, error)
+                refuse(hull, change, stage, node, error, before=there)
         assert whole(hull) == before
 
 
@@ -399,16 +400,17 @@ def test_a_sample_of_200_nodes_of_series_60(series60_70: ah.Hull) -> None:
     def change(edit: Edit) -> None:
         places.pull(hull, 0.02, (40.0, 12.0))(edit, row)
 
-    reach, before = reach_of(hull, change), whole(hull)
+    reach, before, there = reach_of(hull, change), whole(hull), tables(hull)
     every = sorted({*reach.evaluated, *reach.changed})
     sample = set(rng.sample(every, 200))
     for stage in _STAGES:
         one, other = turn_about(sample & set(reach.of(stage)))
         for node in () if stage == "evaluated" else one:
-            refuse(hull, change, stage, node)
+            refuse(hull, change, stage, node, before=there)
         for node in () if stage == "evaluate" else other:
-            goes_on = stage in (*_CHECKS, "publish")
-            refuse(hull, change, stage, node, policy="keep_going" if goes_on else "all_or_nothing")
+            on = stage in (*_CHECKS, "publish")
+            policy: PolicyName = "keep_going" if on else "all_or_nothing"
+            refuse(hull, change, stage, node, policy=policy, before=there)
     assert whole(hull) == before
     for stage in _GONE_PAST:
         for node in sorted(sample & set(reach.of(stage))):

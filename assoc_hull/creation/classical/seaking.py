@@ -8,6 +8,7 @@ Mathematical Method for Design and Production", J. SNAK.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 
 import attrs
@@ -247,7 +248,7 @@ def _over(at: object, ends: tuple[float, float], place: FloatArray) -> FloatArra
 
 
 def _check_heights(waterlines: Sequence[ParallelWaterline]) -> None:
-    for one, other in zip(waterlines, waterlines[1:], strict=False):
+    for one, other in itertools.pairwise(waterlines):
         if other.z - one.z <= _SAME:
             raise GeometryError(
                 f"waterline z={figure(other.z)}: stands at or below the one before it",

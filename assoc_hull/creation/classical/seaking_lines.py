@@ -7,6 +7,7 @@ closely, their parallel part is straight. Flat ends are transoms.
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,6 +29,9 @@ __all__ = ["frame_name", "lines_of"]
 _SAME = 1e-6
 _DENSE = 4
 """Chords between two points of a waterline."""
+
+_CLEAR = 0.05
+"""Points of a line over x that are closer (m) to given ones are left out."""
 
 _EVEN = 1e-3
 """Tolerance (m) of lines that are smooth through points."""
@@ -65,8 +69,12 @@ def lines_of(ship: Seaking) -> tuple[LineSource, ...]:
         for x in ends
     ]
     waterlines = [_waterline(each) for each in ship.waterlines]
-    along = [_profile(ship), _deck_edge(ship.deck), *_flat_of_bottom(ship)]
-    along += [_space_line(each.name, each.line, BoundaryKind.KNUCKLE) for each in ship.knuckles]
+    along = [_profile(ship), *_flat_of_bottom(ship)]
+    along.append(_space_line("deck edge", ship.deck, BoundaryKind.END, ship.frames))
+    along += [
+        _space_line(each.name, each.line, BoundaryKind.KNUCKLE, ship.frames)
+        for each in ship.knuckles
+    ]
     return (*along, *transoms, *sections, *waterlines)
 
 
@@ -78,29 +86,33 @@ def _profile(ship: Seaking) -> LineSource:
         rows = np.concatenate([[(ship.ends[0], top)], rows])
     if breadth <= _SAME and head > rows[-1, 1] + _SAME:
         rows = np.concatenate([rows, [(ship.ends[1], head)]])
-    pieces = [straight(a, b) for a, b in zip(rows[:-1], rows[1:], strict=True)]
+    pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
     return Outline.of(pieces).boundary("profile", 1, 0.0)
 
 
-def _deck_edge(deck: KnuckleLine) -> LineSource:
-    return _space_line("deck edge", deck, BoundaryKind.END)
+def _space_line(
+    name: str, line: KnuckleLine, kind: BoundaryKind, frames: FloatArray
+) -> LineSource:
+    """Give a line over x: corners at steps and at the ends of straight intervals.
 
-
-def _space_line(name: str, line: KnuckleLine, kind: BoundaryKind) -> LineSource:
-    """Give a line over x: corners at steps and at the ends of straight intervals."""
-    hard = line.code <= 1
-    corner = np.zeros(len(line.x), bool)
-    corner[1:-1] = hard[1:] | hard[:-1]
-    # Straight intervals in one line need no corner between them.
-    points = np.column_stack([line.x, line.v])
+    On parabolas it has a point at each frame as well: frames end there.
+    """
+    rows: list[tuple[float, FloatArray, bool]] = []
+    hard = np.concatenate([[True], line.code <= 1, [True]])
+    for i, x in enumerate(line.x.tolist()):
+        if i and line.code[i - 1] == 0 and x > line.x[i - 1]:
+            rows.append((x, line.v[i - 1], True))
+        rows.append((x, line.v[i], bool(hard[i] or hard[i + 1])))
+        if i < len(line.code) and line.code[i] > 1:
+            inner = frames[(frames > x + _CLEAR) & (frames < line.x[i + 1] - _CLEAR)]
+            rows += [(each, line.at(each), False) for each in inner.tolist()]
+    points = np.array([[x, *v] for x, v, _ in rows])
+    corner = np.array([each for *_, each in rows])
     step = np.diff(points, axis=0)
     step /= np.linalg.norm(step, axis=1)[:, None]
-    even = np.einsum("ij,ij->i", step[1:], step[:-1]) > 1.0 - 1e-14
-    corner[1:-1] &= ~even
-    tread = np.flatnonzero((line.code == 0) & (np.diff(line.x) > 0.0))
-    for row in tread[::-1].tolist():
-        points = np.insert(points, row + 1, [line.x[row + 1], *line.v[row]], axis=0)
-        corner = np.insert(corner, row + 1, True)
+    # Straight intervals in one line need no corner between them.
+    corner[1:-1] &= np.einsum("ij,ij->i", step[1:], step[:-1]) <= 1.0 - 1e-14
+    corner[[0, -1]] = False
     kinds = np.where(corner, int(PointKind.KNUCKLE), 0).tolist()
     return LineSource.make("boundary", name, points, boundary=kind, kind=kinds, tolerance=_EVEN)
 
@@ -113,7 +125,7 @@ def _flat_of_bottom(ship: Seaking) -> list[LineSource]:
     rows = np.concatenate([ends[:1], inner, ends[1:]])
     if not (rows[:, 1] > _SAME).any():
         return []
-    pieces = [straight(a, b) for a, b in zip(rows[:-1], rows[1:], strict=True)]
+    pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
     kind = BoundaryKind.FLAT
     return [Outline.of(pieces).boundary("flat of bottom", 2, 0.0, kind=kind)]
 

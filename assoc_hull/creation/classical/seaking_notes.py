@@ -64,12 +64,12 @@ def _beside_midship(ship: Seaking) -> list[str]:
                 f"{line.name}: lies up to {1e3 * away:.1f} mm off the midship section over its "
                 "parallel part"
             )
-    for line in ship.knuckles:
-        if line.line.ends[0] < last and line.line.ends[1] > first:
-            found.append(
-                f"knuckle line {line.name!r}: is not looked at between x={figure(first)} and "
-                f"{figure(last)}, where the midship section stands"
-            )
+    found += [
+        f"knuckle line {each.name!r}: is not looked at between x={figure(first)} and "
+        f"{figure(last)}, where the midship section stands"
+        for each in ship.knuckles
+        if each.line.ends[0] < last and each.line.ends[1] > first
+    ]
     return found
 
 

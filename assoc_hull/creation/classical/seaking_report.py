@@ -37,11 +37,17 @@ def report_of(ship: Seaking, state: HullState | None) -> ClassicalReport:
     largest = int(areas.argmax())
     worst = max(built, key=lambda each: each.largest_jump)
     at = f"below {draught:g} m"
+    own = (wet.volume, wet.x, wet.z, wet.waterplane)
+    nets = (None,) * 4 if net is None else (net.volume, net.x, net.z, net.area)
+    names = (
+        (f"volume {at}", "m3", wet.error), (f"centre of volume {at}, x", "m", None),
+        (f"centre of volume {at}, z", "m", None), (f"waterplane area at {draught:g} m", "m2", None),
+    )  # fmt: skip
     figures = [
-        Figure(f"volume {at}", wet.volume, "m3", net and net.volume, wet.error),
-        Figure(f"centre of volume {at}, x", wet.x, "m", net and net.x),
-        Figure(f"centre of volume {at}, z", wet.z, "m", net and net.z),
-        Figure(f"waterplane area at {draught:g} m", wet.waterplane, "m2", net and net.area),
+        Figure(name, value, unit, beside, error)
+        for (name, unit, error), value, beside in zip(names, own, nets, strict=True)
+    ]
+    figures += [
         Figure(f"largest frame area {at}", float(areas[largest]), "m2"),
         Figure("it stands at x", float(ship.frames[largest]), "m"),
         Figure("volume with its decks", whole.volume, "m3", None, whole.error),

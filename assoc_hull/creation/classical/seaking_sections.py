@@ -4,7 +4,6 @@ Examples
 --------
 >>> from assoc_hull.creation.classical.seaking_sections import MidshipSection
 >>> from assoc_hull.geometry.classical.midship import Midship
-from assoc_hull.geometry.classical.quadratics import Quadratics
 >>> round(float(MidshipSection.make(50.0, Midship(16.0, 2.0, 0.3, 2.5), 14.0).area(9.0)), 7)
 281.2485565
 """
@@ -25,6 +24,7 @@ from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.deck_corner import DeckCorner, deck_corner, deck_pieces
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.midship import Midship
+from assoc_hull.geometry.classical.quadratics import Quadratics
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["MidshipSection", "Section", "drawn_of", "half_area", "outline_of"]
@@ -72,13 +72,14 @@ class MidshipSection:
         top, corner = np.array([midship.half_breadth, depth]), None
         if radius:
             name = f"frame x={figure(x)}"
-            corner = deck_corner(*top.tolist(), rise or 0.0, radius, kind=kind, name=name)
+            corner = deck_corner(
+                midship.half_breadth, depth, rise or 0.0, radius, kind=kind, name=name
+            )
             if corner.side_point[1] < midship.centre[1]:
                 what = f"{name}: corner radius {figure(radius)} does not fit"
                 raise GeometryError(what, "give a smaller radius", {"r": radius})
-        deck = (
-            None if rise is None and corner is None else deck_pieces(top, rise or 0.0, kind, corner)
-        )
+        bare = rise is None and corner is None
+        deck = None if bare else deck_pieces(top, rise or 0.0, kind, corner)
         return cls(x, midship, depth, deck, corner)
 
     @property

@@ -98,7 +98,8 @@ def _rule(ship: Seaking, low: FloatArray, high: FloatArray, level: float, count:
         ],
         axis=-1,
     )  # fmt: skip
-    return np.einsum("nkc,k->nc", values.reshape(len(low), count, 4), weight) * half[:, None]
+    summed = np.einsum("nkc,k->nc", values.reshape(len(low), count, 4), weight)
+    return np.asarray(summed * half[:, None])
 
 
 def breaks_of(ship: Seaking, level: float) -> FloatArray:
@@ -118,7 +119,7 @@ def breaks_of(ship: Seaking, level: float) -> FloatArray:
     found += [_passes(line, heights) for line in lines]
     places = np.unique(np.concatenate(found))
     places = places[(places >= first) & (places <= last)]
-    return places[np.append(True, np.diff(places) > _SAME)]
+    return np.asarray(places[np.append(True, np.diff(places) > _SAME)])
 
 
 def _passes(line: FloatArray, heights: FloatArray) -> FloatArray:

@@ -172,7 +172,7 @@ def _centres(points: FloatArray) -> FloatArray:
     swept = _sweeps(points)[..., None] * (points + np.roll(points, -1, axis=-2))
     with np.errstate(divide="ignore", invalid="ignore"):
         found = swept.sum(axis=-2) / (6.0 * area)
-    return np.where(area != 0.0, found, points.mean(axis=-2))
+    return np.asarray(np.where(area != 0.0, found, points.mean(axis=-2)))
 
 
 def _crossed(points: FloatArray) -> NDArray[np.bool_]:

@@ -112,7 +112,7 @@ class Camber:
         GeometryError
             ``"camber: |y|={y} exceeds half-breadth {b}"``, x beyond the stations.
         """
-        place, half, side, rise = self._at(x)
+        _place, half, side, rise = self._at(x)
         off = np.abs(finite(y, "camber", tuple(None for _ in np.shape(y))))
         off, half, side, rise = np.broadcast_arrays(off, half, side, rise)
         beyond = off > half * (1.0 + _SLACK)

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import inside
 from assoc_hull.geometry.classical.chord_spline_checks import (
+    check_clamps,
     check_slopes,
     check_turns,
     checked_points,
@@ -285,6 +286,7 @@ def _made(
     clamp = np.array([[clamped(end) for end in pair] for pair in ends], np.float64)
     chords = chords_of(points, clamp)
     check_turns(chords)
+    check_clamps(chords)
     phi = solve_directions(chords, mode)
     notes = check_slopes(chords, phi)
     parts = np.split(phi, chords.start[1:-1])

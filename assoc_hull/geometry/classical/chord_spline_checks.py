@@ -9,10 +9,18 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
-from assoc_hull.geometry.classical.chord_spline_solve import Chords, slopes
+from assoc_hull.geometry.classical.chord_spline_solve import Chords
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["check_slopes", "check_turns", "checked_points", "chords_of", "clamped", "place_of"]
+__all__ = [
+    "check_clamps",
+    "check_slopes",
+    "check_turns",
+    "checked_points",
+    "chords_of",
+    "clamped",
+    "place_of",
+]
 
 _STEEP = 0.35
 """Slope to a chord beyond which a batten is no longer bent but little."""
@@ -87,23 +95,26 @@ def check_turns(chords: Chords) -> None:
         )  # fmt: skip
 
 
+def check_clamps(chords: Chords) -> None:
+    """Refuse ends clamped at more than 45 degrees to their chord, before anything is solved."""
+    number = np.arange(len(chords.start) - 1)
+    first, last = chords.start[:-1], chords.start[1:] - 1
+    phi = np.full(len(chords.owner), np.nan)
+    phi[first], phi[last] = chords.clamp.T
+    size = np.zeros(len(phi))
+    for node, chord in ((first, first - number), (last, last - number - 1)):
+        size[node] = _steepness(phi[node] - chords.angle[chord])
+    _refuse_steep(chords, size)
+
+
 def check_slopes(chords: Chords, phi: FloatArray) -> list[tuple[str, ...]]:
     """Refuse slopes above 1, and tell of those above .35, spline by spline."""
-    m0, m1 = slopes(chords, phi)
-    away = np.abs(phi[chords.begin] - chords.angle), np.abs(phi[chords.begin + 1] - chords.angle)
     size = np.zeros(len(phi))
-    np.maximum.at(size, chords.begin, np.where(away[0] < 0.5 * np.pi, np.abs(m0), np.inf))
-    np.maximum.at(size, chords.begin + 1, np.where(away[1] < 0.5 * np.pi, np.abs(m1), np.inf))
-    count = len(chords.start) - 1
+    for node in (chords.begin, chords.begin + 1):
+        np.maximum.at(size, node, _steepness(phi[node] - chords.angle))
+    _refuse_steep(chords, size)
+    notes: list[tuple[str, ...]] = [()] * (len(chords.start) - 1)
     own = np.arange(len(phi)) - chords.start[chords.owner]
-    if (size > 1.0 + 1e-9).any():
-        at = int(np.argmax(size > 1.0 + 1e-9))
-        raise GeometryError(
-            f"spline: slope {figure(size[at])} to the chord at node {own[at]} exceeds 1",
-            "give points closer together there", {"slope": float(size[at]), "node": int(own[at])},
-            place_of(int(chords.owner[at]), count),
-        )  # fmt: skip
-    notes: list[tuple[str, ...]] = [()] * count
     for at in np.flatnonzero(size > _STEEP).tolist():
         said = (
             f"spline: slope {figure(size[at])} to the chord at node {own[at]} exceeds 0.35, up to "
@@ -111,3 +122,21 @@ def check_slopes(chords: Chords, phi: FloatArray) -> list[tuple[str, ...]]:
         )
         notes[chords.owner[at]] = (*notes[chords.owner[at]], said)
     return notes
+
+
+def _steepness(away: FloatArray) -> FloatArray:
+    """Give amounts of slopes: infinite where a direction runs back, 0 where none is given."""
+    steep = np.where(np.abs(away) < 0.5 * np.pi, np.abs(np.tan(away)), np.inf)
+    return np.asarray(np.where(np.isnan(away), 0.0, steep))
+
+
+def _refuse_steep(chords: Chords, size: FloatArray) -> None:
+    if not (size > 1.0 + 1e-9).any():
+        return
+    at = int(np.argmax(size > 1.0 + 1e-9))
+    own = at - int(chords.start[chords.owner[at]])
+    raise GeometryError(
+        f"spline: slope {figure(size[at])} to the chord at node {own} exceeds 1",
+        "give points closer together there", {"slope": float(size[at]), "node": own},
+        place_of(int(chords.owner[at]), len(chords.start) - 1),
+    )  # fmt: skip

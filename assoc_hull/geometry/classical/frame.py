@@ -123,9 +123,8 @@ class Frame:
         notes = list(spacing_notes(water, first, top, name))
         pieces, jumps = [], []
         for number, run in enumerate(runs):
-            bend, told = run_bends(
-                run.points, 0.0 if flat is not None and not number else None, name
-            )
+            start = 0.0 if flat is not None and not number else None
+            bend, told = run_bends(run.points, start, name)
             pieces.append(Quadratics.over(run.points, bend))
             jumps.append(tangent_jumps(pieces[-1]))
             notes += told
@@ -178,13 +177,12 @@ class Frame:
     def half_breadth(self, level: float) -> float:
         """Give the greatest half-breadth at a height (m), m; nan where it has none."""
         found = self.side.crossings(float(finite(level, "frame", ())))
-        at = np.concatenate(
-            [found, *(run.points[run.points[:, 1] == level, 0] for run in self.runs)]
-        )
+        given = [run.points[run.points[:, 1] == level, 0] for run in self.runs]
+        at = np.concatenate([found, *given])
         return float(at.max()) if len(at) else math.nan
 
     def drawn(self, count: int = 8) -> FloatArray:
-        """Give points from the centre line up to the deck side, `count` chords a piece, (n, 2), m."""
+        """Give points up to the deck side, `count` chords a piece, (n, 2), m."""
         part = np.linspace(0.0, 1.0, count + 1)[1:]
         piece = np.repeat(np.arange(len(self.side)), count)
         inner = self.side.at(piece, np.outer(self.side.length, part).ravel())

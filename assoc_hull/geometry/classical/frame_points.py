@@ -12,6 +12,8 @@ Examples
 
 from __future__ import annotations
 
+import itertools
+
 import attrs
 import numpy as np
 
@@ -81,7 +83,7 @@ def runs_of(
         what = f"{name}: section points not increasing in z at {figure(z)}"
         raise GeometryError(what, "leave one of the two lines out there", {"z": z})
     ends = np.flatnonzero(corner)
-    return tuple(Run(points[a : b + 1].copy()) for a, b in zip(ends[:-1], ends[1:], strict=True))
+    return tuple(Run(points[a : b + 1].copy()) for a, b in itertools.pairwise(ends))
 
 
 def _distinct(points: FloatArray) -> np.typing.NDArray[np.bool_]:

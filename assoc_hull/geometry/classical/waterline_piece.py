@@ -48,9 +48,10 @@ class Graph:
     @classmethod
     def through(cls, points: FloatArray, ends: tuple[float | None, float | None]) -> Self:
         """Lay it through points (n, 2), m; an end has a slope, or no second derivative."""
-        sides = tuple((2, 0.0) if each is None else (1, each) for each in ends)
+        first, last = ((2, 0.0) if each is None else (1, each) for each in ends)
         x, y = points.T
-        return cls(float(x[0]), float(x[-1]), CubicSpline(x, y, bc_type=sides))
+        spline = CubicSpline(x, y, bc_type=(first, last))  # type: ignore[arg-type]
+        return cls(float(x[0]), float(x[-1]), spline)
 
     def of(self, x: FloatArray, order: int) -> FloatArray:
         """Give half-breadths (m), or with `order` 1 slopes, at x (n,), m."""
@@ -77,9 +78,9 @@ class Chorded:
         GeometryError
             The points turn it too sharply; what is wrong begins with `name`.
         """
-        angles = [None if each is None else float(np.arctan(each)) for each in ends]
+        first, last = (None if each is None else float(np.arctan(each)) for each in ends)
         try:
-            spline = ChordSpline.through(points, *angles)
+            spline = ChordSpline.through(points, first, last)
         except GeometryError as error:
             raise GeometryError(f"{name}: {error.what}", error.remedy, error.values) from None
         return cls(float(points[0, 0]), float(points[-1, 0]), spline, name)

@@ -249,12 +249,12 @@ def test_every_form_tells_all_nodes_and_edges(document: Document, form: str) -> 
             assert text.count(mark) == found.number_of_edges()
 
 
-@pytest.mark.parametrize("form", FORMATS)
 @pytest.mark.parametrize(
     "name", [name for name, defect in DEFECTS.items() if defect.kind != "tables"]
 )
-def test_a_spoilt_hull_has_a_graph(name: str, form: str) -> None:
+def test_a_spoilt_hull_has_a_graph(name: str) -> None:
     """It is wanted most then: orphans and lone crossings are shown as far as they are linked."""
     state = sound()
     planted(name, state)
-    assert len(export(graph(state), form)) > 1000
+    found = graph(state)
+    assert min(len(export(found, form)) for form in FORMATS) > 1000

@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.combs import combs
 from assoc_hull.geometry.curvature import curvature
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.fairness import combs, inflections
+from assoc_hull.geometry.fairness import inflections
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from functools import cache
 from pathlib import Path
 
 import attrs
@@ -182,23 +183,30 @@ def test_the_ending_tells_the_form_and_the_content_tells_it_back(
     assert hull.verify() == ()
 
 
+@cache
+def read_back(name: str, form: str, folder: Path) -> Hull:
+    """A small hull of a name, written without an ending and read by its content."""
+    with pytest.MonkeyPatch.context() as patch:
+        module = sys.modules["assoc_hull.examples.wigley"]
+        patch.setattr(module, "Particulars", lambda _, *sizes: Particulars(name, *sizes))
+        ship = examples.wigley(stations=9, waterlines=5)
+    assert ship.particulars.name == name
+    path = folder / form
+    ship.export(path, form)
+    return ah.read(path) if form in TABLES else ah.read(path, draught=6.0)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder for what is written once."""
+    return tmp_path_factory.mktemp("plain")
+
+
 @pytest.mark.parametrize("name", ["1234", "12 34.5", "Station 3", "T = 2", "unit: ft", "=1+1"])
 @pytest.mark.parametrize("form", [*TABLES, "britfair", "gf"])
-def test_a_ship_may_be_called_anything(
-    form: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_ship_may_be_called_anything(form: str, name: str, tmp_path: Path, folder: Path) -> None:
     """A yard number, or words the reader looks for: the name says nothing of the numbers."""
-    plain, named = (tmp_path / each for each in ("plain", "named"))
-    examples.wigley(stations=9, waterlines=5).export(plain, form)
-    module = sys.modules["assoc_hull.examples.wigley"]
-    monkeypatch.setattr(module, "Particulars", lambda _, *sizes: Particulars(name, *sizes))
-    ship = examples.wigley(stations=9, waterlines=5)
-    assert ship.particulars.name == name
-    ship.export(named, form)
-    one, other = (
-        ah.read(each, draught=6.0) if form not in TABLES else ah.read(each)
-        for each in (plain, named)
-    )
+    one, other = read_back("plain", form, folder), read_back(name, form, tmp_path)
     sizes = [attrs.astuple(each.particulars)[1:] for each in (one, other)]
     assert sizes[0] == sizes[1]
     assert [list(each.groups["sections"].lines) for each in (one, other)] == [

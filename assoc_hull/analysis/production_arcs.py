@@ -1,0 +1,192 @@
+"""Lines of a net laid into their planes and fitted by arcs, all in one batch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
+from assoc_hull.errors import BadInputError, GeometryError, WrongTypeError
+from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
+from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.flats import fit_plane
+from assoc_hull.geometry.plane import unit_normal
+from assoc_hull.geometry.segments import power
+from assoc_hull.model.handles import Curve, Group, Line, handle
+from assoc_hull.model.state import HullState
+
+__all__ = ["arc_lines", "curves_of", "drawing_axes"]
+
+_OFF_PLANE = 0.1
+"""A curve that leaves its plane by more than this part of the tolerance is a space curve."""
+
+Lines = Group | Line | Curve | str
+
+
+@attrs.frozen(eq=False)
+class _Laid:
+    """A curve in its plane."""
+
+    curve: Curve
+    axes: FloatArray
+    height: float
+    off: float
+    cubic: FloatArray
+
+
+def arc_lines(
+    state: HullState, lines: Sequence[Lines] | Lines | None, within: float, least_radius: float
+) -> ArcLines:
+    """Make arcs of lines of a net; see `assoc_hull.production.production_arcs`."""
+    laid, left_out = [], []
+    for curve in curves_of(state, lines):
+        one = _laid(curve, within)
+        if one.off > _OFF_PLANE * within:
+            left_out.append(_refused(_space(one), lines))
+        else:
+            laid.append(one)
+    start = np.concatenate([[0], np.cumsum([len(one.cubic) for one in laid])]).astype(np.int64)
+    cubic = np.concatenate([one.cubic for one in laid] + [np.zeros((0, 4, 2))])
+    found: list[ArcLine] = []
+    if laid:
+        fit = fit_arcs(cubic, start, within, least_radius)
+        for number, one in enumerate(laid):
+            if fit.stuck[number]:
+                error = _sharp(one, fit.sharpest[number], least_radius)
+                left_out.append(_refused(error, lines))
+            else:
+                found.append(_line(one, fit, number))
+    return ArcLines(state.particulars.name, within, least_radius, tuple(found), tuple(left_out))
+
+
+def curves_of(state: HullState, lines: Sequence[Lines] | Lines | None) -> list[Curve]:
+    """Give the curves of lines, in the order of the hull; all if none is named.
+
+    Raises
+    ------
+    UnknownNameError, WrongTypeError, BadInputError
+        A name that nothing has, what is no line, or none at all.
+    """
+    if lines is None:
+        return [
+            curve
+            for group in state.live("groups").tolist()
+            for line in Group.of(state, group).lines.values()
+            for curve in line.curves
+        ]
+    where = "in production_arcs"
+    named = [lines] if isinstance(lines, str | Group | Line | Curve) else lines
+    if not isinstance(named, Iterable):
+        raise WrongTypeError(f"lines are a {type(lines).__name__}", where, "give names of lines")
+    found: dict[int, Curve] = {}
+    for each in named:
+        thing = handle(state, each) if isinstance(each, str) else each
+        if not isinstance(thing, Group | Line | Curve):
+            what = f"{each!r} is no line" if isinstance(each, str) else "one of them is no line"
+            raise WrongTypeError(what, where, "give lines, groups or their names")
+        found |= {curve.row: curve for curve in _curves(thing)}
+    if not found:
+        raise BadInputError("no line is named", where, "name one, or leave the argument out")
+    return list(found.values())
+
+
+def _curves(thing: Group | Line | Curve) -> list[Curve]:
+    if isinstance(thing, Curve):
+        return [thing]
+    lines = thing.lines.values() if isinstance(thing, Group) else [thing]
+    return [curve for line in lines for curve in line.curves]
+
+
+def drawing_axes(normal: FloatArray) -> FloatArray:
+    """Give right, up and the normal of a plane as a drawing shows it, (3, 3).
+
+    They are those that DXF gives a plane of this normal: right is horizontal. The normal is turned
+    so that x runs to the right where the plane runs along the ship.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.analysis.production_arcs import drawing_axes
+    >>> drawing_axes(np.array([0.0, 1.0, 0.0])).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]
+    """
+    main = int(np.argmax(np.abs(normal)))
+    wanted = -1.0 if main == 1 else 1.0
+    facing = normal if normal[main] * wanted > 0.0 else -normal
+    level = max(abs(float(facing[0])), abs(float(facing[1]))) < 1.0 / 64.0
+    right = np.cross([0.0, 1.0, 0.0] if level else [0.0, 0.0, 1.0], facing)
+    right = right / np.sqrt((right * right).sum())
+    return np.stack([right, np.cross(facing, right), facing]) + 0.0
+
+
+def _laid(curve: Curve, within: float) -> _Laid:
+    """Lay a curve into its plane: that of its line, else the one that fits."""
+    cubic = power(curve.spline)
+    control = _control(cubic)
+    plane = curve.line.plane
+    normals = [] if plane is None else [plane.normal]
+    found = fit_plane(control, within)
+    normals.append(unit_normal(found[0] / np.sqrt((found[0] * found[0]).sum())))
+    best: _Laid | None = None
+    for normal in normals:
+        axes = drawing_axes(normal)
+        heights = control @ axes[2]
+        height = 0.5 * float(heights.max() + heights.min())
+        off = 0.5 * float(heights.max() - heights.min())
+        if best is None or off < best.off:
+            best = _Laid(curve, axes, height, off, np.ascontiguousarray(cubic @ axes[:2].T))
+        if best.off <= _OFF_PLANE * within:
+            break
+    assert best is not None
+    return best
+
+
+def _control(cubic: FloatArray) -> FloatArray:
+    """Give the Bezier points of cubics (s, 4, 3) as one list, (4 s, 3), m."""
+    first = cubic[:, 0] + cubic[:, 1] / 3.0
+    third = 2.0 * first - cubic[:, 0] + cubic[:, 2] / 3.0
+    return np.concatenate([cubic[:, 0], first, third, cubic.sum(axis=1)])
+
+
+def _line(one: _Laid, fit: ArcFit, number: int) -> ArcLine:
+    """Give a fitted curve with its name; what it is off its plane counts as deviation."""
+    own = slice(int(fit.start[number]), int(fit.start[number + 1]))
+    place = fit.place[number] @ one.axes[:2] + one.height * one.axes[2]
+    return ArcLine(
+        one.curve.name, one.curve.line.group.name, one.axes, one.height, fit.of(number),
+        fit.smooth[own].copy(), np.hypot(fit.deviation[number], one.off), place,
+        len(one.curve.points),
+    )  # fmt: skip
+
+
+def _refused(error: GeometryError, lines: object) -> str:
+    """Tell why a line is left out; if it was asked for by name, that is an error."""
+    if lines is not None:
+        raise error
+    return str(error)
+
+
+def _space(one: _Laid) -> GeometryError:
+    name = one.curve.name
+    return GeometryError(
+        f"arcs: {name} is a space curve, {figure(round(1e3 * one.off, 3))} mm off its best plane",
+        "arcs lie in planes: export the lines that it was made of in their planes, or leave it out",
+        {"line": name, "off": one.off},
+    )  # fmt: skip
+
+
+def _sharp(one: _Laid, sharpest: FloatArray, least_radius: float) -> GeometryError:
+    """Name the place of a curve that arcs of the least radius cannot follow."""
+    name = one.curve.name
+    place = np.round(sharpest[:2] @ one.axes[:2] + one.height * one.axes[2], 3) + 0.0
+    told = ", ".join(f"{value:g}" for value in place.tolist())
+    radius = float(sharpest[2])
+    return GeometryError(
+        f"arcs: {name} has a radius of {radius:.4g} m at ({told}), "
+        f"arcs of {least_radius:.4g} m and more cannot follow it",
+        "allow a smaller radius or a wider tolerance, or make the place a knuckle",
+        {"line": name, "place": tuple(place.tolist()), "radius": radius, "least": least_radius},
+    )  # fmt: skip

@@ -1,0 +1,251 @@
+"""Camber by the drop below the centre line, in four kinds.
+
+Examples
+--------
+>>> from assoc_hull.geometry.classical.camber_kinds import CamberKind
+>>> kinds = [CamberKind.make(1, 15.0, 0.5), CamberKind.make(2, 15.0, 0.5, joint=6.0)]
+>>> kinds += [CamberKind.make(3, 15.0, 0.5), CamberKind.make(4, 15.0, 0.5, joint=5.0)]
+>>> [float(each.drop(9.0).round(12)) for each in kinds]
+[0.18, 0.25, 0.3, 0.2]
+"""
+
+from __future__ import annotations
+
+from typing import Self
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import shown
+from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["CamberKind"]
+
+_SLACK = 1e-9
+"""So far beyond the reference half-breadth, as a part of it, counts as on it."""
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(2)
+"""Exact for cubics: each piece of a camber curve is a parabola."""
+
+
+@attrs.frozen(eq=False)
+class CamberKind:
+    """Drop of a deck below its centre line, over the half-breadth.
+
+    Kind 1 is a parabola (C-infinity), 2 a parabola up to `joint` and its tangent beyond (C1), 3
+    two lines, one on each side (C0), 4 three lines, flat up to `joint` (C0). Read on the
+    half-breadth, 3 and 4 are two and three lines on each side, through given points. The camber
+    of the PRELIKON system in Kim & Chang, "Some Representations of Ship Hulls by Mathematical
+    Method for Design and Production", J. SNAK.
+
+    Attributes
+    ----------
+    kind : int
+        1 to 4.
+    half_breadth : float, m
+        The reference half-breadth B.
+    total : float, m
+        Drop c at B, positive downward.
+    joint : float, m
+        Kind 2: where the line begins; kind 4: half the width of the flat centre; else 0.
+    reading : {"full", "half"}
+        Whether the lines of kinds 3 and 4 are counted over the breadth or the half-breadth.
+    scale : {"fixed", "local"}
+        The same curve at every x, or stretched so that B is the half-breadth there.
+    y, drops : (n,), m
+        Ends of the pieces from the centre line outward, and the drop there.
+    bend : (n - 1,), 1/m
+        Second derivative of each piece; 0 is a line.
+    """
+
+    kind: int
+    half_breadth: float
+    total: float
+    joint: float
+    reading: str
+    scale: str
+    y: FloatArray
+    drops: FloatArray
+    bend: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.y, self.drops, self.bend)
+
+    @classmethod
+    def make(
+        cls,
+        kind: int,
+        half_breadth: float,
+        total: float,
+        *,
+        joint: float = 0.0,
+        scale: str = "fixed",
+    ) -> Self:
+        """Make one of the four kinds; arguments as the attributes.
+
+        Raises
+        ------
+        GeometryError
+            ``"camber: kind {k} not in 1..4"``; ``"camber: y1={y} must be inside (0, B)"``; a
+            half-breadth that is not above 0, numbers that are not finite.
+        """
+        known = _kind(kind)
+        most, drop, inner = (
+            float(finite(each, "camber", ())) for each in (half_breadth, total, joint)
+        )
+        if not most > 0.0:
+            raise GeometryError(
+                f"camber: half-breadth {figure(most)}", "give one above 0", {"B": most}
+            )
+        if known in (2, 4) and not 0.0 < inner < most:
+            raise GeometryError(
+                f"camber: y1={figure(inner)} must be inside (0, {figure(most)})",
+                "give a joint between the centre line and the reference half-breadth",
+                {"y1": inner, "B": most},
+            )  # fmt: skip
+        y, drops, bend = _pieces(known, most, drop, inner)
+        where = inner if known in (2, 4) else 0.0
+        return cls(known, most, drop, where, "full", _scale(scale), y, drops, bend)
+
+    @classmethod
+    def through(cls, kind: int, points: ArrayLike, *, scale: str = "fixed") -> Self:
+        """Make kind 3 or 4 as two or three lines on the half-breadth.
+
+        Parameters
+        ----------
+        kind : int
+            3 or 4.
+        points : (3, 2) or (4, 2), m
+            Rows (y, drop) from (0, 0) outward; the last y is the reference half-breadth.
+        scale : {"fixed", "local"}
+            As the attribute.
+
+        Raises
+        ------
+        GeometryError
+            ``"camber: kind {k} not in 1..4"``; kind 1 or 2; another number of points; points
+            that do not begin at (0, 0) or whose y does not increase.
+
+        Examples
+        --------
+        >>> from assoc_hull.geometry.classical.camber_kinds import CamberKind
+        >>> camber = CamberKind.through(3, [(0, 0), (9, 0.1), (15, 0.5)])
+        >>> float(camber.drop(12.0).round(12))
+        0.3
+        """
+        known = _kind(kind)
+        if known < 3:
+            what = f"camber: kind {known} read on the half-breadth"
+            raise GeometryError(what, "use kind 3 or 4", {"kind": known})
+        rows = finite(points, "camber", (known, 2))
+        if rows[0].any() or (np.diff(rows[:, 0]) <= 0.0).any():
+            raise GeometryError(
+                "camber: points do not run from (0, 0) outward", "sort them by y",
+                {"points": rows.tolist()},
+            )  # fmt: skip
+        y, drops = rows[:, 0].copy(), rows[:, 1].copy()
+        most, drop = float(y[-1]), float(drops[-1])
+        return cls(known, most, drop, 0.0, "half", _scale(scale), y, drops, np.zeros(known - 1))
+
+    def drop(self, y: ArrayLike, half_breadth: ArrayLike | None = None) -> FloatArray:
+        """Give the drop (m) at half-breadths, the same to both sides.
+
+        Parameters
+        ----------
+        y : array_like, m
+            Of any shape.
+        half_breadth : array_like, m, optional
+            Of the deck there, where the curve is scaled to it; broadcast with `y`.
+
+        Raises
+        ------
+        GeometryError
+            ``"camber: y={y} beyond reference half-breadth {B}"``; a scaled curve without the
+            half-breadth, or one that is not above 0.
+        """
+        asked = self._referred(y, half_breadth)
+        piece = np.clip(np.searchsorted(self.y, asked, "right") - 1, 0, len(self.bend) - 1)
+        low, high = self.y[piece], self.y[piece + 1]
+        slope = (self.drops[piece + 1] - self.drops[piece]) / (high - low)
+        chord = self.drops[piece] + slope * (asked - low)
+        return np.asarray(chord + 0.5 * self.bend[piece] * (asked - low) * (asked - high))
+
+    def mean(self, y: float, half_breadth: float | None = None) -> float:
+        """Give the mean drop (m) from the centre line to `y` > 0, exactly.
+
+        Raises
+        ------
+        GeometryError
+            As `drop`; a `y` that is not above 0.
+        """
+        most = float(finite(y, "camber", ()))
+        if not most > 0.0:
+            raise GeometryError(f"camber: mean up to y={figure(most)}", "give y above 0")
+        self.drop(most, half_breadth)
+        ratio = 1.0 if half_breadth is None else half_breadth / self.half_breadth
+        inner = self.y * ratio if self.scale == "local" else self.y
+        ends = np.concatenate([inner[inner < most], [most]])
+        width = 0.5 * np.diff(ends)
+        at = ends[:-1, None] + width[:, None] * (1.0 + _NODES)
+        return float((self.drop(at, half_breadth) @ _WEIGHTS * width).sum()) / most
+
+    def _referred(self, y: ArrayLike, half_breadth: ArrayLike | None) -> FloatArray:
+        """Give y as it lies on the reference half-breadth."""
+        given = np.asarray(y)
+        asked = np.abs(finite(given, "camber", tuple(None for _ in given.shape)))
+        if self.scale == "local":
+            asked = asked * (self.half_breadth / _breadths(half_breadth))
+        beyond = asked > self.half_breadth * (1.0 + _SLACK)
+        if beyond.any():
+            first = float(asked[beyond].flat[0])
+            raise GeometryError(
+                f"camber: y={figure(first)} beyond reference half-breadth "
+                f"{figure(self.half_breadth)}",
+                "give a wider reference, or scale it to the deck",
+                {"y": first, "B": self.half_breadth},
+            )  # fmt: skip
+        return np.minimum(asked, self.half_breadth)
+
+
+def _kind(kind: object) -> int:
+    if isinstance(kind, bool) or not isinstance(kind, int) or not 1 <= kind <= 4:
+        what = f"camber: kind {shown(kind)} not in 1..4"
+        raise GeometryError(what, "use 1, 2, 3 or 4", {"kind": kind})
+    return kind
+
+
+def _scale(scale: object) -> str:
+    if not isinstance(scale, str) or scale not in ("fixed", "local"):
+        what = f"camber: scale is {shown(scale)}"
+        raise GeometryError(what, 'use "fixed" or "local"', {"scale": scale})
+    return scale
+
+
+def _breadths(half_breadth: ArrayLike | None) -> FloatArray:
+    if half_breadth is None:
+        what = "camber: scaled to the deck, whose half-breadth is not given"
+        raise GeometryError(what, "give half_breadth")
+    given = np.asarray(half_breadth)
+    found = finite(given, "camber", tuple(None for _ in given.shape))
+    if (found <= 0.0).any():
+        what = f"camber: half-breadth {figure(float(found.min()))}"
+        raise GeometryError(what, "give one above 0", {"half_breadth": float(found.min())})
+    return found
+
+
+def _pieces(
+    kind: int, most: float, drop: float, joint: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give ends, drops there and second derivatives of the pieces."""
+    if kind == 1:
+        return np.array([0.0, most]), np.array([0.0, drop]), np.array([2.0 * drop / most**2])
+    if kind == 2:
+        steep = drop / (2.0 * joint * most - joint**2)
+        ends, drops = [0.0, joint, most], [0.0, steep * joint**2, drop]
+        return np.array(ends), np.array(drops), np.array([2.0 * steep, 0.0])
+    if kind == 3:
+        return np.array([0.0, most]), np.array([0.0, drop]), np.zeros(1)
+    return np.array([0.0, joint, most]), np.array([0.0, 0.0, drop]), np.zeros(2)

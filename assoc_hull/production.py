@@ -1,0 +1,105 @@
+"""Lines of a hull as circular arcs and straight lines, for the mould loft.
+
+Examples
+--------
+>>> import assoc_hull as ah
+>>> arcs = ah.production_arcs(ah.examples.wigley(), lines="WL 5", within=0.0005)
+>>> print(arcs)
+1 curves, 12 arcs, at most 0.489 mm off, least radius 118.664 m
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+import attrs
+
+from assoc_hull.analysis.arc_lines import ArcLines
+from assoc_hull.analysis.measured_hull import state_of
+from assoc_hull.analysis.production_arcs import arc_lines
+from assoc_hull.arguments import not_negative, positive
+from assoc_hull.hull import Hull
+from assoc_hull.io.arc_file import write_arcs
+from assoc_hull.model.handles import Curve, Group, Line
+
+__all__ = ["ProductionArcs", "production_arcs"]
+
+
+@attrs.frozen(eq=False)
+class ProductionArcs(ArcLines):
+    """Lines of a hull as arcs; see `assoc_hull.analysis.arc_lines.ArcLines` for what it holds."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the arcs, as a drawing (``.dxf``) or as a table (``.csv``).
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+
+        Raises
+        ------
+        BadInputError, MissingExtraError
+            Another ending, a file that cannot be written, or no ezdxf for a drawing.
+        """
+        write_arcs(self, path)
+
+
+def production_arcs(
+    hull: Hull,
+    lines: Sequence[Group | Line | Curve | str] | Group | Line | Curve | str | None = None,
+    within: float = 0.0005,
+    least_radius: float = 0.0,
+) -> ProductionArcs:
+    """Make chains of circular arcs and straight lines of the lines of a hull.
+
+    Neighbouring arcs have one tangent where they meet, and meet on the line; at knuckles both
+    tangents are kept; straight runs are straight lines. Every line lies within the tolerance of
+    its arcs, and every arc of its line, measured on ten times as many places as the search used.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    lines : names, or handles of groups, lines or curves
+        Which lines; all that lie in a plane by default.
+    within : float, m
+        The tolerance.
+    least_radius : float, m
+        Of all arcs; 0 leaves them free.
+
+    Returns
+    -------
+    ProductionArcs
+        A chain for each curve, number of arcs and deviations, what was left out and why; its
+        `save` writes DXF or a table.
+
+    Raises
+    ------
+    GeometryError
+        A line that was named is a space curve, or bent more than the least radius allows.
+    UnknownNameError, WrongTypeError, BadInputError
+        Lines that are not there; a tolerance or radius that is no length.
+
+    Notes
+    -----
+    Source: C.S. Kim, H. Chang, "Some Representations of Ship Hulls by Mathematical Method for
+    Design and Production", J. SNAK.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> arcs = ah.production_arcs(ah.examples.wigley(), lines=["WL 5"], within=0.001)
+    >>> line = arcs.lines[0]
+    >>> len(line.arcs) == arcs.count, bool(line.deviation.max() <= 0.001)
+    (True, True)
+    """
+    where = "in production_arcs"
+    state = state_of(hull, where)
+    hull.document.require_ended("production_arcs")
+    found = arc_lines(
+        state, lines, positive(within, "within", where),
+        not_negative(least_radius, "least_radius", where),
+    )  # fmt: skip
+    return ProductionArcs(*attrs.astuple(found, recurse=False))
