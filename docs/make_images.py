@@ -114,6 +114,11 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def sfolds_ship() -> Figure:
+    """Draw the lines plan of the ferry of portions."""
+    return lines_plan(examples.sfolds_ship(), paper="A4")
+
+
 def definitions() -> Figure:
     """Draw the definitions of the plain ship."""
     return definition_curves(examples.plain_ship().state, paper="A4")
@@ -122,6 +127,7 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
+    "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,

@@ -158,7 +158,10 @@ def _asked(cuts: object) -> dict[str, tuple[float, ...]]:
     found: dict[str, tuple[float, ...]] = {}
     if cuts is None:
         return found
-    for group, places in instance(cuts, Mapping, "cuts", "in a ship of portions").items():
+    if not isinstance(cuts, Mapping):
+        what = f"the planes of a net are {shown(cuts)}"
+        raise GeometryError(what, "give places by group, as {'waterlines': (1.0, 2.0)}")
+    for group, places in cuts.items():
         if group not in ("waterlines", "buttocks"):
             what = f"a net is not cut by {shown(group)}"
             raise GeometryError(what, "use waterlines or buttocks")
