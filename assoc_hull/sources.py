@@ -82,6 +82,10 @@ class Examples:
 
         return create(plain_ship_design())
 
+    def seaking_ship(self) -> Hull:
+        """Make a coaster of lines along the ship; see `docs/seaking.md`."""
+        return _classical("seaking_ship")
+
     def sfolds_ship(self) -> Hull:
         """Make a ferry of portions and sections by ordinates; see `docs/sfolds.md`."""
         return _classical("sfolds_ship")
