@@ -116,6 +116,11 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def prelikon_ship() -> Figure:
+    """Draw the lines plan of the supply ship of main types."""
+    return lines_plan(examples.prelikon_ship(), paper="A4")
+
+
 def sfolds_ship() -> Figure:
     """Draw the lines plan of the ferry of portions."""
     return lines_plan(examples.sfolds_ship(), paper="A4")
@@ -129,6 +134,7 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
+    "prelikon_ship": prelikon_ship,
     "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
