@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from drawings.battens import classical_splines
 from drawings.common import ship
 from drawings.comparison import comparison
 from drawings.container import (
@@ -129,6 +130,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curve_series": series,
     "panels": mesh,
     "form_curve": form_curve,
+    "classical_splines": classical_splines,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,
