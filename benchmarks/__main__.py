@@ -15,6 +15,7 @@ from benchmarks.clock import Figure
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
     "form_curves", "created_hulls", "biarcs",
+    "form_curves", "created_hulls", "classical_splines",
 )  # fmt: skip
 
 
