@@ -16,6 +16,7 @@ NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
     "form_curves", "created_hulls", "biarcs",
     "form_curves", "created_hulls", "classical_splines",
+    "form_curves", "created_hulls", "biarcs", "conformal_sections",
 )  # fmt: skip
 
 
