@@ -18,22 +18,22 @@ draught 9
 between closed
 keel 0 40
 contour aft
--2 8
+-2 2
 0 0
 contour forward
 40 0
 40 14
 tangent
-0 2
-40 2
+0 12
+40 12
 midship 16 2 0.3 2.5 5 35
 waterline 5 parallel=5,35 aft=-1.25,14 slope_forward=-0.1 method=graph
 0 16
 35 16
 40 15
 waterline 3 method=chord
--0.75 10
-40 14
+-0.75 14
+40 14.5
 deck
 -2 16 14 1
 40 16 14 0
@@ -145,7 +145,7 @@ def test_a_report_tells_volumes_and_centres_of_appendages() -> None:
     """With their sign; what is not in the net stands in a note."""
     report = read().report()
     assert report.figure("volume of skeg").value == pytest.approx(3.0)
-    assert report.figure("centre of skeg, x").value == pytest.approx(1.0)
+    assert report.figure("centre of skeg, x").value == pytest.approx(-1 + 16 / 9)
     assert report.figure("volume of tunnel").value < 0.0
     assert "appendages are not in the net: skeg, tunnel" in report.notes
     assert any(each.startswith("knuckle line 'shelf': is not looked at") for each in report.notes)
@@ -155,7 +155,7 @@ REFUSED = {
     "an unknown card": (changed("buttocks", "butlocks"), "'butlocks' is no card", "buttocks"),
     "no frames": (changed("frames -1 2\n10 20 30\n", ""), "the card frames is missing", "ship.txt"),
     "no contour aft": (
-        changed("contour aft\n-2 8\n0 0\n", ""),
+        changed("contour aft\n-2 2\n0 0\n", ""),
         "contour aft is missing",
         "ship.txt",
     ),
@@ -228,7 +228,7 @@ IMPOSSIBLE = {
         "keel",
     ),
     "a flat of bottom below nil": (
-        changed("0 2\n40 2", "0 2\n40 -2"),
+        changed("0 12\n40 12", "0 12\n40 -2"),
         "bottom tangent line: negative half-width at row 1",
         "keel",
     ),
