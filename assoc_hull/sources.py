@@ -90,6 +90,10 @@ class Examples:
         """Make a ferry of portions and sections by ordinates; see `docs/sfolds.md`."""
         return _classical("sfolds_ship")
 
+    def prelikon_ship(self) -> Hull:
+        """Make a supply ship of sections of lines and arcs, with a deck; see `docs/prelikon.md`."""
+        return _classical("prelikon_ship")
+
 
 def _classical(name: str) -> Hull:
     from assoc_hull.examples.classical_ships import classical_ship

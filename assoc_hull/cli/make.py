@@ -37,6 +37,7 @@ _EXAMPLES = {
     "plain-ship": lambda: examples.plain_ship(),
     "seaking-ship": lambda: examples.seaking_ship(),
     "sfolds-ship": lambda: examples.sfolds_ship(),
+    "prelikon-ship": lambda: examples.prelikon_ship(),
 }
 
 
