@@ -82,9 +82,17 @@ class Examples:
 
         return create(plain_ship_design())
 
+    def seaking_ship(self) -> Hull:
+        """Make a coaster of lines along the ship; see `docs/seaking.md`."""
+        return _classical("seaking_ship")
+
     def sfolds_ship(self) -> Hull:
         """Make a ferry of portions and sections by ordinates; see `docs/sfolds.md`."""
         return _classical("sfolds_ship")
+
+    def prelikon_ship(self) -> Hull:
+        """Make a supply ship of sections of lines and arcs, with a deck; see `docs/prelikon.md`."""
+        return _classical("prelikon_ship")
 
 
 def _classical(name: str) -> Hull:

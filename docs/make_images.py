@@ -12,8 +12,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from drawings.battens import classical_splines
+from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.conics import combined_waterline, conformal_sections
 from drawings.container import (
     container_ship_225m,
     container_ship_225m_bodies,
@@ -115,6 +117,16 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def prelikon_ship() -> Figure:
+    """Draw the lines plan of the supply ship of main types."""
+    return lines_plan(examples.prelikon_ship(), paper="A4")
+
+
+def sfolds_ship() -> Figure:
+    """Draw the lines plan of the ferry of portions."""
+    return lines_plan(examples.sfolds_ship(), paper="A4")
+
+
 def definitions() -> Figure:
     """Draw the definitions of the plain ship."""
     return definition_curves(examples.plain_ship().state, paper="A4")
@@ -123,6 +135,8 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
+    "prelikon_ship": prelikon_ship,
+    "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
     "form_sheet": form_sheet,
@@ -131,6 +145,9 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "panels": mesh,
     "form_curve": form_curve,
     "classical_splines": classical_splines,
+    "biarcs": biarc_kinds,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

@@ -35,7 +35,9 @@ _EXAMPLES = {
     "bulk-carrier-180m": lambda: examples.bulk_carrier_180m(),
     "container-ship-225m": lambda: examples.container_ship_225m(),
     "plain-ship": lambda: examples.plain_ship(),
+    "seaking-ship": lambda: examples.seaking_ship(),
     "sfolds-ship": lambda: examples.sfolds_ship(),
+    "prelikon-ship": lambda: examples.prelikon_ship(),
 }
 
 

@@ -10,7 +10,7 @@ from assoc_hull.io.classical.read import read_definition
 
 __all__ = ["SHIPS", "classical_ship", "classical_text"]
 
-SHIPS = ("sfolds_ship",)
+SHIPS = ("prelikon_ship", "seaking_ship", "sfolds_ship")
 """Their names; each is the name of its text."""
 
 

@@ -15,8 +15,21 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.parameters import DRAUGHT
+from assoc_hull.creation.classical.prelikon import Prelikon
+from assoc_hull.creation.classical.prelikon_stations import Station
+from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.classical.appendage_box import AppendageBox
+from assoc_hull.geometry.classical.arc_section import round_corners, through_points
 from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.camber_kinds import CamberKind
+from assoc_hull.geometry.classical.deck_house import DeckHouse
+from assoc_hull.geometry.classical.deck_surface import Deck
+from assoc_hull.geometry.classical.main_types import require_types
+from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
+from assoc_hull.geometry.classical.portion import Portion
+from assoc_hull.geometry.classical.sheer import Sheer
+from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -184,6 +197,7 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "Design.from_json": (ah.Design.from_json, {"source": "{}"}),
     "create": (ah.create, {"design": None}),
+    "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
     "sectional_area": (
         ah.sectional_area,
@@ -302,6 +316,76 @@ FLOATING: dict[str, Given] = {
     },
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip
+
+SHEER, CAMBER = Sheer.make([(0, 1), (9, 0)]), CamberKind.make(1, 9.0, 0.3)
+FRAME = through_points([(0, 0), (4, 0), (5, 3)])
+CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
+    "OrdinateSection.make": (
+        OrdinateSection.make,
+        {
+            "hb": 0.0, "sb": 1.0, "sw": 2.0, "hd": 3.5, "bd": 4.75, "cam": 0.1, "zb": [0.0],
+            "yw": [3.0, 4.0, 5.0], "nb": 0, "nw": 3, "form": "main+camber",
+        },
+    ),
+    "Portion.make": (Portion.make, {"number": 3, "stations": [0.0, 4.0, 8.0], "sections": ()}),
+    "Portion.of_areas": (
+        Portion.of_areas, {"number": 3, "stations": [0.0, 4.0, 8.0], "areas": [1.0, 2.0, 1.0]}
+    ),
+    "Sfolds.make": (
+        Sfolds.make,
+        {
+            "particulars": SHIP, "portions": [Portion.of_areas(3, [0, 4, 8], [1, 2, 1])],
+            "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
+        },
+    ),
+    "Sheer.make": (Sheer.make, {"points": [(0, 1), (9, 0)]}),
+    "CamberKind.make": (
+        CamberKind.make,
+        {"kind": 2, "half_breadth": 9.0, "total": 0.3, "joint": 4.0, "scale": "fixed"},
+    ),
+    "CamberKind.through": (
+        CamberKind.through,
+        {"kind": 3, "points": [(0, 0), (4, 0.1), (9, 0.3)], "scale": "fixed"},
+    ),
+    "Deck.make": (
+        Deck.make, {"number": 1, "height": 9.0, "sheer": SHEER, "camber": CAMBER}
+    ),
+    "DeckHouse.make": (
+        DeckHouse.make,
+        {
+            "decks": [Deck.make(1, 9.0, SHEER, CAMBER)], "deck": 1, "x": (1, 2), "breadth": 3.0,
+            "height": 2.0, "name": "a", "deck_half_breadth": 4.0,
+        },
+    ),
+    "AppendageBox.make": (
+        AppendageBox.make,
+        {"x": (1, 2), "y": (0, 1), "z": (0, 1), "sign": 1, "symmetric": True, "name": "a"},
+    ),
+    "through_points": (
+        through_points,
+        {
+            "points": [(0, 0), (4, 0), (5, 3)], "kind": ["line", "arc"], "radius": [None, 9.0],
+            "knuckles": [1], "name": "section",
+        },
+    ),
+    "round_corners": (
+        round_corners,
+        {"points": [(0, 0), (4, 0), (5, 3)], "radius": [1.0], "name": "section"},
+    ),
+    "SpaceCurve.make": (
+        SpaceCurve.make, {"points": [(0, 0, 0), (1, 1, 0)], "kind": "spline", "name": "a"}
+    ),
+    "require_types": (require_types, {"given": {1, 5}}),
+    "Prelikon.make": (
+        Prelikon.make,
+        {
+            "particulars": SHIP, "stations": [Station(x, FRAME) for x in (0.0, 9.0)], "decks": (),
+            "boundaries": (), "boxes": (), "houses": (), "curves": (),
+            "cuts": {"waterlines": [1.0]}, "notes": (),
+        },
+    ),
+}  # fmt: skip
+"""What definitions of a classical kind are made of; not public names of the package."""
 
 
 def cases(table: dict[str, Given]) -> list[Any]:
@@ -455,7 +539,8 @@ def test_a_line_takes_nothing_amiss(hull: ah.Hull, method: str, given: Given, na
 
 
 @pytest.mark.parametrize(
-    ("method", "given", "name"), cases({name: given for name, (_, given) in MAKERS.items()})
+    ("method", "given", "name"),
+    cases({name: given for name, (_, given) in (MAKERS | CLASSICAL).items()}),
 )
 def test_what_is_made_is_made_of_good_values(method: str, given: Given, name: str) -> None:
     """Constructors and readers refuse what they cannot use."""
@@ -466,7 +551,7 @@ def test_what_is_made_is_made_of_good_values(method: str, given: Given, name: st
 
 def make(method: str, given: Given) -> None:
     """Call a constructor or reader with what may be no value for it."""
-    function = MAKERS[method][0]
+    function = (MAKERS | CLASSICAL)[method][0]
     if method in ("BoundaryKind", "PointKind"):
         value = given["value"]
         # An enumeration compares arrays before it asks its class what is missing.
@@ -586,4 +671,5 @@ def test_every_public_name_is_tried() -> None:
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
+    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship"}
     assert made == {"wigley", "series60"} | takes_nothing

@@ -223,7 +223,7 @@ class Seaking:
         """
         from assoc_hull.creation.classical.seaking_sums import sums
 
-        return sums(self, draught).volume
+        return sums(self, [draught])[0].volume
 
     def lines(self) -> tuple[LineSource, ...]:
         """Give frames, waterlines, profile, deck edge, knuckle lines, flat of bottom, transoms."""

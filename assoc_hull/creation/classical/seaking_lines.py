@@ -90,9 +90,7 @@ def _profile(ship: Seaking) -> LineSource:
     return Outline.of(pieces).boundary("profile", 1, 0.0)
 
 
-def _space_line(
-    name: str, line: KnuckleLine, kind: BoundaryKind, frames: FloatArray
-) -> LineSource:
+def _space_line(name: str, line: KnuckleLine, kind: BoundaryKind, frames: FloatArray) -> LineSource:
     """Give a line over x: corners at steps and at the ends of straight intervals.
 
     On parabolas it has a point at each frame as well: frames end there.

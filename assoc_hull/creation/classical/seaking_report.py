@@ -30,7 +30,7 @@ def report_of(ship: Seaking, state: HullState | None) -> ClassicalReport:
     Volumes and centres are without appendages; theirs stand below, with their sign.
     """
     draught = ship.particulars.draught
-    wet, whole = sums(ship, draught), sums(ship)
+    wet, whole = sums(ship, [draught, None])
     net = None if state is None else measure_net(state, draught)
     built = ship.sections(ship.frames)
     areas = np.array([each.area(draught) for each in built])
@@ -49,10 +49,10 @@ def report_of(ship: Seaking, state: HullState | None) -> ClassicalReport:
     ]
     figures += [
         Figure(f"largest frame area {at}", float(areas[largest]), "m2"),
-        Figure("it stands at x", float(ship.frames[largest]), "m"),
+        Figure(f"largest frame area {at}, x", float(ship.frames[largest]), "m"),
         Figure("volume with its decks", whole.volume, "m3", None, whole.error),
         Figure("largest tangent jump of a frame", worst.largest_jump, "rad"),
-        Figure("it stands at x", worst.x, "m"),
+        Figure("largest tangent jump of a frame, x", worst.x, "m"),
     ]
     for each in ship.appendages:
         figures.append(Figure(f"volume of {each.name}", each.volume, "m3"))

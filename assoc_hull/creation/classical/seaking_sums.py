@@ -7,6 +7,7 @@ far it is off; where they differ too much the interval is halved.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import attrs
@@ -19,10 +20,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Sums", "breaks_of", "sums"]
 
-_LESS, _MORE = 4, 7
-"""Nodes of the two rules."""
+_LESS, _MORE = (np.polynomial.legendre.leggauss(count) for count in (4, 7))
+"""Nodes and weights of the two rules."""
 
-_ENOUGH = 1e-9
+_ABOVE = 1e6
+"""A height (m) above any ship."""
+
+_ENOUGH = 1e-8
 """Each interval is halved until it is off by no more than this part of the whole."""
 
 _HALVINGS = 8
@@ -52,58 +56,67 @@ class Sums:
     error: float
 
 
-def sums(ship: Seaking, level: float | None = None) -> Sums:
-    """Integrate below a height (m), or all of it.
+def sums(ship: Seaking, levels: Sequence[float | None]) -> tuple[Sums, ...]:
+    """Integrate below heights (m), or all of a hull; sections are built once for all of them.
 
     Parameters
     ----------
     ship : Seaking
         The definition.
-    level : float or None, m
+    levels : sequence of float or None, m
         Above the base line; None for the whole, its decks included.
     """
-    height = 1e6 if level is None else float(level)
-    places = breaks_of(ship, height)
+    heights = [_ABOVE if each is None else float(each) for each in levels]
+    places = breaks_of(ship, heights)
     low, high = places[:-1], places[1:]
-    total, error, whole = np.zeros(4), 0.0, 0.0
+    total, error = np.zeros((len(heights), 4)), np.zeros(len(heights))
+    whole = np.zeros(len(heights))
     for turn in range(_HALVINGS + 1):
-        fine, coarse = (_rule(ship, low, high, height, count) for count in (_MORE, _LESS))
-        off = np.abs(fine[:, 0] - coarse[:, 0])
-        whole = max(whole, float(fine[:, 0].sum()))
-        done = (off <= _ENOUGH * whole) | (turn == _HALVINGS)
+        fine, coarse = (_rule(ship, low, high, heights, each) for each in (_MORE, _LESS))
+        off = np.abs(fine[..., 0] - coarse[..., 0])
+        whole = np.maximum(whole, fine[..., 0].sum(axis=0))
+        done = (off <= _ENOUGH * whole).all(axis=1) | (turn == _HALVINGS)
         total += fine[done].sum(axis=0)
-        error += float(off[done].sum())
+        error += off[done].sum(axis=0)
         if done.all():
             break
         middle = 0.5 * (low + high)[~done]
         low, high = (
             np.concatenate([low[~done], middle]), np.concatenate([middle, high[~done]])
         )  # fmt: skip
-    volume = max(float(total[0]), np.finfo(np.float64).tiny)
-    plane = 0.0 if level is None else float(total[3])
-    return Sums(float(total[0]), total[1] / volume, total[2] / volume, plane, error)
-
-
-def _rule(ship: Seaking, low: FloatArray, high: FloatArray, level: float, count: int) -> FloatArray:
-    """Integrate area, its moments over x and z, and breadth over each interval, (n, 4)."""
-    node, weight = np.polynomial.legendre.leggauss(count)
-    half = 0.5 * (high - low)
-    place = 0.5 * (low + high)[:, None] + half[:, None] * node
-    found = ship.sections(place.ravel())
-    area = np.array([each.area(level) for each in found])
-    values = np.stack(
-        [
-            area, area * place.ravel(), np.array([each.moment(level) for each in found]),
-            2.0 * np.nan_to_num([each.half_breadth(level) for each in found]),
-        ],
-        axis=-1,
+    return tuple(
+        Sums(
+            float(volume), float(x / volume) if volume else 0.0,
+            float(z / volume) if volume else 0.0, 0.0 if level is None else float(plane),
+            float(doubt),
+        )
+        for (volume, x, z, plane), doubt, level in zip(total, error, levels, strict=True)
     )  # fmt: skip
-    summed = np.einsum("nkc,k->nc", values.reshape(len(low), count, 4), weight)
-    return np.asarray(summed * half[:, None])
 
 
-def breaks_of(ship: Seaking, level: float) -> FloatArray:
-    """Give the places (m) at which the curve of areas below a height (m) is not smooth."""
+def _rule(
+    ship: Seaking, low: FloatArray, high: FloatArray, levels: Sequence[float],
+    rule: tuple[FloatArray, FloatArray],
+) -> FloatArray:  # fmt: skip
+    """Integrate area, its moments over x and z, and breadth over each interval, (n, levels, 4)."""
+    node, weight = rule
+    half = 0.5 * (high - low)
+    place = (0.5 * (low + high)[:, None] + half[:, None] * node).ravel()
+    values = np.array(
+        [
+            [(each.area(z), each.x, each.moment(z), each.half_breadth(z)) for z in levels]
+            for each in ship.sections(place)
+        ]
+    )
+    values[..., 1] *= values[..., 0]
+    values[..., 3] = 2.0 * np.nan_to_num(values[..., 3])
+    shape = (len(low), len(weight), len(levels), 4)
+    summed = np.einsum("nklc,k->nlc", values.reshape(shape), weight)
+    return np.asarray(summed * half[:, None, None])
+
+
+def breaks_of(ship: Seaking, levels: Sequence[float]) -> FloatArray:
+    """Give the places (m) at which the curve of areas below heights (m) is not smooth."""
     first, last = ship.ends
     keel = ship.keel
     lines = [keel.aft, keel.forward]
@@ -115,7 +128,7 @@ def breaks_of(ship: Seaking, level: float) -> FloatArray:
     ]  # fmt: skip
     if ship.parallel is not None:
         found.append(np.array([ship.parallel.first, ship.parallel.last]))
-    heights = np.array([*(each.z for each in ship.waterlines), level])
+    heights = np.array([*(each.z for each in ship.waterlines), *levels])
     found += [_passes(line, heights) for line in lines]
     places = np.unique(np.concatenate(found))
     places = places[(places >= first) & (places <= last)]

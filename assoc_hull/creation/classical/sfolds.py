@@ -27,7 +27,7 @@ from typing import Self
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import all_of, instance, not_negative
+from assoc_hull.arguments import all_of, instance, not_negative, shown
 from assoc_hull.creation.classical.report import ClassicalReport
 from assoc_hull.creation.classical.sfolds_cuts import default_cuts
 from assoc_hull.creation.classical.sfolds_lines import lines_of_portions
@@ -107,14 +107,9 @@ class Sfolds:
         angle = not_negative(corner, "corner", "in a ship of portions")
         gaps = require_apart(given)
         chosen = default_cuts(given, particulars.draught)
-        for group, places in (cuts or {}).items():
-            if group not in chosen:
-                what = f"a net is not cut by {group!r}"
-                raise GeometryError(what, f"use one of {', '.join(chosen)}")
-            chosen[group] = tuple(finite(places, group, (None,)).tolist())
-        return cls(
-            particulars, given, angle, chosen, (*notes, *gaps, *notes_of(given))
-        )  # fmt: skip
+        chosen |= _asked(cuts)
+        before = all_of(notes, str, "notes", "in a ship of portions")
+        return cls(particulars, given, angle, chosen, (*before, *gaps, *notes_of(given)))
 
     @property
     def kind(self) -> str:
@@ -156,3 +151,19 @@ class Sfolds:
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of portions and of the whole, beside those of a net of it."""
         return report_of(self, state)
+
+
+def _asked(cuts: object) -> dict[str, tuple[float, ...]]:
+    """Take planes that are asked for, by group."""
+    found: dict[str, tuple[float, ...]] = {}
+    if cuts is None:
+        return found
+    if not isinstance(cuts, Mapping):
+        what = f"the planes of a net are {shown(cuts)}"
+        raise GeometryError(what, "give places by group, as {'waterlines': (1.0, 2.0)}")
+    for group, places in cuts.items():
+        if group not in ("waterlines", "buttocks"):
+            what = f"a net is not cut by {shown(group)}"
+            raise GeometryError(what, "use waterlines or buttocks")
+        found[group] = tuple(finite(places, group, (None,)).tolist())
+    return found

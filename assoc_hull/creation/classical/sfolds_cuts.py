@@ -19,7 +19,10 @@ _APART = 0.05
 
 
 def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple[float, ...]]:
-    """Give heights of waterlines and half-breadths of buttocks, m.
+    """Give half-breadths of buttocks and heights of waterlines, m.
+
+    Buttocks come first: where the bottom rises slowly, as at a broad stern, they run along it and
+    waterlines turn sharply. So the net gets its shape there from the lines that are smooth.
 
     Parameters
     ----------
@@ -30,7 +33,7 @@ def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple
     """
     sections = [each for portion in portions if portion.is_main for each in portion.sections]
     if not sections:
-        return {"waterlines": (), "buttocks": ()}
+        return {"buttocks": (), "waterlines": ()}
     widest = max(sections, key=lambda each: each.area)
     top = min(each.hd for each in sections)
     heights = widest.side.places[1:]
@@ -38,8 +41,8 @@ def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple
     if draught < top and np.abs(heights - draught).min(initial=np.inf) > _APART * draught:
         heights = np.sort(np.append(heights, draught))
     return {
-        "waterlines": _thinned(heights.tolist()),
         "buttocks": _thinned(_buttocks(widest)),
+        "waterlines": _thinned(heights.tolist()),
     }
 
 

@@ -14,6 +14,7 @@ from assoc_hull.creation.classical.report import (
     measure_net,
 )
 from assoc_hull.creation.classical.sfolds_lines import Frame, frames_of, name_of
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 
@@ -37,10 +38,15 @@ def report_of(ship: Sfolds, state: HullState | None) -> ClassicalReport:
         A net of it.
     """
     figures = [*_of_portions(ship), *_of_whole(ship)]
+    notes = ship.notes
     if any(each.is_main and each.sections for each in ship.portions):
-        figures += _below(ship, state)
+        try:
+            figures += _below(ship, state)
+        except BadInputError as error:
+            notes = (*notes, f"the net cannot be measured: {error.what}")
+            figures += _below(ship, None)
     away = () if state is None else departures(state, _sections(ship))
-    return ClassicalReport(ship.kind, ship.particulars.name, tuple(figures), ship.notes, away)
+    return ClassicalReport(ship.kind, ship.particulars.name, tuple(figures), notes, away)
 
 
 def _of_portions(ship: Sfolds) -> list[Figure]:

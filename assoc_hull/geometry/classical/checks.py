@@ -15,7 +15,19 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["figure", "finite", "inside", "wrap"]
+__all__ = ["called", "figure", "finite", "inside", "wrap"]
+
+
+def called(name: object) -> str:
+    """Write what was handed in for a name, for a message of one line.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checks import called
+    >>> called("cubic"), called([1, 2])
+    ("'cubic'", 'a list')
+    """
+    return repr(name) if isinstance(name, str) else f"a {type(name).__name__}"
 
 
 def figure(value: float) -> str:
@@ -61,13 +73,7 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Float
     assoc_hull.errors.GeometryError: sheer: non-finite value at index 1; give a number
     """
     wanted = f"({', '.join('n' if size is None else str(size) for size in shape)})"
-    try:
-        found = np.array(values, np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise GeometryError(
-            f"{name}: expected shape {wanted}, got no array of numbers", "give numbers",
-            {"expected": wanted},
-        ) from None  # fmt: skip
+    found = _numbers(values, name, wanted)
     fits = found.ndim == len(shape) and all(
         size is None or size == has for size, has in zip(shape, found.shape, strict=True)
     )
@@ -84,6 +90,20 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Float
             f"{name}: non-finite value at index {index}", "give a number", {"index": index}
         )
     return found
+
+
+def _numbers(values: ArrayLike, name: str, wanted: str) -> FloatArray:
+    """Take real numbers of any shape, as a copy."""
+    try:
+        found = np.array(values)
+        if found.dtype.kind in "cmM":  # numpy would only warn
+            raise TypeError
+        return found.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise GeometryError(
+            f"{name}: expected shape {wanted}, got no array of numbers", "give numbers",
+            {"expected": wanted},
+        ) from None  # fmt: skip
 
 
 def inside(x: ArrayLike, name: str, least: float, most: float, slack: float = 0.0) -> FloatArray:
@@ -113,7 +133,7 @@ def inside(x: ArrayLike, name: str, least: float, most: float, slack: float = 0.
     ...
     assoc_hull.errors.GeometryError: camber: x=11 outside [0, 10]; ask between these
     """
-    found = np.asarray(x)
+    found = _numbers(x, name, "(...)")
     found = finite(found, name, tuple(None for _ in found.shape))
     outside = (found < least - slack) | (found > most + slack)
     if outside.any():

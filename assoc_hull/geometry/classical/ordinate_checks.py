@@ -7,7 +7,7 @@ import math
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import shown, shown_name
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
@@ -19,6 +19,9 @@ FORMS = ("bottom+main+camber", "main+camber", "bottom+camber")
 """The general form; without a part on buttocks; without a main part."""
 
 _LEAST_BUTTOCKS, _LEAST_WATERLINES = 4, 3
+
+_MOST = 10_000
+"""More ordinates than this are a mistake."""
 
 _STEP = 0.15
 """The last buttock may end below the first waterline by this part of its height, unremarked."""
@@ -89,11 +92,10 @@ def check_section(
         What is wrong.
     """
     nb, nw = _counts(zb, yw, *counts)
-    shape = form
-    if shape is None:
-        shape = FORMS[0] if nb else FORMS[1] if sizes.hb < sizes.hd else FORMS[2]
+    shape = _form(sizes, nb) if form is None else shown_name(form)
     if shape not in FORMS:
-        _refuse(f"section: no form {shown(form)}", f"use one of {', '.join(FORMS)}", form=form)
+        what = f"section: no form {shown(form)}"
+        raise GeometryError(what, f"use one of {', '.join(FORMS)}", {"form": form})
     if shape == FORMS[0] and nb < _LEAST_BUTTOCKS:
         what = f"section: bottom part needs at least {_LEAST_BUTTOCKS} buttocks, got {nb}"
         _refuse(what, "give more, or the form main+camber", nb=nb)
@@ -111,6 +113,13 @@ def check_section(
     return shape
 
 
+def _form(sizes: Sizes, nb: int) -> str:
+    """Tell the form of a section by what is given of it."""
+    if nb:
+        return FORMS[0]
+    return FORMS[1] if sizes.hb < sizes.hd else FORMS[2]
+
+
 def _counts(zb: FloatArray, yw: FloatArray, nb: object, nw: object) -> tuple[int, int]:
     buttocks, waterlines = _whole(nb, "buttocks"), _whole(nw, "waterlines")
     if buttocks or len(zb):
@@ -120,9 +129,13 @@ def _counts(zb: FloatArray, yw: FloatArray, nb: object, nw: object) -> tuple[int
 
 
 def _whole(value: object, name: str) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 0:
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, int | np.integer)
+        or not 0 <= value <= _MOST
+    ):
         what = f"section: {shown(value)} {name}"
-        raise GeometryError(what, "give a whole number from 0 on", {name: value})
+        raise GeometryError(what, f"give a whole number from 0 to {_MOST}", {name: value})
     return int(value)
 
 

@@ -23,7 +23,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import all_of
+from assoc_hull.arguments import all_of, shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
@@ -101,7 +101,7 @@ class Portion:
     @classmethod
     def of_areas(cls, number: int, stations: ArrayLike, areas: ArrayLike) -> Self:
         """Make a portion of which the section areas (m,), m2, alone are known; errors as `make`."""
-        given = finite(areas, f"portion {number}", (None,))
+        given = finite(areas, "section areas", (None,))
         x = _stations(number, stations, len(given))
         return cls(number, x, given, np.full(len(x), np.nan), ())
 
@@ -187,7 +187,7 @@ class Portion:
 def _stations(number: object, stations: ArrayLike, count: int) -> FloatArray:
     """Take the number of a portion and its stations, or refuse them."""
     if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(KINDS):
-        what = f"portion {number}: number must be 1..{len(KINDS)}"
+        what = f"portion {shown(number)}: number must be 1..{len(KINDS)}"
         raise GeometryError(what, "give that of its kind", {"number": number})
     name = f"portion {number}"
     x = finite(stations, name, (None,))

@@ -25,6 +25,11 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = ["Quadratics"]
 
+_FAR = 1e9
+"""Beyond this level (m) nothing lies."""
+
+_GAUSS = np.polynomial.legendre.leggauss(3)
+
 
 @attrs.frozen(eq=False)
 class Quadratics:
@@ -107,11 +112,12 @@ class Quadratics:
 
     def moment_below(self, level: float) -> float:
         """Give the integral of y z dz over what lies at or below a level (m), m3."""
+        level = min(max(level, -_FAR), _FAR)
         breaks = self._breaks(level)
         low, high = breaks[:, :-1, None], breaks[:, 1:, None]
         wet = self._polynomial(self.z, 0.5 * (low + high)[..., 0]) <= level
         # Three nodes of Gauss are exact to the fifth power, which is what stands here.
-        node, weight = np.polynomial.legendre.leggauss(3)
+        node, weight = _GAUSS
         p = (0.5 * (low + high) + 0.5 * (high - low) * node).reshape(len(self), -1)
         y, z = (self._polynomial(each, p) for each in (self.y, self.z))
         rise = self.z[:, 1:2] + 2.0 * p * self.z[:, 2:]

@@ -18,6 +18,8 @@ from assoc_hull.arguments import file_path
 from assoc_hull.creation.classical.net import ClassicalDefinition
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.classical.cards import Cards, kind_of, read_cards
+from assoc_hull.io.classical.prelikon_text import read_prelikon
+from assoc_hull.io.classical.seaking_text import read_seaking
 from assoc_hull.io.classical.sfolds_text import read_sfolds
 
 __all__ = [
@@ -29,7 +31,9 @@ __all__ = [
 ]
 
 READERS: Mapping[str, Callable[[Cards], ClassicalDefinition]] = {
+    "SEAKING": read_seaking,
     "SFOLDS": read_sfolds,
+    "PRELIKON": read_prelikon,
 }
 """What makes a definition of cards, by the kind of the text."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -40,7 +41,8 @@ def test_a_prism_of_the_printed_section() -> None:
     prism = Portion.make(3, X, [section()] * 5)
     assert round(prism.volume, 4) == 11618.9267
     assert prism.volume == pytest.approx(32.0 * section().area, rel=1e-15)
-    assert (prism.centre_x, prism.kind) == (pytest.approx(16.0), "middle body (aft)")
+    assert prism.kind == "middle body (aft)"
+    assert prism.centre_x == pytest.approx(16.0)
     assert prism.centre_z == pytest.approx(section().moment / section().area)
     assert prism.volume_below(12.4) == pytest.approx(32.0 * (section().area - 2 * 4.05333333333333))
     assert prism.volume_below(20.0) == prism.volume_below(12.4)
@@ -54,7 +56,7 @@ def test_cubic_areas_are_integrated_exactly(seed: int) -> None:
     step, pairs = draw.uniform(0.1, 20.0), int(draw.integers(1, 6))
     nodes = draw.normal(size=pairs + 1)
     truth, areas = 0.0, [float(nodes[0])]
-    for first, last in zip(nodes[:-1], nodes[1:], strict=True):
+    for first, last in itertools.pairwise(nodes):
         inner = draw.normal(size=2)
         cubic = np.polynomial.Polynomial.fit([0, 0.7, 1.3, 2], [first, *inner, last], 3)
         areas += [float(cubic(1.0)), float(cubic(2.0))]
