@@ -17,6 +17,7 @@ NAMES = (
     "form_curves", "created_hulls", "biarcs",
     "form_curves", "created_hulls", "classical_splines",
     "form_curves", "created_hulls", "biarcs", "conformal_sections",
+    "form_curves", "created_hulls", "biarcs", "classical_splines",
 )  # fmt: skip
 
 

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from drawings.biarcs import biarc_kinds
 from drawings.battens import classical_splines
+from drawings.battens import classical_splines
+from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
 from drawings.conics import combined_waterline, conformal_sections
@@ -148,6 +150,10 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
     "classical_splines": classical_splines,
+    "classical_splines": classical_splines,
+    "biarcs": biarc_kinds,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,
