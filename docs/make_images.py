@@ -11,8 +11,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from drawings.biarcs import biarc_kinds
-from drawings.battens import classical_splines
 from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
 from drawings.common import ship
@@ -150,10 +148,6 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
     "classical_splines": classical_splines,
-    "classical_splines": classical_splines,
-    "biarcs": biarc_kinds,
-    "combined_waterline": combined_waterline,
-    "conformal_sections": conformal_sections,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

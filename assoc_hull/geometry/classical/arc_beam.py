@@ -112,9 +112,7 @@ def _along(span: FloatArray, w: FloatArray) -> FloatArray:
     return np.asarray(np.interp(w, np.arange(len(span)), span))
 
 
-def _back(
-    pieces: Pieces, piece: int, trail: _Trail, row: int, state: int, ratio: float
-) -> Chain:
+def _back(pieces: Pieces, piece: int, trail: _Trail, row: int, state: int, ratio: float) -> Chain:
     """Follow the parents of a state to the beginning of its piece."""
     w, angle, ratios = [float(pieces.stop[piece])], [float(pieces.angle[piece, 1])], [ratio]
     step = len(trail) - 1

@@ -86,9 +86,7 @@ def _from_arcs(links: Links, places: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(*found).reshape(places.shape[:2]))
 
 
-def _from_curve(
-    pieces: Pieces, links: Links, w: FloatArray, places: FloatArray
-) -> FloatArray:
+def _from_curve(pieces: Pieces, links: Links, w: FloatArray, places: FloatArray) -> FloatArray:
     """Give the largest distance of places on the arcs of each link from its curve, (n,), m."""
     count = w.shape[1]
     length = links.arcs.length
