@@ -86,7 +86,7 @@ def production_arcs(
 
     Notes
     -----
-    Source: C.S. Kim, H. Chang, "Some Representations of Ship Hulls by Mathematical Method for
+    Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
     Design and Production", J. SNAK.
 
     Examples

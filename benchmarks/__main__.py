@@ -14,7 +14,7 @@ from benchmarks.clock import Figure
 
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
-    "form_curves", "created_hulls", "biarcs",
+    "form_curves", "created_hulls", "production_arcs", "biarcs",
 )  # fmt: skip
 
 
