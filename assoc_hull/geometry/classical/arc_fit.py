@@ -41,7 +41,9 @@ _DENSER = 10
 _MARGIN = 0.98
 """The search keeps this part of the tolerance; the rest is for what lies between its places."""
 _FLAT = 0.002
-"""A straight run leaves its chord by no more than this part of the tolerance."""
+"""A straight run leaves its chord by no more than this part of the tolerance,"""
+_FLATTEST = 1e-5
+"""and m: what is straight does not depend on how coarse arcs may be."""
 _AGAIN = 4
 
 
@@ -113,7 +115,7 @@ def fit_arcs(
     within, least_radius = _length(within, "within"), _length(least_radius, "least_radius")
     if within == 0.0:
         raise GeometryError("arcs: within is 0", "give a tolerance above 0, m", {"within": 0.0})
-    pieces = Pieces.of(cubic, start, _FLAT * within)
+    pieces = Pieces.of(cubic, start, min(_FLAT * within, _FLATTEST))
     bend = np.inf if least_radius <= 0.0 else (1.0 + 1e-12) / least_radius
     made, links, off = _made(pieces, Limits(_MARGIN * within, bend, _SAMPLES), within)
     curve = pieces.curve[links.piece]
