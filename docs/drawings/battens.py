@@ -3,7 +3,6 @@
 from itertools import pairwise
 
 import numpy as np
-from drawings.common import DRIVEN, FIXED, INK, PALE, SHARED
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from assoc_hull.geometry.classical.chord_spline import ChordSpline
 from assoc_hull.geometry.classical.elastica import Elastica
 from assoc_hull.geometry.classical.elastica_fit import fit_elastica
+from drawings.common import DRIVEN, FIXED, INK, PALE, SHARED
 
 __all__ = ["classical_splines"]
 
