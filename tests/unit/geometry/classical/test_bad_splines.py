@@ -1,4 +1,4 @@
-"""Whatever is handed to a classical spline, elastica or circle: an error of the family, or a result."""
+"""Whatever is handed to classical splines, elastica and circles: an error, or a result."""
 
 from __future__ import annotations
 
