@@ -14,7 +14,8 @@ from benchmarks.clock import Figure
 
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
-    "form_curves", "created_hulls", "production_arcs", "biarcs",
+    "form_curves", "created_hulls", "biarcs", "conformal_sections", "classical_splines",
+    "production_arcs",
 )  # fmt: skip
 
 

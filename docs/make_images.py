@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
@@ -117,6 +118,11 @@ def plain_ship() -> Figure:
     return lines_plan(examples.plain_ship(), paper="A4")
 
 
+def prelikon_ship() -> Figure:
+    """Draw the lines plan of the supply ship of main types."""
+    return lines_plan(examples.prelikon_ship(), paper="A4")
+
+
 def sfolds_ship() -> Figure:
     """Draw the lines plan of the ferry of portions."""
     return lines_plan(examples.sfolds_ship(), paper="A4")
@@ -130,6 +136,7 @@ def definitions() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
+    "prelikon_ship": prelikon_ship,
     "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
@@ -142,6 +149,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "production_arcs": production_arcs_picture,
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
+    "classical_splines": classical_splines,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tests.fuzz.kind import Kind
 from tests.fuzz.kinds.curves import CURVE
+from tests.fuzz.kinds.definitions import DEFINITIONS
 from tests.fuzz.kinds.edits import EDITS
 from tests.fuzz.kinds.exports import BRITFAIR, DELFTSHIP, GF, XLSX
 from tests.fuzz.kinds.hull_file import HULL_FILE
@@ -16,7 +17,8 @@ __all__ = ["KINDS"]
 
 _TABLES = (OFFSETS, XLSX)
 _LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, GF)
+_REST = (DEFINITIONS, *_LINES, STL, OBJ)
 
 KINDS: dict[str, Kind] = {
-    kind.name: kind for kind in (*_TABLES, HULL_FILE, HULL_JSON, EDITS, CURVE, *_LINES, STL, OBJ)
+    kind.name: kind for kind in (*_TABLES, HULL_FILE, HULL_JSON, EDITS, CURVE, *_REST)
 }

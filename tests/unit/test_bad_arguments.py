@@ -15,10 +15,21 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.parameters import DRAUGHT
+from assoc_hull.creation.classical.prelikon import Prelikon
+from assoc_hull.creation.classical.prelikon_stations import Station
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.classical.appendage_box import AppendageBox
+from assoc_hull.geometry.classical.arc_section import round_corners, through_points
+from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.camber_kinds import CamberKind
+from assoc_hull.geometry.classical.deck_house import DeckHouse
+from assoc_hull.geometry.classical.deck_surface import Deck
+from assoc_hull.geometry.classical.main_types import require_types
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.portion import Portion
+from assoc_hull.geometry.classical.sheer import Sheer
+from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -307,6 +318,8 @@ FLOATING: dict[str, Given] = {
     "vary_by": {"script": {"set": {"breadth": 11.0}}, "in_place": False},
 }  # fmt: skip
 
+SHEER, CAMBER = Sheer.make([(0, 1), (9, 0)]), CamberKind.make(1, 9.0, 0.3)
+FRAME = through_points([(0, 0), (4, 0), (5, 3)])
 CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "OrdinateSection.make": (
         OrdinateSection.make,
@@ -324,6 +337,52 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
         {
             "particulars": SHIP, "portions": [Portion.of_areas(3, [0, 4, 8], [1, 2, 1])],
             "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
+        },
+    ),
+    "Sheer.make": (Sheer.make, {"points": [(0, 1), (9, 0)]}),
+    "CamberKind.make": (
+        CamberKind.make,
+        {"kind": 2, "half_breadth": 9.0, "total": 0.3, "joint": 4.0, "scale": "fixed"},
+    ),
+    "CamberKind.through": (
+        CamberKind.through,
+        {"kind": 3, "points": [(0, 0), (4, 0.1), (9, 0.3)], "scale": "fixed"},
+    ),
+    "Deck.make": (
+        Deck.make, {"number": 1, "height": 9.0, "sheer": SHEER, "camber": CAMBER}
+    ),
+    "DeckHouse.make": (
+        DeckHouse.make,
+        {
+            "decks": [Deck.make(1, 9.0, SHEER, CAMBER)], "deck": 1, "x": (1, 2), "breadth": 3.0,
+            "height": 2.0, "name": "a", "deck_half_breadth": 4.0,
+        },
+    ),
+    "AppendageBox.make": (
+        AppendageBox.make,
+        {"x": (1, 2), "y": (0, 1), "z": (0, 1), "sign": 1, "symmetric": True, "name": "a"},
+    ),
+    "through_points": (
+        through_points,
+        {
+            "points": [(0, 0), (4, 0), (5, 3)], "kind": ["line", "arc"], "radius": [None, 9.0],
+            "knuckles": [1], "name": "section",
+        },
+    ),
+    "round_corners": (
+        round_corners,
+        {"points": [(0, 0), (4, 0), (5, 3)], "radius": [1.0], "name": "section"},
+    ),
+    "SpaceCurve.make": (
+        SpaceCurve.make, {"points": [(0, 0, 0), (1, 1, 0)], "kind": "spline", "name": "a"}
+    ),
+    "require_types": (require_types, {"given": {1, 5}}),
+    "Prelikon.make": (
+        Prelikon.make,
+        {
+            "particulars": SHIP, "stations": [Station(x, FRAME) for x in (0.0, 9.0)], "decks": (),
+            "boundaries": (), "boxes": (), "houses": (), "curves": (),
+            "cuts": {"waterlines": [1.0]}, "notes": (),
         },
     ),
 }  # fmt: skip
@@ -537,6 +596,23 @@ def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None
     assert set(inspect.signature(ah.compare).parameters) == set(given)
 
 
+@pytest.mark.parametrize("name", ["of", "lines", "allowed", "offsets", "tolerances"])
+def test_fairness_is_asked_for_with_good_values(hull: ah.Hull, name: str) -> None:
+    """Of a hull and of a plane curve: an error of the family or a result."""
+    before = hull.fingerprint
+    curve = Arcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
+    of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "allowed": 0, "offsets": None}
+    of_curve: Given = {"of": curve, "lines": None, "allowed": 0, "offsets": [(1.0, 0.1)]}
+    for given in (of_hull, of_curve):
+        given = {**given, "tolerances": 0.005}
+        assert not call(ah.fairness, given)
+        for trial in spoilt(given, name):
+            with trial as bad:
+                call(ah.fairness, bad)
+    assert hull.fingerprint == before
+    assert set(inspect.signature(ah.fairness).parameters) == {*of_hull, "tolerances"}
+
+
 @pytest.mark.parametrize("method", FLOATING)
 def test_every_argument_of_hydrostatics_is_tried(method: str) -> None:
     """As those of the methods."""
@@ -592,9 +668,9 @@ def test_every_public_name_is_tried() -> None:
         and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
     }
     tried = tried - {"wigley", "series60"} | set(FLOATING)
-    tried |= {"compare", "Study"}  # a study is made by `study`; see test_bad_targets
+    tried |= {"compare", "fairness", "Study"}  # a study is made by `study`; see test_bad_targets
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
-    takes_nothing |= {"sfolds_ship", "prelikon_ship"}
+    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship"}
     assert made == {"wigley", "series60"} | takes_nothing

@@ -28,7 +28,7 @@ import numpy as np
 from assoc_hull.analysis.appendage import Appendage
 from assoc_hull.arguments import all_of, instance
 from assoc_hull.creation.classical.prelikon_lines import lies_on, lines_of
-from assoc_hull.creation.classical.prelikon_notes import default_cuts, notes_of
+from assoc_hull.creation.classical.prelikon_notes import asked_cuts, default_cuts, notes_of
 from assoc_hull.creation.classical.prelikon_profile import Profile, profile_of
 from assoc_hull.creation.classical.prelikon_report import report_of
 from assoc_hull.creation.classical.prelikon_stations import (
@@ -139,13 +139,9 @@ class Prelikon:
         cut = tuple(trimmed(each, deck) for each in given)
         profile = profile_of(cut, bounds, deck)
         _require_decks(given, given_decks, given_houses)
-        chosen = default_cuts(cut, particulars.draught)
-        for group, places in (cuts or {}).items():
-            if group not in chosen:
-                what = f"a net is not cut by {group!r}"
-                raise GeometryError(what, f"use one of {', '.join(chosen)}")
-            chosen[group] = tuple(finite(places, group, (None,)).tolist())
-        told = (*notes, *notes_of(cut, profile, bounds, given_curves, given_boxes, given_houses))
+        chosen = default_cuts(cut, particulars.draught) | asked_cuts(cuts)
+        before = all_of(notes, str, "notes", _WHERE)
+        told = (*before, *notes_of(cut, profile, bounds, given_curves, given_boxes, given_houses))
         return cls(
             particulars, cut, given_decks, bounds, given_boxes, given_houses, given_curves, profile,
             chosen, told,

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from assoc_hull.arguments import shown
 from assoc_hull.creation.classical.prelikon_lines import lies_on
 from assoc_hull.creation.classical.prelikon_pieces import Joint, joints_of
 from assoc_hull.creation.classical.prelikon_profile import ENDS, Profile
 from assoc_hull.creation.classical.prelikon_stations import AT, Station
+from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
 from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
-from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 
-__all__ = ["default_cuts", "notes_of"]
+__all__ = ["asked_cuts", "default_cuts", "notes_of"]
 
 _TOLD = 1e-4
 """Jumps of direction (rad) that are told."""
@@ -32,6 +34,28 @@ def default_cuts(stations: Sequence[Station], draught: float) -> dict[str, tuple
         "buttocks": tuple(part * wide for part in (0.25, 0.5, 0.75)),
         "waterlines": tuple(z for z in heights if z < top - AT),
     }
+
+
+def asked_cuts(cuts: object) -> dict[str, tuple[float, ...]]:
+    """Take heights of waterlines and half-breadths of buttocks as they are asked for, m.
+
+    Raises
+    ------
+    GeometryError
+        No mapping, another family of lines, or places that are no finite numbers.
+    """
+    if cuts is None:
+        return {}
+    if not isinstance(cuts, Mapping):
+        what = f"the planes of a net are {shown(cuts)}"
+        raise GeometryError(what, "give places by family of lines")
+    found = {}
+    for group, places in cuts.items():
+        if group not in ("buttocks", "waterlines"):
+            what = f"a net is not cut by {shown(group)}"
+            raise GeometryError(what, "use one of buttocks, waterlines")
+        found[group] = tuple(finite(places, group, (None,)).tolist())
+    return found
 
 
 def notes_of(

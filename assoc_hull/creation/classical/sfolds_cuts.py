@@ -19,7 +19,10 @@ _APART = 0.05
 
 
 def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple[float, ...]]:
-    """Give heights of waterlines and half-breadths of buttocks, m.
+    """Give half-breadths of buttocks and heights of waterlines, m.
+
+    Buttocks come first: where the bottom rises slowly, as at a broad stern, they run along it and
+    waterlines turn sharply. So the net gets its shape there from the lines that are smooth.
 
     Parameters
     ----------
@@ -30,7 +33,7 @@ def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple
     """
     sections = [each for portion in portions if portion.is_main for each in portion.sections]
     if not sections:
-        return {"waterlines": (), "buttocks": ()}
+        return {"buttocks": (), "waterlines": ()}
     widest = max(sections, key=lambda each: each.area)
     top = min(each.hd for each in sections)
     heights = widest.side.places[1:]
@@ -38,15 +41,16 @@ def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple
     if draught < top and np.abs(heights - draught).min(initial=np.inf) > _APART * draught:
         heights = np.sort(np.append(heights, draught))
     return {
-        "waterlines": _thinned(heights.tolist()),
         "buttocks": _thinned(_buttocks(widest)),
+        "waterlines": _thinned(heights.tolist()),
     }
 
 
 def _buttocks(widest: OrdinateSection) -> list[float]:
     if widest.bottom is None:
         return [part * widest.deck_breadth for part in (0.25, 0.5, 0.75)]
-    return [float(y) for y in widest.bottom.places[1:]]
+    inside = widest.bottom.places <= widest.side.values[0] + 1e-9 * widest.sb
+    return [float(y) for y in widest.bottom.places[inside][1:]]
 
 
 def _thinned(places: Sequence[float]) -> tuple[float, ...]:

@@ -302,7 +302,7 @@ def _kinds(kind: object, count: int, name: str) -> list[str]:
     found: list[Any] = [kind] * count if isinstance(kind, str) else []
     if _listed(kind):
         found = list(kind)
-    bad = [each for each in found if each not in ("line", "arc")]
+    bad = [each for each in found if shown(each) not in ("'line'", "'arc'")]
     if bad or len(found) != count:
         what = f"{name}: kind is {shown(kind)}"
         raise GeometryError(what, f'give "line" or "arc" for {count} interval(s)')

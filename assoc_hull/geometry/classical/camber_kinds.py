@@ -185,8 +185,10 @@ class CamberKind:
         if not most > 0.0:
             raise GeometryError(f"camber: mean up to y={figure(most)}", "give y above 0")
         self.drop(most, half_breadth)
-        ratio = 1.0 if half_breadth is None else half_breadth / self.half_breadth
-        inner = self.y * ratio if self.scale == "local" else self.y
+        inner = self.y
+        if self.scale == "local":
+            given = 0.0 if half_breadth is None else half_breadth
+            inner = inner * (float(finite(given, "camber", ())) / self.half_breadth)
         ends = np.concatenate([inner[inner < most], [most]])
         width = 0.5 * np.diff(ends)
         at = ends[:-1, None] + width[:, None] * (1.0 + _NODES)

@@ -22,7 +22,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import all_of, shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.classical.deck_surface import Deck
@@ -88,9 +88,10 @@ class DeckHouse:
             ``"deck house: unknown deck {n}"``; sizes that are not above 0; a deck or a camber
             that does not reach as far.
         """
-        found = next((each for each in decks if shown(each.number) == shown(deck)), None)
+        known = all_of(decks, Deck, "decks", "in a deck house")
+        found = next((each for each in known if shown(each.number) == shown(deck)), None)
         if found is None:
-            there = ", ".join(str(each.number) for each in decks) or "none"
+            there = ", ".join(str(each.number) for each in known) or "none"
             raise GeometryError(
                 f"deck house: unknown deck {shown(deck)}", f"decks are {there}", {"deck": deck}
             )

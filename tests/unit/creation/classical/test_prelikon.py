@@ -153,8 +153,9 @@ def test_the_net_of_the_supply_ship_is_sound(supply: Prelikon, net: ah.Hull) -> 
 def test_the_knuckle_of_the_supply_ship_is_a_corner_of_its_sections(net: ah.Hull) -> None:
     """Where the knuckle line passes a section of the fore body, the section turns."""
     point = net.find("ST 105 x upper knuckle")
-    assert point is not None
-    assert (point.z, str(point.kind)) == (pytest.approx(10.039819, abs=1e-9), "knuckle")
+    assert isinstance(point, ah.Point)
+    assert point.z == pytest.approx(10.039819, abs=1e-9)
+    assert str(point.kind) == "knuckle"
 
 
 def test_the_deck_edge_has_a_knuckle_at_each_break_of_the_sheer() -> None:
