@@ -76,17 +76,17 @@ class ArcCurve:
         return wrap(self.arcs.angle[1:] - self.arcs.end_angles()[:-1])
 
     def at(self, s: ArrayLike) -> FloatArray:
-        """Give points (k, 2), m, at arc lengths `s` (k,), m, from the start.
+        """Give points (..., 2), m, at arc lengths `s` (m) from the start, of any shape.
 
         Raises
         ------
         GeometryError
             An arc length outside the curve.
         """
-        asked = finite(s, self.name, (None,))
+        asked = finite(s, self.name, None)
         starts = self.starts
         if ((asked < -self.tolerance) | (asked > starts[-1] + self.tolerance)).any():
-            far = float(asked[np.argmax(np.abs(asked - 0.5 * starts[-1]))])
+            far = float(asked.flat[np.argmax(np.abs(asked - 0.5 * starts[-1]))])
             raise GeometryError(
                 f"{self.name}: s={figure(far)} outside [0, {figure(starts[-1])}]",
                 "ask between these", {"s": far},

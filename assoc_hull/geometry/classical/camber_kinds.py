@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure, finite, require_together
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["CamberKind"]
@@ -196,10 +196,11 @@ class CamberKind:
 
     def _referred(self, y: ArrayLike, half_breadth: ArrayLike | None) -> FloatArray:
         """Give y as it lies on the reference half-breadth."""
-        given = np.asarray(y)
-        asked = np.abs(finite(given, "camber", tuple(None for _ in given.shape)))
+        asked = np.abs(finite(y, "camber", None))
         if self.scale == "local":
-            asked = asked * (self.half_breadth / _breadths(half_breadth))
+            wide = _breadths(half_breadth)
+            require_together("camber", asked, wide)
+            asked = asked * (self.half_breadth / wide)
         beyond = asked > self.half_breadth * (1.0 + _SLACK)
         if beyond.any():
             first = float(asked[beyond].flat[0])
@@ -230,8 +231,7 @@ def _breadths(half_breadth: ArrayLike | None) -> FloatArray:
     if half_breadth is None:
         what = "camber: scaled to the deck, whose half-breadth is not given"
         raise GeometryError(what, "give half_breadth")
-    given = np.asarray(half_breadth)
-    found = finite(given, "camber", tuple(None for _ in given.shape))
+    found = finite(half_breadth, "camber", None)
     if (found <= 0.0).any():
         what = f"camber: half-breadth {figure(float(found.min()))}"
         raise GeometryError(what, "give one above 0", {"half_breadth": float(found.min())})
