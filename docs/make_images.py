@@ -11,8 +11,11 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from drawings.battens import classical_splines
+from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
+from drawings.conics import combined_waterline, conformal_sections
 from drawings.container import (
     container_ship_225m,
     container_ship_225m_bodies,
@@ -141,6 +144,10 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curve_series": series,
     "panels": mesh,
     "form_curve": form_curve,
+    "biarcs": biarc_kinds,
+    "combined_waterline": combined_waterline,
+    "conformal_sections": conformal_sections,
+    "classical_splines": classical_splines,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

@@ -194,8 +194,10 @@ def _lines(state: HullState, lines: object) -> list[int]:
     names = [str(state.lines.name.data[line]) for line in live]
     found = []
     for each in lines:
+        if not isinstance(each, str):
+            raise WrongTypeError(f"lines holds {shown(each)}", _WHERE, "give names")
         if each not in names:
-            raise UnknownNameError("line", str(each), tuple(names))
+            raise UnknownNameError("line", each, tuple(names))
         found += [line for line, name in zip(live, names, strict=True) if name == each]
     return found
 

@@ -153,11 +153,16 @@ def _text(each: FairnessRecord) -> str:
     if each.inflections_allowed:
         bends += f" ({each.inflections_allowed})"
     return (
-        f"{each.name:16}{each.length:9.3f}{each.angle_jump:10.2g}{each.curvature_jump:10.2g}"
+        f"{each.name:16}{each.length:9.3f}{_jump(each.angle_jump):>10}{_jump(each.curvature_jump):>10}"
         f"{bends:>13}{_short(each.deviation_max):>8}{_short(each.deviation_rms):>8}"
         f"{each.bending:10.4g}{each.variation:12.5g}{_figure(each.support_jumps):>11}"
         f"{each.extrema:10d}{each.knuckles:10d}  {', '.join(each.failed)}"
     ).rstrip()
+
+
+def _jump(value: float) -> str:
+    """Write a jump; what is rounding is nil."""
+    return f"{value:.2g}" if value > 1e-11 else "0"
 
 
 def _short(value: float | None) -> str:

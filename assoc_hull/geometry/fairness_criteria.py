@@ -244,9 +244,9 @@ def criteria(
     nodes, weights = gauss(_NODES)
     inner = pieces.seen(nodes)
     first = np.searchsorted(owner, np.arange(count))
-    size = np.add.reduceat(inner.speed @ weights, first)
+    size = _summed(inner.speed * weights, first)
     _check_lengths(size, titles)
-    square = np.add.reduceat((inner.curvature**2 * inner.speed) @ weights, first)
+    square = _summed(inner.curvature**2 * inner.speed * weights, first)
     bending = size * square
     joint = owner[1:] == owner[:-1]
     knuckle = np.zeros(len(joint), np.bool_) if knuckles is None else knuckles & joint
@@ -259,7 +259,7 @@ def criteria(
         variation, extrema = _arcs(inner, weights, owner, count)
         supports: FloatArray | None = None
     else:
-        variation = np.add.reduceat((inner.rate**2 * inner.speed) @ weights, first)
+        variation = _summed(inner.rate**2 * inner.speed * weights, first)
         extrema = _sign_changes(grid.rate, owner, count, _STRAIGHT / size**2)
         supports = np.sqrt(np.bincount(owner[:-1], jumps.third**2, minlength=count))
     changes = _sign_changes(grid.curvature, owner, count, _STRAIGHT / size)
@@ -277,6 +277,12 @@ def criteria(
         )
         for i in range(count)
     )  # fmt: skip
+
+
+def _summed(parts: FloatArray, first: IntArray) -> FloatArray:
+    """Add up parts (p, k) of each curve: elementwise, so that a neighbour changes no bit."""
+    found: FloatArray = np.add.reduceat(parts.sum(axis=1), first)
+    return found
 
 
 def _check_lengths(size: FloatArray, titles: Sequence[str]) -> None:
@@ -338,7 +344,7 @@ def _arcs(
     inner: Seen, weights: FloatArray, owner: IntArray, count: int
 ) -> tuple[FloatArray, IntArray]:
     """Give the sum of squared steps of curvature over distances between middles; extremes."""
-    length, bend = inner.speed @ weights, inner.curvature[:, 0]
+    length, bend = (inner.speed * weights).sum(axis=1), inner.curvature[:, 0]
     joint = owner[1:] == owner[:-1]
     apart = 0.5 * (length[1:] + length[:-1])
     step = np.where(joint, np.diff(bend), 0.0)

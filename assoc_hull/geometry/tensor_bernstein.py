@@ -109,7 +109,18 @@ def _along(matrix: FloatArray, values: FloatArray, axis: int) -> FloatArray:
     """Apply a matrix along one parameter of many polynomials."""
     if len(matrix) == 1:
         return values
-    return np.moveaxis(np.moveaxis(values, axis + 1, -1) @ matrix.T, -1, axis + 1)
+    there, back = _orders(values.ndim, axis + 1)
+    product: FloatArray = values.transpose(there) @ matrix.T
+    return product.transpose(back)
+
+
+@cache
+def _orders(count: int, axis: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Give the orders of axes that bring one to the end, and back to its place."""
+    others = [each for each in range(count) if each != axis]
+    back = list(range(count - 1))
+    back.insert(axis, count - 1)
+    return (*others, axis), tuple(back)
 
 
 def halves(found: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:

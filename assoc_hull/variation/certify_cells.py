@@ -216,8 +216,7 @@ def _split(boxes: _Boxes) -> _Boxes:
         for axis in inner
     ])  # fmt: skip
     chosen = spread.argmax(axis=0)
-    parts = [_halved(boxes.taken(chosen == axis), axis) for axis in range(len(inner))]
-    parts = [part for part in parts if len(part.lower)]
+    parts = [_halved(boxes.taken(chosen == axis), axis) for axis in np.unique(chosen).tolist()]
     if not parts:
         return boxes
     foot = None

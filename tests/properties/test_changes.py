@@ -1,7 +1,7 @@
 """A change keeps what an edit did: run backward and forward it gives every bit of the tables."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
@@ -42,6 +42,7 @@ def _plain(state: HullState, table: str, name: str, value: object, row: int) -> 
     return value
 
 
+@settings(max_examples=30)
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5))
 def test_a_change_runs_both_ways_to_the_last_bit(which: int, todo: list[Task]) -> None:
     """Every edit of a session, taken back and made again by its change, leaves the same tables."""
@@ -73,6 +74,7 @@ def compare(hull: ah.Hull, then: dict[str, object]) -> None:
     assert [name for name in then if now[name] != then[name]] == []
 
 
+@settings(max_examples=30)
 @given(st.integers(0, POOL - 1), tasks((*SHAPES, *STRUCTURE), most=5))
 def test_a_printer_takes_the_fingerprint_while_the_structure_stays(
     which: int, todo: list[Task]

@@ -21,6 +21,7 @@ from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
 from assoc_hull.geometry.classical.arc_section import round_corners, through_points
+from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.camber_kinds import CamberKind
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck
@@ -294,6 +295,7 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "production_arcs": {"lines": "WL 2.5", "within": 0.01, "least_radius": 0.0},
     "sensitivities": {
         "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
     },
@@ -594,6 +596,23 @@ def test_two_hulls_are_compared_by_good_values(hull: ah.Hull, name: str) -> None
     assert set(inspect.signature(ah.compare).parameters) == set(given)
 
 
+@pytest.mark.parametrize("name", ["of", "lines", "allowed", "offsets", "tolerances"])
+def test_fairness_is_asked_for_with_good_values(hull: ah.Hull, name: str) -> None:
+    """Of a hull and of a plane curve: an error of the family or a result."""
+    before = hull.fingerprint
+    curve = Arcs.make([(0.0, 0.0)], [0.0], [0.1], [3.0])
+    of_hull: Given = {"of": hull, "lines": ["WL 2.5"], "allowed": 0, "offsets": None}
+    of_curve: Given = {"of": curve, "lines": None, "allowed": 0, "offsets": [(1.0, 0.1)]}
+    for given in (of_hull, of_curve):
+        given = {**given, "tolerances": 0.005}
+        assert not call(ah.fairness, given)
+        for trial in spoilt(given, name):
+            with trial as bad:
+                call(ah.fairness, bad)
+    assert hull.fingerprint == before
+    assert set(inspect.signature(ah.fairness).parameters) == {*of_hull, "tolerances"}
+
+
 @pytest.mark.parametrize("method", FLOATING)
 def test_every_argument_of_hydrostatics_is_tried(method: str) -> None:
     """As those of the methods."""
@@ -649,7 +668,7 @@ def test_every_public_name_is_tried() -> None:
         and not (isinstance(getattr(ah, name), type) and issubclass(getattr(ah, name), Exception))
     }
     tried = tried - {"wigley", "series60"} | set(FLOATING)
-    tried |= {"compare", "Study"}  # a study is made by `study`; see test_bad_targets
+    tried |= {"compare", "fairness", "Study"}  # a study is made by `study`; see test_bad_targets
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}

@@ -105,8 +105,8 @@ class LewisHull:
             what = f"Lewis hull: half-breadths {figure(beams[0])}, {figure(beams[-1])} at the ends"
             raise GeometryError(what, "let them be 0")
         if not 0.0 < deep < side or ((heights <= 0.0) | (heights >= deep)).any():
-            told = f"depth {figure(side)}, levels {heights.tolist()}"
-            what = f"Lewis hull: draught {figure(deep)}, {told}"
+            rest = f"depth {figure(side)}, levels {heights.tolist()}"
+            what = f"Lewis hull: draught {figure(deep)}, {rest}"
             raise GeometryError(what, "let levels lie below the draught, that below the depth")
         found = cls(stations, beams, full, deep, side, tuple(heights.tolist()), str(name))
         low = found.offsets[..., 1].min(axis=1)
@@ -137,7 +137,8 @@ class LewisHull:
 
     def _above_base(self, places: FloatArray) -> FloatArray:
         found: FloatArray = places * [1.0, -1.0] + [0.0, self.draught]
-        found[:, 0, 0] = 0.0
+        # The terms add up to the draught only by rounding.
+        found[:, 0] = 0.0
         return found
 
     def at_level(self, height: float) -> FloatArray:

@@ -116,7 +116,7 @@ class BiarcChain:
         flat = along.ravel()
         arc = np.minimum(np.searchsorted(self._ends, flat), len(self._ends) - 1)
         before = np.where(arc > 0, self._ends[arc - 1], 0.0)
-        return arc, np.minimum(flat - before, self.arcs.length[arc]), along.shape
+        return arc, flat - before, along.shape
 
 
 def biarc_chain(

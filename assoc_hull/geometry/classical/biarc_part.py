@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_runs import straight_runs
-from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.classical.checks import called, finite
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["TangentForm", "TangentPart", "known_form"]
@@ -40,7 +40,7 @@ def known_form(form: object) -> TangentForm:
         if isinstance(form, str) and form == each:
             return each  # type: ignore[no-any-return]
     raise GeometryError(
-        f"biarc: no form of tangents is called {form!r}",
+        f"biarc: no form of tangents is called {called(form)}",
         f"there are {', '.join(get_args(TangentForm))}", {"form": form},
     )  # fmt: skip
 

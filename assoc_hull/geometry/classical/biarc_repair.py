@@ -48,7 +48,7 @@ def least_radii(radius: ArrayLike, chords: BiarcChords) -> FloatArray:
         Not finite, below 0, of another count, or too small to be seen beside the chord.
     """
     count = len(chords)
-    flat = np.ndim(radius) == 0
+    flat = not isinstance(radius, list | tuple) and np.ndim(radius) == 0
     found = np.broadcast_to(finite(radius, "biarc", () if flat else (count,)), (count,))
     if (found < 0.0).any():
         index = int(np.flatnonzero(found < 0.0)[0])

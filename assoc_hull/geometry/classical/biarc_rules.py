@@ -28,6 +28,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_c import stationary_chords
 from assoc_hull.geometry.classical.biarc_family import BiarcChords
 from assoc_hull.geometry.classical.biarc_s import chords_of_radii, ratio_radii
+from assoc_hull.geometry.classical.checks import called
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["BiarcRule", "biarc_kinds", "known_rule", "ruled_chords"]
@@ -53,7 +54,7 @@ def known_rule(rule: object) -> BiarcRule:
         if isinstance(rule, str) and rule == each:
             return each  # type: ignore[no-any-return]
     raise GeometryError(
-        f"biarc: no rule is called {rule!r}", f"there are {', '.join(get_args(BiarcRule))}",
+        f"biarc: no rule is called {called(rule)}", f"there are {', '.join(get_args(BiarcRule))}",
         {"rule": rule},
     )  # fmt: skip
 

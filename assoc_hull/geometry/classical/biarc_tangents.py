@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_family import biarc_points
 from assoc_hull.geometry.classical.biarc_part import TangentForm, TangentPart
-from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.classical.checks import called, finite
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["BiarcTangents", "biarc_tangents"]
@@ -152,8 +152,9 @@ def _breaks(knuckles: object, count: int) -> list[int]:
     for each in given:
         place = each if isinstance(each, int | np.integer) else 0
         if not 0 < place < count - 1:
+            number = each if isinstance(each, int | float | np.number) else called(each)
             raise GeometryError(
-                f"biarc: knuckle {each} is no inner point of {count}",
+                f"biarc: knuckle {number} is no inner point of {count}",
                 f"give whole numbers from 1 to {count - 2}" if count > 2 else "there is none",
                 {"knuckle": each, "count": count},
             )  # fmt: skip

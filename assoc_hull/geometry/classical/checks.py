@@ -15,7 +15,19 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["figure", "finite", "inside", "require_together", "wrap"]
+__all__ = ["called", "figure", "finite", "inside", "require_together", "wrap"]
+
+
+def called(name: object) -> str:
+    """Write what was handed in for a name, for a message of one line.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.classical.checks import called
+    >>> called("cubic"), called([1, 2])
+    ("'cubic'", 'a list')
+    """
+    return repr(name) if isinstance(name, str) else f"a {type(name).__name__}"
 
 
 def figure(value: float) -> str:
@@ -62,13 +74,7 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None) -
     """
     each = ["..."] if shape is None else ["n" if size is None else str(size) for size in shape]
     wanted = f"({', '.join(each)})"
-    try:
-        found = np.array(values, np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise GeometryError(
-            f"{name}: expected shape {wanted}, got no array of numbers", "give numbers",
-            {"expected": wanted},
-        ) from None  # fmt: skip
+    found = _numbers(values, name, wanted)
     fits = shape is None or (
         found.ndim == len(shape)
         and all(size is None or size == has for size, has in zip(shape, found.shape, strict=True))
@@ -86,6 +92,20 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None) -
             f"{name}: non-finite value at index {index}", "give a number", {"index": index}
         )
     return found
+
+
+def _numbers(values: ArrayLike, name: str, wanted: str) -> FloatArray:
+    """Take real numbers of any shape, as a copy."""
+    try:
+        found = np.array(values)
+        if found.dtype.kind in "cmM":  # numpy would only warn
+            raise TypeError
+        return found.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise GeometryError(
+            f"{name}: expected shape {wanted}, got no array of numbers", "give numbers",
+            {"expected": wanted},
+        ) from None  # fmt: skip
 
 
 def inside(x: ArrayLike, name: str, least: float, most: float, slack: float = 0.0) -> FloatArray:

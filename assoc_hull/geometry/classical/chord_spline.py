@@ -227,7 +227,8 @@ class ChordSpline:
         index, segment, u = _roots(cubics, wanted)
         knot = self.knots
         t = np.clip(knot[segment] + u * (knot[segment + 1] - knot[segment]), 0.0, knot[-1])
-        index, t = _apart(index, t, 1e-9 * float(knot[-1]))
+        # A summit is as flat as rounding: both its sides may be found.
+        index, t = _apart(index, t, 4e-6 * float(knot[-1]))
         points = self.at(t).copy()
         points[:, column] = wanted[index]
         return Meets(index, t, points)

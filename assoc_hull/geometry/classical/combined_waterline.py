@@ -101,7 +101,7 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
         over = "y1" if level == 0.0 else "y1 - A"
         what = f"waterline: y1' = {figure(s)} >= {over} = {figure(height)}: conic is not real "
         raise GeometryError(
-            what + "near the end; move x1", "toward the end, or take less slope there",
+            what + "near the end; move x1", "let it lie nearer to the end, or take less slope",
             {"slope": s, "y1": height},
         )  # fmt: skip
     b1, b2 = conic_coefficients(height, s).tolist()

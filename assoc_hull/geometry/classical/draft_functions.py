@@ -31,6 +31,10 @@ _NOTE = (
 )
 
 
+_SLACK = 1e-12
+"""So far outside, in parts of the range, a level counts as the end."""
+
+
 @attrs.frozen(eq=False)
 class DraftFunctions:
     """Coefficients of one formula at some levels, and between them.
@@ -68,7 +72,8 @@ class DraftFunctions:
         values : (n, k)
             Coefficients at each level.
         degree : int or None
-            Of polynomials of least squares; None for a natural cubic spline through all.
+            Of polynomials of least squares; None for a cubic spline through all, its
+            ends free (no knot beside them).
 
         Raises
         ------
@@ -90,7 +95,7 @@ class DraftFunctions:
             what = f"draft functions: {len(z)} levels that do not all rise"
             raise GeometryError(what, "give two or more, from below upward")
         if degree is None:
-            pieces = CubicSpline(z, table, bc_type="natural").c
+            pieces = CubicSpline(z, table).c
         else:
             pieces = _polynomials(z, table, degree)
         return cls(z, table, degree, (_NOTE,), np.array(pieces))
@@ -105,7 +110,8 @@ class DraftFunctions:
         """
         from scipy.interpolate import PPoly
 
-        places = inside(z, "draft functions", self.levels[0], self.levels[-1])
+        low, high = self.levels[[0, -1]].tolist()
+        places = inside(z, "draft functions", low, high, _SLACK * (high - low))
         if self.degree is None:
             return np.asarray(PPoly(self._pieces, self.levels)(places))
         found = polynomial.polyval(_unit(places, self.levels), self._pieces)

@@ -34,6 +34,9 @@ _VANDER = {
     "legendre": (legendre.legvander, legendre.legvander2d),
     "chebyshev": (chebyshev.chebvander, chebyshev.chebvander2d),
 }
+_SLACK = 1e-12
+"""So far outside, in parts of the span, a place counts as the end."""
+
 _MOST = 60
 """Degrees above this say nothing about a hull."""
 
@@ -219,7 +222,7 @@ def _matrix(
 def _pair(
     x: ArrayLike, z: ArrayLike, x_span: tuple[float, float], z_span: tuple[float, float]
 ) -> tuple[FloatArray, FloatArray]:
-    along, up = inside(x, "series", *_span(x_span)), inside(z, "series", *_span(z_span))
+    along, up = _within(x, x_span), _within(z, z_span)
     try:
         one, other = np.broadcast_arrays(along, up)
     except ValueError:
@@ -230,7 +233,12 @@ def _pair(
 
 def _mapped(x: FloatArray, span: tuple[float, float]) -> FloatArray:
     low, high = _span(span)
-    return np.asarray(2.0 * (inside(x, "series", low, high) - low) / (high - low) - 1.0)
+    return np.asarray(2.0 * (_within(x, span) - low) / (high - low) - 1.0)
+
+
+def _within(x: ArrayLike, span: tuple[float, float]) -> FloatArray:
+    low, high = _span(span)
+    return inside(x, "series", low, high, _SLACK * (high - low))
 
 
 def _span(span: tuple[float, float]) -> tuple[float, float]:

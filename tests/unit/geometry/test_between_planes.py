@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
@@ -122,6 +122,7 @@ def test_no_body_lies_beyond_its_ends(exact_wigley: Spans) -> None:
     assert cross_section(exact_wigley, 101.0).count == 0
 
 
+@settings(max_examples=20)
 @given(x=st.floats(12.0, 88.0), height=st.floats(3.0, 7.0), trim=st.floats(-0.01, 0.01))
 def test_parts_of_raked_strips_add_up_to_the_body(
     raked: Spans, x: float, height: float, trim: float

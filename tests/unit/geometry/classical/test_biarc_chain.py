@@ -1,6 +1,7 @@
 """Chains of biarcs through points: published curvatures, order of the error, knuckles, frames."""
 
 from collections.abc import Callable
+from typing import cast
 
 import numpy as np
 import pytest
@@ -140,6 +141,10 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "place that is no number": (
         lambda: chain_of_five().at(np.nan), "biarc chain: non-finite value at index 0; ",
+    ),
+    "places of a ragged list": (
+        lambda: chain_of_five().at(cast(list[float], [1, [2], 3])),
+        "biarc chain: expected shape (...), got no array of numbers; ",
     ),
     "distance of points in space": (
         lambda: chain_of_five().distances([[1, 2, 3]]),

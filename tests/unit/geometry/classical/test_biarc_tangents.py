@@ -16,7 +16,7 @@ from assoc_hull.geometry.classical.checks import wrap
 from assoc_hull.geometry.curves import FloatArray
 
 FIVE = np.array([[0, 0], [1, 0.8], [2.5, 1.5], [4, 1.7], [6, 1.2]])
-ROW = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]
+ROW = [[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]
 CORNER = [*ROW, [3.0, 1.0], [3.0, 2.0]]
 
 
@@ -48,6 +48,8 @@ def test_a_graph_takes_given_slopes_linearly() -> None:
     points = np.stack([x, x * x], axis=1)
     found = biarc_tangents(points, form="graph", start=(1.0, 0.0), end=(2.0, 18.0))
     assert_allclose(found.leaving[:, 1] / found.leaving[:, 0], 2.0 * x, atol=1e-14)
+    back = biarc_tangents(points[::-1], form="graph", start=(-2.0, -18.0))
+    assert_allclose(back.leaving[:2], -found.leaving[:1:-1], atol=1e-14)
     two = biarc_tangents(points[:2], form="graph", end=(1.0, 2.0))
     assert_allclose(two.leaving[0], [1.0, 0.0], atol=1e-15)
 
@@ -123,9 +125,9 @@ def test_three_points_with_both_ends_given() -> None:
 
 def test_a_straight_run_hands_its_direction_to_all_its_points() -> None:
     """Three points in a row or more; next to it a free end continues as from a known tangent."""
-    points = np.array([[-1.0, 1.0], *ROW, [4.0, 1.0], [4.2, 2.0]])
+    points = np.array([[-2.0, 1.0], *ROW, [4.0, 1.0], [4.2, 2.0]])
     found = biarc_tangents(points)
-    assert found.leaving[1:5].tolist() == [[1.0, 0.0]] * 4
+    assert found.leaving[1:6].tolist() == [[1.0, 0.0]] * 5
     assert_allclose(found.leaving[0], [0.0, -1.0], atol=1e-15)
     assert (found.leaving == found.arriving).all()
 
@@ -133,7 +135,7 @@ def test_a_straight_run_hands_its_direction_to_all_its_points() -> None:
 def test_a_given_end_wins_over_a_straight_run() -> None:
     """Only the end itself leaves the run."""
     found = biarc_tangents(ROW, start=(1.0, 1.0))
-    assert_allclose(found.leaving, [[0.5**0.5] * 2, [1, 0], [1, 0], [1, 0]])
+    assert_allclose(found.leaving, [[0.5**0.5] * 2, *[[1, 0]] * 4])
 
 
 def test_knuckles_carry_two_tangents() -> None:
@@ -149,9 +151,9 @@ def test_knuckles_carry_two_tangents() -> None:
 
 def test_neighbours_of_knuckles_may_be_runs() -> None:
     """A corner of two straight runs is allowed where it is marked."""
-    found = biarc_tangents(CORNER, knuckles=(3,))
-    assert found.arriving[3].tolist() == [1.0, 0.0]
-    assert found.leaving[3].tolist() == [0.0, 1.0]
+    found = biarc_tangents(CORNER, knuckles=(4,))
+    assert found.arriving[4].tolist() == [1.0, 0.0]
+    assert found.leaving[4].tolist() == [0.0, 1.0]
 
 
 WRONG: dict[str, tuple[Callable[[], object], str]] = {
@@ -163,7 +165,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a corner between runs": (
         lambda: biarc_tangents(CORNER),
-        "biarc: point 3 belongs to two different straight runs; mark it as a knuckle; ",
+        "biarc: point 4 belongs to two different straight runs; mark it as a knuckle; ",
     ),
     "turning back": (
         lambda: biarc_tangents([[0, 1], [1, 0], [3, 0], [2, 0], [2, 5]]),
@@ -195,7 +197,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "knuckle of words": (
         lambda: biarc_tangents(FIVE, knuckles=cast(list[int], ["2"])),
-        "biarc: knuckle 2 is no inner point of 5; give whole numbers from 1 to 3",
+        "biarc: knuckle '2' is no inner point of 5; give whole numbers from 1 to 3",
     ),
     "knuckles that are one number": (
         lambda: biarc_tangents(FIVE, knuckles=cast(list[int], 9)),
@@ -215,7 +217,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "form of several words": (
         lambda: biarc_tangents(FIVE, form=cast(TangentForm, np.array(["chord", "graph"]))),
-        "biarc: no form of tangents is called array(",
+        "biarc: no form of tangents is called a ndarray; there are ",
     ),
     "beyond all measure": (
         lambda: biarc_tangents([[0.0, 0.0], [1e200, 1.0]]),

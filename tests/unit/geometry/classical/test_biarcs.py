@@ -15,6 +15,7 @@ from assoc_hull.geometry.classical.biarc_family import (
     one_sided_shares,
 )
 from assoc_hull.geometry.classical.biarc_rules import BiarcRule
+from assoc_hull.geometry.classical.biarc_s import ratio_radii
 from assoc_hull.geometry.classical.biarcs import Biarcs, biarcs, free_biarcs
 from assoc_hull.geometry.curves import FloatArray
 
@@ -90,6 +91,7 @@ def test_a_ratio_of_four_is_repaired_or_falls_back(mirrored: float) -> None:
         assert_allclose(equal.lengths, [11.049534246781555], rtol=1e-14)
         assert equal.fallback.tolist() == [rule == "inverse"]
         assert bool(equal.notes) == (rule == "inverse")
+        assert all(note.startswith("biarc: fallback to equal chords, ") for note in equal.notes)
         assert ends_rightly(equal)
 
 
@@ -177,6 +179,48 @@ def test_a_least_radius_of_an_inflection_keeps_both_arcs_tangent() -> None:
         assert ends_rightly(found)
     same = over_ten(40.0, 20.0, least=limit)
     assert not same.repaired.any()
+
+
+def test_the_rule_holds_up_to_a_ratio_of_three() -> None:
+    """59.9 to 20 degrees bends one way; 60 to 20 needs a radius of nil, and has equal chords."""
+    below, at = over_ten(59.9, -20.0), over_ten(60.0, -20.0)
+    assert (below.fallback.tolist(), at.fallback.tolist()) == ([False], [True])
+    assert 0.0 < radii(below).min() < 0.02
+    assert np.abs(at.curvatures).max() < 1.0
+
+
+def test_an_angle_of_1e_10_is_one() -> None:
+    """Beside it 1e-12 is none: a line, a circle, the least jump take its place."""
+    none, some = 1e-12, 1e-10
+    one = [none, some, none, some, 0.3, 0.3]
+    other = [none, some, -0.2, -0.2, -0.3 - none, -0.3 - some]
+    found = biarcs([[0, 0]] * 6, one, [[1, 0]] * 6, other)
+    assert found.kind.tolist() == ["line", "S", "S", "C", "circle", "C"]
+
+
+def test_a_radius_that_is_there_already_changes_nothing() -> None:
+    """To ask for the sharper radius, to rounding, is to ask for nothing, of circles, too."""
+    rng = np.random.default_rng(11)
+    one, two = rng.uniform(-1.2, 1.2, (2, 300))
+    two[:100] = -one[:100]
+    span = ([[0, 0]] * 300, one, [[1, 0]] * 300, two)
+    free = biarcs(*span, rule="equal_chord")
+    sharper = (1.0 + 1e-13) / np.abs(free.curvatures).max(axis=1)
+    kept = biarcs(*span, rule="equal_chord", least_radius=sharper)
+    assert not kept.repaired.any()
+    assert np.array_equal(kept.arcs.length, free.arcs.length)
+
+
+def test_the_limits_of_radii_are_sharp() -> None:
+    """The limit itself: out of reach of one bend, reached by both arcs of an inflection."""
+    a, b = np.radians([[60.0], [15.0]])
+    limit = float(one_bend_limit(np.array([CHORD]), a, b)[0])
+    with pytest.raises(GeometryError):
+        over_ten(60.0, -15.0, least=limit)
+    assert over_ten(60.0, -15.0, least=limit * (1.0 - 1e-9)).repaired.all()
+    a, b = np.radians([40.0]), np.radians([20.0])
+    even = float(ratio_radii(np.array([CHORD]), a, b, np.ones(1))[0][0])
+    assert_allclose(radii(over_ten(40.0, 20.0, least=even)), even, rtol=1e-12)
 
 
 def test_equal_chords_may_be_repaired_too() -> None:
@@ -268,13 +312,21 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, "fair")),
         "biarc: no rule is called 'fair'; there are inverse, as_printed, min_jump, equal_chord",
     ),
+    "least radii of other counts": (
+        lambda: biarcs([[0, 0]], [0.1], [[1, 0]], [0.2], least_radius=[1, 2]),
+        "biarc: expected shape (1), got (2,); ",
+    ),
+    "complex directions": (
+        lambda: biarcs([[0, 0]], np.array([1j]), [[1, 0]], [0.2]),
+        "biarc: expected shape (1), got no array of numbers; ",
+    ),
     "least radius of nothing": (
         lambda: over_ten(60.0, -15.0, least=1e-300),
         "biarc: least radius 1e-300 is none beside the chord; give 0 for none",
     ),
     "rule of several words": (
         lambda: over_ten(1.0, 1.0, cast(BiarcRule, np.array(["inverse", "fair"]))),
-        "biarc: no rule is called array(",
+        "biarc: no rule is called a ndarray; there are ",
     ),
     "beyond all measure": (
         lambda: biarcs([[0, 0]], [0], [[1, -1e300]], [0]),
