@@ -27,6 +27,9 @@ __all__ = ["CamberKind"]
 _SLACK = 1e-9
 """So far beyond the reference half-breadth, as a part of it, counts as on it."""
 
+_LARGEST = 1e6
+"""No half-breadth (m) is larger."""
+
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(2)
 """Exact for cubics: each piece of a camber curve is a parabola."""
 
@@ -96,11 +99,8 @@ class CamberKind:
         most, drop, inner = (
             float(finite(each, "camber", ())) for each in (half_breadth, total, joint)
         )
-        if not most > 0.0:
-            raise GeometryError(
-                f"camber: half-breadth {figure(most)}", "give one above 0", {"B": most}
-            )
-        if known in (2, 4) and not 0.0 < inner < most:
+        _require_size(most)
+        if known in (2, 4) and not _SLACK * most < inner < most:
             raise GeometryError(
                 f"camber: y1={figure(inner)} must be inside (0, {figure(most)})",
                 "give a joint between the centre line and the reference half-breadth",
@@ -148,6 +148,7 @@ class CamberKind:
             )  # fmt: skip
         y, drops = rows[:, 0].copy(), rows[:, 1].copy()
         most, drop = float(y[-1]), float(drops[-1])
+        _require_size(most)
         return cls(known, most, drop, 0.0, "half", _scale(scale), y, drops, np.zeros(known - 1))
 
     def drop(self, y: ArrayLike, half_breadth: ArrayLike | None = None) -> FloatArray:
@@ -211,6 +212,14 @@ class CamberKind:
                 {"y": first, "B": self.half_breadth},
             )  # fmt: skip
         return np.minimum(asked, self.half_breadth)
+
+
+def _require_size(half_breadth: float) -> None:
+    if not _SLACK < half_breadth <= _LARGEST:
+        raise GeometryError(
+            f"camber: half-breadth {figure(half_breadth)}",
+            f"give one above 0, and of at most {_LARGEST:g} m", {"B": half_breadth},
+        )  # fmt: skip
 
 
 def _kind(kind: object) -> int:

@@ -58,6 +58,16 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     "beyond the reference": (
         "camber: y=15.1 beyond reference half-breadth 15", lambda: PARABOLA.drop([1.0, -15.1])
     ),
+    "camber joint next to the centre line": (
+        "camber: y1=1e-308 must be inside (0, 15)",
+        lambda: CamberKind.make(2, 15.0, 0.5, joint=1e-308),
+    ),
+    "camber of no ship": (
+        "camber: half-breadth 1e+308", lambda: CamberKind.make(2, 1e308, 0.5, joint=1.0)
+    ),
+    "house in no decks": (
+        "deck house: non-finite value at index 0", lambda: house().moved(float("nan"))
+    ),
     "camber without breadth": ("camber: half-breadth 0", lambda: CamberKind.make(1, 0.0, 0.5)),
     "camber half of kind 1": (
         "camber: kind 1 read on the half-breadth", lambda: CamberKind.through(1, [(0, 0)])
