@@ -232,7 +232,7 @@ class ArcCurve:
         """
         arcs = self.arcs
         piece, low, high = np.arange(len(arcs)), np.zeros(len(arcs)), arcs.length
-        if not (isinstance(level, float) and level == np.inf):
+        if shown(level) not in ("inf", "np.float64(inf)"):
             level = float(finite(level, self.name, ()))
             piece, low, high = self._parts(level)
         middle = arcs.at(piece, 0.5 * (low + high))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -165,13 +166,13 @@ def test_what_makes_no_curve_is_refused_in_words(case: str) -> None:
     assert caught.value.remedy
 
 
-ASKED: dict[str, Callable[[object], object]] = {
-    "sheer": lambda x: SHEER.at(x),  # type: ignore[arg-type]
-    "camber": lambda y: PARABOLA.drop(y),  # type: ignore[arg-type]
-    "deck": lambda x: DECK.at(x, 0.0),  # type: ignore[arg-type]
-    "deck across": lambda y: DECK.at(0.0, y),  # type: ignore[arg-type]
-    "space curve": lambda t: SpaceCurve.make(SPACE).at(t),  # type: ignore[arg-type]
-    "section": lambda s: through_points([(0, 0), (9, 0)]).at(s),  # type: ignore[arg-type]
+ASKED: dict[str, Callable[[Any], Any]] = {
+    "sheer": lambda x: SHEER.at(x),
+    "camber": lambda y: PARABOLA.drop(y),
+    "deck": lambda x: DECK.at(x, 0.0),
+    "deck across": lambda y: DECK.at(0.0, y),
+    "space curve": lambda t: SpaceCurve.make(SPACE).at(t),
+    "section": lambda s: through_points([(0, 0), (9, 0)]).at(s),
 }
 
 
@@ -182,9 +183,9 @@ def test_places_may_have_any_shape_and_must_be_numbers(case: str) -> None:
     last = (3,) if case == "space curve" else (2,) if case == "section" else ()
     for given in (1.0, [1.0, 2.0], np.ones((2, 3))):
         assert np.shape(ask(given)) == np.shape(given) + last
-    for given in ([1, [2]], "a", None, [np.nan], object()):
+    for bad in ([1, [2]], "a", None, [np.nan], object()):
         with pytest.raises(GeometryError):
-            ask(given)
+            ask(bad)
 
 
 def test_a_job_of_the_required_types_is_enough() -> None:
