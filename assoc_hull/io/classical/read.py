@@ -75,7 +75,8 @@ def read_definition(text: str, source: str) -> ClassicalDefinition:
     GeometryError
         Numbers of which no hull can be made.
     """
-    cards = read_cards(word(text, "text", "in read_definition"), source)
+    where = "in read_definition"
+    cards = read_cards(word(text, "text", where), word(source, "source", where))
     if cards.kind not in READERS:
         remedy = f"give one of {', '.join(READERS)}"
         raise BadInputError(f"texts of the kind {cards.kind} are not read", f"in {source}", remedy)
