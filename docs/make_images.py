@@ -123,6 +123,11 @@ def prelikon_ship() -> Figure:
     return lines_plan(examples.prelikon_ship(), paper="A4")
 
 
+def seaking_ship() -> Figure:
+    """Draw the lines plan of the coaster of lines along the hull."""
+    return lines_plan(examples.seaking_ship(), paper="A4")
+
+
 def sfolds_ship() -> Figure:
     """Draw the lines plan of the ferry of portions."""
     return lines_plan(examples.sfolds_ship(), paper="A4")
@@ -137,6 +142,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
     "prelikon_ship": prelikon_ship,
+    "seaking_ship": seaking_ship,
     "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,

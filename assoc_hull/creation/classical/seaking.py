@@ -9,17 +9,21 @@ Mathematical Method for Design and Production", J. SNAK.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import all_of, instance
 from assoc_hull.creation.classical.report import ClassicalReport
 from assoc_hull.creation.classical.seaking_sections import MidshipSection, Section
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage import Appendage
+from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
@@ -35,35 +39,74 @@ _SAME = 1e-6
 """Places (m) that differ by less are one."""
 
 
+_WHERE = "in a ship by boundary data"
+
+
+def _of(kind: type) -> Callable[[object, attrs.Attribute[Any], object], None]:
+    """Give a validator: a value of this class."""
+
+    def look(_: object, field: attrs.Attribute[Any], value: object) -> None:
+        instance(value, kind, field.name, _WHERE)
+
+    return look
+
+
+def _all_of(kind: type, name: str) -> Callable[[object], tuple[Any, ...]]:
+    """Give a converter: values of this class as a tuple."""
+
+    def take(given: object) -> tuple[Any, ...]:
+        return tuple(all_of(given, kind, name, _WHERE))
+
+    return take
+
+
+def _place(given: object) -> float:
+    return float(finite(given, "midship", ()))  # type: ignore[arg-type]
+
+
+def _places(given: ArrayLike) -> FloatArray:
+    return finite(given, "frames", (None,))
+
+
+def _numbers(given: ArrayLike) -> tuple[float, ...]:
+    if isinstance(given, tuple | list) and not given:
+        return ()
+    return tuple(finite(given, "buttocks", (None,)).tolist())
+
+
 @attrs.frozen
 class Knuckle:
     """A knuckle line: its name, and half-breadths and heights over x."""
 
-    name: str
-    line: KnuckleLine
+    name: str = attrs.field(validator=_of(str))
+    line: KnuckleLine = attrs.field(validator=_of(KnuckleLine))
 
 
 @attrs.frozen
 class Parallel:
     """A midship section, and from where to where (m) the ship has it."""
 
-    section: Midship
-    first: float
-    last: float
+    section: Midship = attrs.field(validator=_of(Midship))
+    first: float = attrs.field(converter=_place)
+    last: float = attrs.field(converter=_place)
 
 
 @attrs.frozen
 class Attached:
     """An appendage: its name, and whether it is drawn on one side and stands on both."""
 
-    name: str
-    body: Appendage
-    both: bool = True
+    name: str = attrs.field(validator=_of(str))
+    body: Appendage = attrs.field(validator=_of(Appendage))
+    both: bool = attrs.field(default=True, validator=_of(bool))
 
     @property
     def volume(self) -> float:
         """With its sign, of both sides, m3."""
         return (2.0 if self.both else 1.0) * self.body.volume
+
+
+def _rows(given: ArrayLike) -> FloatArray:
+    return finite(given, "deck", (None, 2))
 
 
 @attrs.frozen(eq=False)
@@ -80,14 +123,14 @@ class DeckCamber:
         Rows (x, r), radii of the corner; empty for none. Beyond its ends there is none.
     """
 
-    rise: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)))
+    rise: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)), converter=_rows)
     kind: str = "parabola"
-    corner: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)))
+    corner: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)), converter=_rows)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.rise, self.corner)
+        one_of(self.kind, KINDS, "camber: kind")
         for rows, name in ((self.rise, "camber"), (self.corner, "corner radius")):
-            finite(rows, name, (None, 2))
             if (np.diff(rows[:, 0]) <= 0.0).any():
                 row = int(np.argmax(np.diff(rows[:, 0]) <= 0.0)) + 1
                 what = f"{name}: x not strictly increasing at row {row}"
@@ -131,17 +174,23 @@ class Seaking:
         Notes of whoever made it.
     """
 
-    particulars: Particulars
-    keel: KeelOutline
-    waterlines: tuple[ParallelWaterline, ...]
-    deck: KnuckleLine
-    frames: FloatArray
-    parallel: Parallel | None = None
-    knuckles: tuple[Knuckle, ...] = ()
-    camber: DeckCamber = attrs.field(factory=DeckCamber)
-    appendages: tuple[Attached, ...] = ()
-    buttocks: tuple[float, ...] = ()
-    told: tuple[str, ...] = ()
+    particulars: Particulars = attrs.field(validator=_of(Particulars))
+    keel: KeelOutline = attrs.field(validator=_of(KeelOutline))
+    waterlines: tuple[ParallelWaterline, ...] = attrs.field(
+        converter=_all_of(ParallelWaterline, "waterlines")
+    )
+    deck: KnuckleLine = attrs.field(validator=_of(KnuckleLine))
+    frames: FloatArray = attrs.field(converter=_places)
+    parallel: Parallel | None = attrs.field(
+        default=None, validator=attrs.validators.optional(_of(Parallel))
+    )
+    knuckles: tuple[Knuckle, ...] = attrs.field(default=(), converter=_all_of(Knuckle, "knuckles"))
+    camber: DeckCamber = attrs.field(factory=DeckCamber, validator=_of(DeckCamber))
+    appendages: tuple[Attached, ...] = attrs.field(
+        default=(), converter=_all_of(Attached, "appendages")
+    )
+    buttocks: tuple[float, ...] = attrs.field(default=(), converter=_numbers)
+    told: tuple[str, ...] = attrs.field(default=(), converter=_all_of(str, "told"))
 
     def __attrs_post_init__(self) -> None:
         freeze(self.frames)
