@@ -11,7 +11,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.classical.net import classical_net
 from assoc_hull.creation.classical.report import ClassicalReport
-from assoc_hull.creation.classical.seaking import DeckCamber, Parallel, Seaking
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.seaking_sections import MidshipSection
 from assoc_hull.creation.classical.seaking_sums import sums
 from assoc_hull.errors import GeometryError
