@@ -15,6 +15,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import flotation
+from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -107,10 +108,8 @@ class ClassicalReport:
         UnknownNameError
             There is none.
         """
-        from assoc_hull.errors import UnknownNameError
-
         for each in self.figures:
-            if each.name == name:
+            if isinstance(name, str) and each.name == name:
                 return each
         raise UnknownNameError("figure", name, tuple(each.name for each in self.figures))
 
