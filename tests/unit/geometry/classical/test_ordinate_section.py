@@ -100,8 +100,8 @@ def test_the_moment_is_that_of_the_outline(last: float) -> None:
 
 def test_the_area_below_a_height_of_a_straight_floor() -> None:
     """Where parabolas are straight lines: a triangle."""
-    wedge = section(zb=[0.0, 0.2, 0.4, 0.6, 0.8])
-    assert wedge.area_below(0.5) == pytest.approx(0.5 * 7.5, rel=1e-12)
+    wedge = section(zb=[0.0, 0.125, 0.25, 0.375, 0.5], yw=[12.0, *GIVEN["yw"][1:]])
+    assert wedge.area_below(0.3) == pytest.approx(0.3 * 7.2, rel=1e-12)
 
 
 @pytest.mark.parametrize("level", [-0.1, 0.0, 0.05, 0.5, 0.85, 0.9, 3.3, 12.4])

@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 from assoc_hull.geometry.classical.portion import KINDS, Portion, require_apart, three_eighths
 from tests.unit.geometry.classical.test_ordinate_section import section
@@ -164,7 +164,7 @@ def test_steps_within_a_millionth_are_equal() -> None:
 
 
 def test_what_is_no_section_is_refused() -> None:
-    """A portion takes sections only."""
-    with pytest.raises(ValueError, match="sections"):
-        Portion.make(3, X, [1.0] * 5)  # type: ignore[list-item]
-    assert isinstance(section(), OrdinateSection)
+    """A portion takes sections only; a number that stands as an array is no list of them."""
+    for given in ([1.0] * 5, np.array(5.0)):
+        with pytest.raises(ah.AssocHullError, match="sections"):
+            Portion.make(3, X, given)  # type: ignore[arg-type]
