@@ -18,7 +18,8 @@ from assoc_hull.analysis.parameters import DRAUGHT
 from assoc_hull.creation.classical.middle_body import MiddleBody
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.creation.classical.prelikon_stations import Station
-from assoc_hull.creation.classical.seaking import DeckCamber, Parallel, Seaking
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.classical.appendage import Appendage

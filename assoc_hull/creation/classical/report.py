@@ -16,6 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.flotation import flotation
 from assoc_hull.arguments import word
+from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -108,8 +109,6 @@ class ClassicalReport:
         UnknownNameError
             There is none.
         """
-        from assoc_hull.errors import UnknownNameError
-
         word(name, "name", "of a figure")
         for each in self.figures:
             if each.name == name:

@@ -57,7 +57,7 @@ class Appendage:
         freeze(self.sections, self.x)
 
     @classmethod
-    def make(cls, sections: Sequence[ArrayLike], x: ArrayLike, sign: int = 1) -> Self:
+    def make(cls, sections: Sequence[ArrayLike], x: ArrayLike, sign: float = 1) -> Self:
         """Check what is handed in; arguments as the attributes.
 
         Raises

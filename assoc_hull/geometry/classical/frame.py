@@ -120,9 +120,8 @@ class Frame:
         name = f"frame x={figure(float(finite(x, 'frame', ())))}"
         one_of(camber_kind, KINDS, f"{name}: camber kind")
         level = flat is not None
-        foot, radius = (
-            float(finite(each, name, ())) for each in (flat if level else keel, corner_radius)
-        )
+        start = keel if flat is None else flat
+        foot, radius = (float(finite(each, name, ())) for each in (start, corner_radius))
         first = np.array([foot, 0.0] if level else [0.0, foot])
         rise = None if camber is None else float(finite(camber, name, ()))
         top = finite(deck_side, name, (2,))
@@ -131,8 +130,8 @@ class Frame:
         notes = list(spacing_notes(water, first, top, name))
         pieces, jumps = [], []
         for number, run in enumerate(runs):
-            start = 0.0 if level and not number else None
-            bend, told = run_bends(run.points, start, name)
+            lean = 0.0 if level and not number else None
+            bend, told = run_bends(run.points, lean, name)
             pieces.append(Quadratics.over(run.points, bend))
             jumps.append(tangent_jumps(pieces[-1]))
             notes += told
@@ -144,8 +143,8 @@ class Frame:
             side, corner = _rounded(side, top, rise or 0.0, radius, camber_kind, name)
         deck = None if rise is None else deck_pieces(top, rise, camber_kind, corner)
         return cls(
-            float(x), foot if level else 0.0, runs, side, corner, deck, np.concatenate(jumps), tuple(notes),
-            level, whole.area(),
+            float(x), foot if level else 0.0, runs, side, corner, deck, np.concatenate(jumps),
+            tuple(notes), level, whole.area(),
         )  # fmt: skip
 
     @property

@@ -40,7 +40,8 @@ from typing import Literal
 import numpy as np
 
 from assoc_hull.arguments import shown
-from assoc_hull.creation.classical.seaking import Attached, DeckCamber, Knuckle, Parallel, Seaking
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import Attached, DeckCamber, Knuckle, Parallel
 from assoc_hull.errors import BadInputError, GeometryError
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
