@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.linear_fits import whole_number
+from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.taken import numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]
@@ -160,9 +160,9 @@ def lewis_sections(
     >>> lewis_sections([6.0], [5.0], [0.94]).terms[0].round(9).tolist()
     [0.081927588, -0.098796528]
     """
-    beam = finite(half_breadth, "conformal section", (None,))
+    beam = numbers(half_breadth, "conformal section", (None,))
     deep, sigma = (
-        finite(each, "conformal section", (len(beam),)) for each in (draught, coefficient)
+        numbers(each, "conformal section", (len(beam),)) for each in (draught, coefficient)
     )
     for name, values in (("half-breadth", beam), ("draught", deep), ("area coefficient", sigma)):
         bad = np.flatnonzero(values <= 0.0)
@@ -218,7 +218,7 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
     """
     from scipy.optimize import least_squares
 
-    points = finite(offsets, "conformal section", (None, 2))
+    points = numbers(offsets, "conformal section", (None, 2))
     if len(points) < 3:
         what = f"conformal section: {len(points)} offsets"
         raise GeometryError(what, "give three or more")

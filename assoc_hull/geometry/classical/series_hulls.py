@@ -21,8 +21,9 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.linear_fits import linear_fit, whole_number
+from assoc_hull.geometry.classical.checks import called, figure, inside
+from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.taken import listed, named, numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
@@ -75,7 +76,7 @@ def fit_series(
     >>> round(float(fit_series(x, (1 - x**2) * (1 + 0.2 * x), 3, "chebyshev")[2]), 9)
     -0.5
     """
-    places = finite(x, "series", (None,))
+    places = numbers(x, "series", (None,))
     return linear_fit(series_columns(places, degree, basis, span), y, name="series").coefficients
 
 
@@ -96,7 +97,7 @@ def series_columns(
     [[1.0, -1.0, 1.0], [1.0, 1.0, 1.0]]
     """
     one = _VANDER[_known(basis)][0]
-    return np.asarray(one(_mapped(finite(x, "series", (None,)), span), _degree(degree)))
+    return np.asarray(one(_mapped(numbers(x, "series", (None,)), span), _degree(degree)))
 
 
 @attrs.frozen(eq=False)
@@ -192,16 +193,23 @@ def fit_series_hull(
     >>> round(float(hull.at(3.0, 1.0)), 9), hull.rms < 1e-12
     (18.0, True)
     """
-    places = finite(x, "series", (None,))
-    levels = finite(z, "series", (len(places),))
+    places = numbers(x, "series", (None,))
+    levels = numbers(z, "series", (len(places),))
     along, up = _pair(places, levels, x_span, z_span)
-    size = _degree(degrees[0]), _degree(degrees[1])
-    rows = _matrix(along, up, size, _known(basis), (x_span, z_span), tuple(columns))
+    pair = listed(degrees, "series: degrees")
+    if len(pair) != 2:
+        raise GeometryError(f"series: {len(pair)} degrees", "give one in x and one in z")
+    size = _degree(pair[0]), _degree(pair[1])
+    further = tuple(listed(columns, "series: columns"))
+    for column in further:
+        if not callable(column):
+            raise GeometryError(f"series: column {called(column)}", "give a function of x and z")
+    rows = _matrix(along, up, size, _known(basis), (x_span, z_span), further)
     fit = linear_fit(rows, y, weights, "series")
     count = (size[0] + 1) * (size[1] + 1)
     table = fit.coefficients[:count].reshape(size[0] + 1, size[1] + 1).copy()
     extra = fit.coefficients[count:].copy()
-    return SeriesHull(table, extra, basis, _span(x_span), _span(z_span), tuple(columns), fit.rms)
+    return SeriesHull(table, extra, basis, _span(x_span), _span(z_span), further, fit.rms)
 
 
 def _matrix(
@@ -215,7 +223,7 @@ def _matrix(
     """Give a row per place: products of polynomials, x outside, then further columns."""
     two = _VANDER[basis][1]
     rows = two(_mapped(x, spans[0]), _mapped(z, spans[1]), degrees)
-    more = [finite(column(x, z), "series", (len(x),)) for column in columns]
+    more = [numbers(column(x, z), "series", (len(x),)) for column in columns]
     return np.column_stack([rows, *more])
 
 
@@ -242,7 +250,7 @@ def _within(x: ArrayLike, span: tuple[float, float]) -> FloatArray:
 
 
 def _span(span: tuple[float, float]) -> tuple[float, float]:
-    low, high = finite(span, "series", (2,)).tolist()
+    low, high = numbers(span, "series", (2,)).tolist()
     if not low < high:
         what = f"series: span from {figure(low)} to {figure(high)}"
         raise GeometryError(what, "give the lesser end first")
@@ -254,7 +262,5 @@ def _degree(degree: int) -> int:
 
 
 def _known(basis: Basis) -> Basis:
-    if basis not in _VANDER:
-        what = f"series: no basis is called {str(basis)!r:.40}"
-        raise GeometryError(what, f"there are {', '.join(_VANDER)}")
+    named(basis, "series: no basis is called", _VANDER)
     return basis
