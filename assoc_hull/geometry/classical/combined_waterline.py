@@ -27,7 +27,7 @@ from assoc_hull.geometry.classical.checks import figure, inside
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import Quintic, fit_quintic
-from assoc_hull.geometry.classical.taken import named, number, numbers
+from assoc_hull.geometry.classical.taken import named, number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["conic", "conic_coefficients", "conic_notes", "quintic_notes", "waterline"]
@@ -54,7 +54,7 @@ def conic_coefficients(height: ArrayLike, slope: ArrayLike) -> FloatArray:
     >>> conic_coefficients([2.0, 2.0], [1.0, 0.0]).tolist()
     [[4.0, 0.0], [8.0, -4.0]]
     """
-    y, s = np.broadcast_arrays(np.asarray(height, np.float64), np.asarray(slope, np.float64))
+    y, s = together((height, slope), "waterline")
     return np.stack([2.0 * y * (y - s), y * (2.0 * s - y)], axis=-1)
 
 
@@ -111,9 +111,8 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
 
 def conic_notes(slope: float) -> tuple[str, ...]:
     """Tell if a conic bulges beyond its beginning; slope is dy/dv at v = 1, m."""
-    if slope >= 0.0:
-        return ()
-    return (f"waterline: y1'<0: conic bulges beyond y1 (y1' = {figure(slope)}).",)
+    s = number(slope, "waterline")
+    return () if s >= 0.0 else (f"waterline: y1'<0: conic bulges beyond y1 (y1' = {figure(s)}).",)
 
 
 def quintic_notes(curve: Quintic) -> tuple[str, ...]:

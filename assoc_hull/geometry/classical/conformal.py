@@ -32,6 +32,9 @@ __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]
 _CHECKED = 181
 """So many angles are looked at for folds: every half degree, and exactly for two terms."""
 
+_TRIALS = 100
+"""Of the angles of offsets; a section takes ten to forty."""
+
 _NIL = 1e-9
 """Less than this part of the scale on the wrong side is rounding."""
 
@@ -227,6 +230,9 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
     if not (steps > 0.0).all():
         what = f"conformal section: coincident points at index {int(np.argmin(steps)) + 1}"
         raise GeometryError(what, "leave one of them out")
+    if points[0, 1] <= points[-1, 1]:
+        what = f"conformal section: depths from {figure(points[0, 1])} to {figure(points[-1, 1])}"
+        raise GeometryError(what, "give offsets from the keel to the waterline")
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     start: FloatArray = 0.5 * np.pi * arc / arc[-1]
     if points.max(axis=0).min() <= 0.0:
@@ -249,7 +255,9 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
 
     if free.any():
         begin = np.clip(start[free], 1e-6, high - 1e-6)
-        found = least_squares(off, begin, bounds=(0.0, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+        found = least_squares(
+            off, begin, bounds=(0.0, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=_TRIALS
+        )
         start = whole(found.x)
     linear, rest = _linear(points, start, terms)
     if linear[0] <= 0.0:

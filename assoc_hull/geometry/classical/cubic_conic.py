@@ -20,7 +20,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.linear_fits import held_fit, linear_fit
 from assoc_hull.geometry.classical.pieces import Piece
-from assoc_hull.geometry.classical.taken import number, numbers
+from assoc_hull.geometry.classical.taken import number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["cubic_conic", "cubic_conic_coefficients", "fit_cubic_conic"]
@@ -46,7 +46,7 @@ def cubic_conic_coefficients(height: ArrayLike, slope: ArrayLike, bend: ArrayLik
     >>> cubic_conic_coefficients(2.0, 1.0, -0.5).tolist()
     [4.0, 0.0, 0.0]
     """
-    y, s, c = np.broadcast_arrays(*(np.asarray(e, np.float64) for e in (height, slope, bend)))
+    y, s, c = together((height, slope, bend), "cubic conic")
     z, first, half = y * y, 2.0 * y * s, s * s + y * c
     b3 = z - first + half
     b2 = half - 3.0 * b3

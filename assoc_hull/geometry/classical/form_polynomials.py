@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import called, figure, inside
-from assoc_hull.geometry.classical.taken import listed, named, number, numbers, places
+from assoc_hull.geometry.classical.taken import listed, named, number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["chapman", "form_polynomial", "product_hull", "taylor_quintic"]
@@ -57,13 +57,7 @@ def taylor_quintic(t: ArrayLike, p: ArrayLike, c: ArrayLike) -> FloatArray:
     >>> taylor_quintic(1.8, -2.2, 0.7).round(9).tolist()
     [0.0, 1.8, 2.3, -8.8, 8.5, -2.8]
     """
-    given = [places(each, "Taylor quintic") for each in (t, p, c)]
-    try:
-        end, bend, full = np.broadcast_arrays(*given)
-    except ValueError:
-        told = ", ".join(str(each.shape) for each in given)
-        what = f"Taylor quintic: parameters of shapes {told}"
-        raise GeometryError(what, "give arrays of one shape") from None
+    end, bend, full = together((t, p, c), "Taylor quintic")
     power = np.arange(2.0, 6.0)
     rows = np.stack([np.ones(4), power, power * (power - 1.0), 1.0 / (power + 1.0)])
     right = np.stack([1.0 - end, -end, bend, full - 0.5 * end], axis=-1)
@@ -175,11 +169,7 @@ def product_hull(x: ArrayLike, zeta: ArrayLike, a: ArrayLike, b: ArrayLike) -> F
     first, second = (
         np.concatenate([[1.0], -numbers(each, "product hull", (None,))]) for each in (a, b)
     )
-    try:
-        along, down = np.broadcast_arrays(along, down)
-    except ValueError:
-        what = f"product hull: x of shape {along.shape}, zeta of shape {down.shape}"
-        raise GeometryError(what, "give places of one shape") from None
+    along, down = together((along, down), "product hull")
     return np.asarray(polyval(along, first) * polyval(down, second))
 
 

@@ -140,7 +140,7 @@ def bounded_fit(
     Raises
     ------
     GeometryError
-        Bounds that leave nothing between them.
+        Bounds that leave nothing between them; no data.
 
     Examples
     --------
@@ -161,6 +161,8 @@ def bounded_fit(
     if len(bad):
         what = f"{name}: bounds {low[bad[0]]:g} to {high[bad[0]]:g} of coefficient {bad[0]}"
         raise GeometryError(what, "give the lesser first", {"index": int(bad[0])})
+    if not columns.size:
+        raise _deficient(name, 0, columns.shape[1])
     # Bounded variables by active sets end at a vertex exactly; the interior method only nears it.
     found = lsq_linear(columns, right, (low, high), method="bvls").x
     return LinearFit(np.asarray(found), _rms(columns @ found - right, np.ones(len(right))))

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import called, figure, inside
 from assoc_hull.geometry.classical.linear_fits import linear_fit
-from assoc_hull.geometry.classical.taken import listed, named, numbers, whole_number
+from assoc_hull.geometry.classical.taken import listed, named, numbers, together, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
@@ -31,10 +31,8 @@ __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
 Basis = Literal["legendre", "chebyshev"]
 Column = Callable[[FloatArray, FloatArray], FloatArray]
 
-_VANDER = {
-    "legendre": (legendre.legvander, legendre.legvander2d),
-    "chebyshev": (chebyshev.chebvander, chebyshev.chebvander2d),
-}
+_VANDER = {"legendre": legendre.legvander, "chebyshev": chebyshev.chebvander}
+
 _SLACK = 1e-12
 """So far outside, in parts of the span, a place counts as the end."""
 
@@ -96,7 +94,7 @@ def series_columns(
     >>> series_columns([0.0, 10.0], 2, span=(0.0, 10.0)).tolist()
     [[1.0, -1.0, 1.0], [1.0, 1.0, 1.0]]
     """
-    one = _VANDER[_known(basis)][0]
+    one = _VANDER[_known(basis)]
     return np.asarray(one(_mapped(numbers(x, "series", (None,)), span), _degree(degree)))
 
 
@@ -221,8 +219,9 @@ def _matrix(
     columns: tuple[Column, ...],
 ) -> FloatArray:
     """Give a row per place: products of polynomials, x outside, then further columns."""
-    two = _VANDER[basis][1]
-    rows = two(_mapped(x, spans[0]), _mapped(z, spans[1]), degrees)
+    one = _VANDER[basis]
+    across, up = one(_mapped(x, spans[0]), degrees[0]), one(_mapped(z, spans[1]), degrees[1])
+    rows = (across[:, :, None] * up[:, None, :]).reshape(len(x), across.shape[1] * up.shape[1])
     more = [numbers(column(x, z), "series", (len(x),)) for column in columns]
     return np.column_stack([rows, *more])
 
@@ -230,13 +229,8 @@ def _matrix(
 def _pair(
     x: ArrayLike, z: ArrayLike, x_span: tuple[float, float], z_span: tuple[float, float]
 ) -> tuple[FloatArray, FloatArray]:
-    along, up = _within(x, x_span), _within(z, z_span)
-    try:
-        one, other = np.broadcast_arrays(along, up)
-    except ValueError:
-        what = f"series: x of shape {along.shape}, z of shape {up.shape}"
-        raise GeometryError(what, "give places of one shape") from None
-    return one, other
+    along, up = together((_within(x, x_span), _within(z, z_span)), "series")
+    return along, up
 
 
 def _mapped(x: FloatArray, span: tuple[float, float]) -> FloatArray:

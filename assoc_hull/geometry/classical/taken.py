@@ -19,7 +19,17 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import called, figure, finite, inside
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["listed", "mapped", "named", "number", "numbers", "places", "weights_of", "whole_number"]
+__all__ = [
+    "listed",
+    "mapped",
+    "named",
+    "number",
+    "numbers",
+    "places",
+    "together",
+    "weights_of",
+    "whole_number",
+]
 
 _MOST, _NIL = 1e30, 1e-30
 """Beyond the first a number is no measure of a ship, and its powers overflow; below the other it is
@@ -47,6 +57,22 @@ def number(value: ArrayLike, name: str) -> float:
 def places(values: ArrayLike, name: str) -> FloatArray:
     """Take numbers of any shape; raises as `numbers`."""
     return _measured(inside(values, name, -np.inf, np.inf), name)
+
+
+def together(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
+    """Take arrays that go together in one shape.
+
+    Raises
+    ------
+    GeometryError
+        As `numbers`; shapes that do not.
+    """
+    given = [places(each, name) for each in values]
+    try:
+        return tuple(np.broadcast_arrays(*given))
+    except ValueError:
+        told = ", ".join(str(each.shape) for each in given)
+        raise GeometryError(f"{name}: shapes {told}", "give arrays of one shape") from None
 
 
 def whole_number(value: object, name: str, least: int, most: int) -> int:

@@ -10,9 +10,18 @@ import pytest
 
 from assoc_hull.creation.classical.lewis_hull import LewisHull
 from assoc_hull.errors import AssocHullError
-from assoc_hull.geometry.classical.combined_waterline import conic, waterline
+from assoc_hull.geometry.classical.combined_waterline import (
+    conic,
+    conic_coefficients,
+    conic_notes,
+    waterline,
+)
 from assoc_hull.geometry.classical.conformal import fit_conformal, lewis_sections
-from assoc_hull.geometry.classical.cubic_conic import cubic_conic, fit_cubic_conic
+from assoc_hull.geometry.classical.cubic_conic import (
+    cubic_conic,
+    cubic_conic_coefficients,
+    fit_cubic_conic,
+)
 from assoc_hull.geometry.classical.draft_functions import DraftFunctions, fit_polynomial_hull
 from assoc_hull.geometry.classical.form_polynomials import (
     chapman,
@@ -55,6 +64,21 @@ ALONG = np.linspace(0.0, 100.0, 9)
 BEAM = 8.0 * (1.0 - (ALONG / 50.0 - 1.0) ** 4)
 SECTION = lewis_sections([6.0], [5.0], [0.9]).at(np.linspace(0.0, 0.5 * np.pi, 9))[0]
 CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
+    "coefficients of conics": (conic_coefficients, {"height": [2.0], "slope": [1.0]}),
+    "coefficients of cubic conics": (
+        cubic_conic_coefficients,
+        {"height": [2.0], "slope": [1.0], "bend": [0.0]},
+    ),
+    "notes of a conic": (conic_notes, {"slope": 0.5}),
+    "place on a series hull": (
+        lambda x, z: fit_series_hull(X, X, X, (1, 0), (-1, 1), (-1, 1)).at(x, z),
+        {"x": [0.1], "z": [0.1]},
+    ),
+    "offsets turned round": (lambda offsets: fit_conformal(offsets, 2), {"offsets": SECTION}),
+    "offsets twice": (
+        lambda terms: fit_conformal(np.vstack([SECTION, SECTION + 0.1]), terms),
+        {"terms": 2},
+    ),
     "quintic": (
         fit_quintic,
         {"u": U, "y": Y, "y0": 8.0, "y1": 1.0, "d0": 0.0, "d1": -14.0, "weights": None},
