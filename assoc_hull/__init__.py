@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.production import production_arcs
     from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
@@ -117,6 +118,7 @@ __all__ = [
     "measure",
     "open",
     "panels",
+    "production_arcs",
     "read",
     "read_classical",
     "sample",
@@ -172,6 +174,7 @@ _HOMES = {
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "production": ("production_arcs",),
     "shifts": ("shift_sections", "swing"),
     "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
 from drawings.common import ship
 from drawings.comparison import comparison
@@ -146,6 +147,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "biarcs": biarc_kinds,
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
+    "classical_splines": classical_splines,
     "crossing": crossing,
     "roles": roles,
     "pull": pull,

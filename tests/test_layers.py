@@ -23,7 +23,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"io"}),
     frozenset({"examples"}),
     frozenset({"hull"}),
-    frozenset({"sources", "studies", "variants", "shifts"}),
+    frozenset({"sources", "studies", "variants", "shifts", "production"}),
     frozenset({"plot"}),
     frozenset({"page"}),
     frozenset({"cli"}),

@@ -21,7 +21,8 @@ class ArcLine:
     Attributes
     ----------
     name : str
-        Address of the curve: the line, with a number if it is one of several.
+        Address of the curve: the line, with a number if it is one of several; of a space curve
+        with the view: "deck edge (plan)".
     group : str
         Group of its line.
     axes : (3, 3)
@@ -110,6 +111,8 @@ class ArcLines:
         In the order of the hull.
     left_out : tuple of str
         What is not among them, and why; a sentence each.
+    notes : tuple of str
+        What stands for a line that lies in no plane; a sentence each.
     """
 
     ship: str
@@ -117,6 +120,7 @@ class ArcLines:
     allowed_radius: float
     lines: tuple[ArcLine, ...]
     left_out: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -145,6 +149,7 @@ class ArcLines:
             "arcs": self.count, "deviation": self.deviation, "least_radius": self.least_radius,
             "one_biarc_per_interval": self.one_per_interval,
             "lines": [line.facts() for line in self.lines], "left_out": list(self.left_out),
+            "notes": list(self.notes),
         }  # fmt: skip
 
     def __str__(self) -> str:

@@ -28,9 +28,10 @@ Lines = Group | Line | Curve | str
 
 @attrs.frozen(eq=False)
 class _Laid:
-    """A curve in its plane."""
+    """A curve in its plane, or a view of it."""
 
     curve: Curve
+    name: str
     axes: FloatArray
     height: float
     off: float
@@ -41,11 +42,14 @@ def arc_lines(
     state: HullState, lines: Sequence[Lines] | Lines | None, within: float, least_radius: float
 ) -> ArcLines:
     """Make arcs of lines of a net; see `assoc_hull.production.production_arcs`."""
-    laid, left_out = [], []
+    laid: list[_Laid] = []
+    left_out: list[str] = []
+    notes: list[str] = []
     for curve in curves_of(state, lines):
         one = _laid(curve, within)
         if one.off > _OFF_PLANE * within:
-            left_out.append(_refused(_space(one), lines))
+            notes.append(_space(one))
+            laid += _views(curve)
         else:
             laid.append(one)
     start = np.concatenate([[0], np.cumsum([len(one.cubic) for one in laid])]).astype(np.int64)
@@ -55,11 +59,13 @@ def arc_lines(
         fit = fit_arcs(cubic, start, within, least_radius)
         for number, one in enumerate(laid):
             if fit.stuck[number]:
-                error = _sharp(one, fit.sharpest[number], least_radius)
+                error = _lost(one, fit.sharpest[number], within, least_radius)
                 left_out.append(_refused(error, lines))
             else:
                 found.append(_line(one, fit, number))
-    return ArcLines(state.particulars.name, within, least_radius, tuple(found), tuple(left_out))
+    return ArcLines(
+        state.particulars.name, within, least_radius, tuple(found), tuple(left_out), tuple(notes)
+    )
 
 
 def curves_of(state: HullState, lines: Sequence[Lines] | Lines | None) -> list[Curve]:
@@ -123,7 +129,7 @@ def drawing_axes(normal: FloatArray) -> FloatArray:
 
 
 def _laid(curve: Curve, within: float) -> _Laid:
-    """Lay a curve into its plane: that of its line, else the one that fits."""
+    """Lay a curve into its plane: that of its line, else the one that fits best."""
     cubic = power(curve.spline)
     control = _control(cubic)
     plane = curve.line.plane
@@ -137,7 +143,8 @@ def _laid(curve: Curve, within: float) -> _Laid:
         height = 0.5 * float(heights.max() + heights.min())
         off = 0.5 * float(heights.max() - heights.min())
         if best is None or off < best.off:
-            best = _Laid(curve, axes, height, off, np.ascontiguousarray(cubic @ axes[:2].T))
+            flat = np.ascontiguousarray(cubic @ axes[:2].T)
+            best = _Laid(curve, curve.name, axes, height, off, flat)
         if best.off <= _OFF_PLANE * within:
             break
     assert best is not None
@@ -156,7 +163,7 @@ def _line(one: _Laid, fit: ArcFit, number: int) -> ArcLine:
     own = slice(int(fit.start[number]), int(fit.start[number + 1]))
     place = fit.place[number] @ one.axes[:2] + one.height * one.axes[2]
     return ArcLine(
-        one.curve.name, one.curve.line.group.name, one.axes, one.height, fit.of(number),
+        one.name, one.curve.line.group.name, one.axes, one.height, fit.of(number),
         fit.smooth[own].copy(), np.hypot(fit.deviation[number], one.off), place,
         len(one.curve.points),
     )  # fmt: skip
@@ -169,24 +176,38 @@ def _refused(error: GeometryError, lines: object) -> str:
     return str(error)
 
 
-def _space(one: _Laid) -> GeometryError:
-    name = one.curve.name
-    return GeometryError(
-        f"arcs: {name} is a space curve, {figure(round(1e3 * one.off, 3))} mm off its best plane",
-        "arcs lie in planes: export the lines that it was made of in their planes, or leave it out",
-        {"line": name, "off": one.off},
-    )  # fmt: skip
+def _views(curve: Curve) -> list[_Laid]:
+    """Give the two views of a space curve that show its length, in planes of the axes."""
+    cubic = power(curve.spline)
+    control = _control(cubic)
+    longest = int(np.argmax(control.max(axis=0) - control.min(axis=0)))
+    found = []
+    for axis, view in ((2, "plan"), (1, "profile"), (0, "body plan")):
+        if axis == longest:
+            continue
+        axes = drawing_axes(np.eye(3)[axis])
+        flat = np.ascontiguousarray(cubic @ axes[:2].T)
+        found.append(_Laid(curve, f"{curve.name} ({view})", axes, 0.0, 0.0, flat))
+    return found
 
 
-def _sharp(one: _Laid, sharpest: FloatArray, least_radius: float) -> GeometryError:
-    """Name the place of a curve that arcs of the least radius cannot follow."""
-    name = one.curve.name
+def _space(one: _Laid) -> str:
+    views = " and ".join(each.name for each in _views(one.curve))
+    return (
+        f"{one.name} is a space curve, {1e3 * one.off:.3g} mm off its best plane: "
+        f"{views} stand for it, each within the tolerance in its view"
+    )
+
+
+def _lost(one: _Laid, sharpest: FloatArray, within: float, least_radius: float) -> GeometryError:
+    """Name the place of a curve that no arcs within the limits can follow."""
     place = np.round(sharpest[:2] @ one.axes[:2] + one.height * one.axes[2], 3) + 0.0
     told = ", ".join(f"{value:g}" for value in place.tolist())
     radius = float(sharpest[2])
+    arcs = f"arcs of {figure(least_radius)} m and more" if least_radius > 0.0 else "arcs"
     return GeometryError(
-        f"arcs: {name} has a radius of {radius:.4g} m at ({told}), "
-        f"arcs of {least_radius:.4g} m and more cannot follow it",
+        f"arcs: {one.name} has a radius of {radius:.4g} m at ({told}), "
+        f"{arcs} cannot follow it within {figure(1e3 * within)} mm",
         "allow a smaller radius or a wider tolerance, or make the place a knuckle",
-        {"line": name, "place": tuple(place.tolist()), "radius": radius, "least": least_radius},
+        {"line": one.name, "place": tuple(place.tolist()), "radius": radius, "least": least_radius},
     )  # fmt: skip

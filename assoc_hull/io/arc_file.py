@@ -18,8 +18,10 @@ import os
 import numpy as np
 
 from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
+from assoc_hull.arguments import file_path
+from assoc_hull.errors import BadInputError
 from assoc_hull.io.arc_dxf import arc_drawing
-from assoc_hull.io.whole_file import form_by_ending, write_whole
+from assoc_hull.io.whole_file import write_whole
 
 __all__ = ["arc_form", "arc_table", "write_arcs"]
 
@@ -44,7 +46,12 @@ def arc_form(path: str | os.PathLike[str]) -> str:
     >>> arc_form("lines.DXF")
     'dxf'
     """
-    return form_by_ending(path, None, tuple(_ENDINGS.values()), _ENDINGS, "in the arcs")
+    name = os.path.basename(file_path(path, "in the arcs")).lower()
+    for ending, form in _ENDINGS.items():
+        if name.endswith(ending):
+            return form
+    what = "the ending of the name tells no form of arcs"
+    raise BadInputError(what, f"at {os.fspath(path)}", f"end it in {' or '.join(_ENDINGS)}")
 
 
 def write_arcs(arcs: ArcLines, path: str | os.PathLike[str]) -> None:

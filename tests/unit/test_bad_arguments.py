@@ -295,6 +295,7 @@ FLOATING: dict[str, Given] = {
     },
     "immersion": {"weight": 500.0, "lcg": None, "trim_by_stern": 0.0, **TERMS},
     "measure": {"only": None},
+    "production_arcs": {"lines": "WL 2.5", "within": 0.01, "least_radius": 0.0},
     "sensitivities": {
         "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
     },

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assoc_hull.creation.classical.outline import Outline, Piece, smooth, straight
-from assoc_hull.creation.classical.seaking_sections import outline_of
+from assoc_hull.creation.classical.outline import CLOSE, Outline, Piece, smooth, straight
+from assoc_hull.creation.classical.seaking_sections import MidshipSection, outline_of
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.classical.waterline_piece import Level
@@ -61,7 +61,11 @@ def lines_of(ship: Seaking) -> tuple[LineSource, ...]:
     ends = [x for x in (first, last) if float(ship.deck.at(x)[0]) > _SAME]
     inner = ship.frames[(ship.frames > first + _SAME) & (ship.frames < last - _SAME)]
     sections = [
-        outline_of(each).section(frame_name(each.x), each.x, tolerance=_EVEN)
+        outline_of(each).section(
+            frame_name(each.x),
+            each.x,
+            tolerance=CLOSE if isinstance(each, MidshipSection) else _EVEN,
+        )
         for each in ship.sections(inner)
     ]
     transoms = [
@@ -82,12 +86,21 @@ def _profile(ship: Seaking) -> LineSource:
     """From the transom, or the deck, along the keel to the stem head."""
     rows = np.concatenate([ship.keel.aft, ship.keel.forward])
     (half, top), (breadth, head) = ship.deck.at(ship.ends).tolist()
+    # Below a flat end the contour has nothing to draw: that is the middle of the transom.
+    rows = rows[_lowest(rows, ship.ends[0]) if half > _SAME else 0 :]
+    rows = rows[: _lowest(rows, ship.ends[1]) + 1 if breadth > _SAME else len(rows)]
     if half <= _SAME and top > rows[0, 1] + _SAME:
         rows = np.concatenate([[(ship.ends[0], top)], rows])
     if breadth <= _SAME and head > rows[-1, 1] + _SAME:
         rows = np.concatenate([rows, [(ship.ends[1], head)]])
     pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
     return Outline.of(pieces).boundary("profile", 1, 0.0)
+
+
+def _lowest(rows: FloatArray, x: float) -> int:
+    """Give the row of a contour that stands lowest at an end."""
+    there = np.flatnonzero(np.abs(rows[:, 0] - x) <= _SAME)
+    return int(there[rows[there, 1].argmin()])
 
 
 def _space_line(name: str, line: KnuckleLine, kind: BoundaryKind, frames: FloatArray) -> LineSource:
@@ -124,7 +137,10 @@ def _flat_of_bottom(ship: Seaking) -> list[LineSource]:
     if not (rows[:, 1] > _SAME).any():
         return []
     pieces = [straight(a, b) for a, b in itertools.pairwise(rows)]
-    kind = BoundaryKind.FLAT
+    parallel = ship.parallel
+    # A rise of floor makes the edge of the flat a corner.
+    risen = parallel is not None and parallel.section.rise > 0.0
+    kind = BoundaryKind.KNUCKLE if risen else BoundaryKind.FLAT
     return [Outline.of(pieces).boundary("flat of bottom", 2, 0.0, kind=kind)]
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.frame import Frame
 
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.seaking import Seaking
@@ -24,16 +25,19 @@ def notes_of(ship: Seaking) -> tuple[str, ...]:
     of_frames = [each for section in built for each in section.notes]
     return (
         *ship.told, *ship.keel.notes, *_beside_midship(ship), *_gathered(of_frames),
-        corrugation(built), *_left_out(ship),
+        *corrugation(built), *_left_out(ship),
     )  # fmt: skip
 
 
-def corrugation(sections: list[Section]) -> str:
-    """Tell the largest tangent jump of frames."""
-    worst = max(sections, key=lambda each: each.largest_jump)
+def corrugation(sections: list[Section]) -> tuple[str, ...]:
+    """Tell the largest tangent jump of frames that are built of parabolas, if there are any."""
+    built = [each for each in sections if isinstance(each, Frame)]
+    if not built:
+        return ()
+    worst = max(built, key=lambda each: each.largest_jump)
     return (
         f"frames are continuous only: their direction jumps by up to "
-        f"{figure(round(worst.largest_jump, 4))} rad at given points (frame x={figure(worst.x)})"
+        f"{figure(round(worst.largest_jump, 4))} rad at given points (frame x={figure(worst.x)})",
     )
 
 
@@ -64,6 +68,16 @@ def _beside_midship(ship: Seaking) -> list[str]:
                 f"{line.name}: lies up to {1e3 * away:.1f} mm off the midship section over its "
                 "parallel part"
             )
+    inner = np.append(ship.keel.tangent[:, 0], [first, last])
+    inner = inner[(inner >= first) & (inner <= last)]
+    section = ship.parallel.section
+    flat = section.flat if section.rise else section.floor_point[0]
+    away = float(np.abs(ship.keel.flat(inner) - flat).max())
+    if away > _APART:
+        found.append(
+            f"bottom tangent line: lies up to {1e3 * away:.1f} mm off the edge of the flat of "
+            "the midship section"
+        )
     found += [
         f"knuckle line {each.name!r}: is not looked at between x={figure(first)} and "
         f"{figure(last)}, where the midship section stands"

@@ -13,6 +13,10 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
+from assoc_hull.creation.classical.seaking_sections import Section
+from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
+from assoc_hull.geometry.classical.frame import Frame
+from assoc_hull.geometry.classical.quadratics import Quadratics
 from assoc_hull.geometry.curves import FloatArray
 
 if TYPE_CHECKING:
@@ -20,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Sums", "breaks_of", "sums"]
 
-_LESS, _MORE = (np.polynomial.legendre.leggauss(count) for count in (4, 7))
+_LESS, _MORE = np.polynomial.legendre.leggauss(4), np.polynomial.legendre.leggauss(7)
 """Nodes and weights of the two rules."""
 
 _ABOVE = 1e6
@@ -102,17 +106,43 @@ def _rule(
     node, weight = rule
     half = 0.5 * (high - low)
     place = (0.5 * (low + high)[:, None] + half[:, None] * node).ravel()
-    values = np.array(
-        [
-            [(each.area(z), each.x, each.moment(z), each.half_breadth(z)) for z in levels]
-            for each in ship.sections(place)
-        ]
-    )
+    built = ship.sections(place)
+    values = np.empty((len(place), len(levels), 4))
+    for number, level in enumerate(levels):
+        values[:, number] = _measured(built, level)
     values[..., 1] *= values[..., 0]
     values[..., 3] = 2.0 * np.nan_to_num(values[..., 3])
     shape = (len(low), len(weight), len(levels), 4)
     summed = np.einsum("nklc,k->nlc", values.reshape(shape), weight)
     return np.asarray(summed * half[:, None, None])
+
+
+def _measured(built: Sequence[Section], level: float) -> FloatArray:
+    """Give area, x, moment and half-breadth of each section below a level, (n, 4).
+
+    Pieces of all frames go through at once.
+    """
+    found = np.empty((len(built), 4))
+    frames = [i for i, each in enumerate(built) if isinstance(each, Frame)]
+    for i, each in enumerate(built):
+        if not isinstance(each, Frame):
+            found[i] = each.area(level), each.x, each.moment(level), each.half_breadth(level)
+    if not frames:
+        return found
+    chosen = [each for each in built if isinstance(each, Frame)]
+    parts = [[each.side] if each.deck is None else [each.side, each.deck] for each in chosen]
+    joined = Quadratics.join([part for several in parts for part in several])
+    count = np.array([sum(len(part) for part in several) for several in parts])
+    first = np.cumsum(count) - count
+    area, moment = (2.0 * np.add.reduceat(each, first) for each in joined.each_below(level))
+    widest = np.fmax.reduceat(np.fmax.reduce(joined.crossings(level), axis=1), first)
+    for i, each in enumerate(chosen):
+        if each.corner is not None:
+            arc, centre = each.corner.arc(), each.corner.centre
+            area[i] += 2.0 * arc_area(arc, centre, level)
+            moment[i] += 2.0 * arc_moment(arc, centre, level)
+    found[frames] = np.column_stack([area, [each.x for each in chosen], moment, widest])
+    return found
 
 
 def breaks_of(ship: Seaking, levels: Sequence[float]) -> FloatArray:

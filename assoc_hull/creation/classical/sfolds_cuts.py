@@ -49,7 +49,8 @@ def default_cuts(portions: Sequence[Portion], draught: float) -> dict[str, tuple
 def _buttocks(widest: OrdinateSection) -> list[float]:
     if widest.bottom is None:
         return [part * widest.deck_breadth for part in (0.25, 0.5, 0.75)]
-    return [float(y) for y in widest.bottom.places[1:]]
+    inside = widest.bottom.places <= widest.side.values[0] + 1e-9 * widest.sb
+    return [float(y) for y in widest.bottom.places[inside][1:]]
 
 
 def _thinned(places: Sequence[float]) -> tuple[float, ...]:

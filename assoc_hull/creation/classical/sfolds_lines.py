@@ -118,13 +118,17 @@ def lines_of_portions(portions: Sequence[Portion], corner: float) -> tuple[LineS
     Raises
     ------
     GeometryError
-        As `frames_of`; or fewer than two sections with a breadth.
+        As `frames_of`; fewer than two sections with a breadth, or one without between others.
     """
     frames = frames_of(portions)
     wide = [frame for frame in frames if not frame.is_point]
     if len(wide) < 2:
         what = f"main body: {len(wide)} section(s) with a breadth"
         raise GeometryError(what, "give two or more", {"count": len(wide)})
+    inner = [frame.x for frame in frames[1:-1] if frame.is_point]
+    if inner:
+        what = f"section at x={figure(inner[0])} has no breadth, and the hull goes on beyond"
+        raise GeometryError(what, "give it a breadth, or end the hull there", {"x": inner[0]})
     found = [_profile(frames), _deck_edge(frames)]
     found += [
         _section(frame, corner, name_of(frames, k))

@@ -20,8 +20,8 @@ from assoc_hull.geometry.classical.arcs import Arcs
 
 __all__ = ["arc_area", "arc_moment"]
 
-_NODES = 24
-"""Of Gauss, over a quarter of a circle at most: moments to rounding."""
+_GAUSS = np.polynomial.legendre.leggauss(24)
+"""Nodes and weights, over a quarter of a circle at most: moments to rounding."""
 
 
 def arc_area(arc: Arcs, centre: tuple[float, float], level: float) -> float:
@@ -48,7 +48,7 @@ def arc_area(arc: Arcs, centre: tuple[float, float], level: float) -> float:
 def arc_moment(arc: Arcs, centre: tuple[float, float], level: float) -> float:
     """Give the integral of y z dz over an arc up to a level (m), m3; arguments as of `arc_area`."""
     radius, first, last = _angles(arc, centre, level)
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
+    node, weight = _GAUSS
     half = 0.5 * (last - first)
     angle = first + half * (1.0 + node)
     y, z = centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle)

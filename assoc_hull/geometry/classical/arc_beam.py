@@ -112,9 +112,7 @@ def _along(span: FloatArray, w: FloatArray) -> FloatArray:
     return np.asarray(np.interp(w, np.arange(len(span)), span))
 
 
-def _back(
-    pieces: Pieces, piece: int, trail: _Trail, row: int, state: int, ratio: float
-) -> Chain:
+def _back(pieces: Pieces, piece: int, trail: _Trail, row: int, state: int, ratio: float) -> Chain:
     """Follow the parents of a state to the beginning of its piece."""
     w, angle, ratios = [float(pieces.stop[piece])], [float(pieces.angle[piece, 1])], [ratio]
     step = len(trail) - 1
@@ -223,11 +221,13 @@ def _found(
 ) -> Found:  # fmt: skip
     """Put what was tried side by side."""
     end, ways, parent = tried
-    angle, good, ratio, tilt = (np.zeros(end.shape, kind) for kind in (float, bool, float, float))
+    angle, ratio, tilt = (np.zeros(end.shape) for _ in range(3))
+    good = np.zeros(end.shape, bool)
     angle[at], good[at], ratio[at] = made
     tilt[at] = pieces.tilt(rows[at[0]], end[at], made[0])
-    a = len(rows)
-    return Found(*(
-        each.reshape(a, -1)
-        for each in (end, angle, ways, parent, ratio, _along(span, end), tilt, good)
-    ))  # fmt: skip
+    flat = len(rows), int(np.prod(end.shape[1:]))
+    t = _along(span, end)
+    return Found(
+        end.reshape(flat), angle.reshape(flat), ways.reshape(flat), parent.reshape(flat),
+        ratio.reshape(flat), t.reshape(flat), tilt.reshape(flat), good.reshape(flat),
+    )  # fmt: skip

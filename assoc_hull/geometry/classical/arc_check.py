@@ -47,13 +47,34 @@ class Apart:
 
 def apart(pieces: Pieces, links: Links, samples: int) -> Apart:
     """Measure links against their stretches of the curves, at so many places each way."""
-    part = np.linspace(0.0, 1.0, samples)
-    w = links.low[:, None] + (links.high - links.low)[:, None] * part
+    if not len(links.piece):
+        return Apart(np.zeros(0), np.zeros(0), np.zeros(0))
+    w = _places(links, samples)
     piece = links.piece[:, None]
     places = pieces.at(piece, w)
     off = _from_arcs(links, places)
     row, worst = np.arange(len(w)), np.argmax(off, axis=1)
     return Apart(off[row, worst], _from_curve(pieces, links, w, places), w[row, worst])
+
+
+def _places(links: Links, samples: int) -> FloatArray:
+    """Give parameters along the links, (n, samples), points of the curves among them.
+
+    Cubics may be of very different lengths: what lies between two parameters belongs to one.
+    """
+    step = (links.high - links.low)[:, None] / (samples - 1)
+    w = links.low[:, None] + step * np.arange(samples)
+    w[:, -1] = links.high
+    whole = np.round(w)
+    near = np.abs(w - whole) <= 0.5 * step
+    near[:, [0, -1]] = False
+    w[near] = whole[near]
+    # The ends stay; a point of the curve beside one takes the place next to it.
+    for end, beside, point in ((0, 1, np.ceil(w[:, 0])), (-1, -2, np.floor(w[:, -1]))):
+        gap = np.abs(point - w[:, end])
+        close = (gap > 0.0) & (gap <= 0.5 * step[:, 0])
+        w[close, beside] = point[close]
+    return w
 
 
 def _from_arcs(links: Links, places: FloatArray) -> FloatArray:
@@ -65,9 +86,7 @@ def _from_arcs(links: Links, places: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(*found).reshape(places.shape[:2]))
 
 
-def _from_curve(
-    pieces: Pieces, links: Links, w: FloatArray, places: FloatArray
-) -> FloatArray:
+def _from_curve(pieces: Pieces, links: Links, w: FloatArray, places: FloatArray) -> FloatArray:
     """Give the largest distance of places on the arcs of each link from its curve, (n,), m."""
     count = w.shape[1]
     length = links.arcs.length
@@ -85,8 +104,12 @@ def _from_curve(
     )
     run /= run[:, -1:]
     shift = 2.0 * np.arange(len(w))[:, None]
-    foot = np.interp((t / whole[:, None] + shift).ravel(), (run + shift).ravel(), w.ravel())
-    foot = np.clip(foot.reshape(t.shape), links.low[:, None], links.high[:, None])
+    part = (t / whole[:, None] + shift).ravel()
+    foot = np.interp(part, (run + shift).ravel(), w.ravel()).reshape(t.shape)
+    # From there by no more than a place to either side: beyond a point all is of another length.
+    number = np.searchsorted((run + shift).ravel(), part, "right") - 1
+    own = number.reshape(t.shape) - count * np.arange(len(w))[:, None]
+    low, high = (np.take_along_axis(w, np.clip(own + by, 0, count - 1), axis=1) for by in (-1, 2))
     piece = np.broadcast_to(links.piece[:, None], t.shape)
     least = np.full(t.shape, np.inf)
     for step_number in range(_STEPS + 1):
@@ -96,5 +119,5 @@ def _from_curve(
             break
         slope = pieces.slope(piece, foot)
         gain = (away * slope).sum(axis=-1) / np.maximum((slope * slope).sum(axis=-1), 1e-300)
-        foot = np.clip(foot - gain, links.low[:, None], links.high[:, None])
+        foot = np.clip(foot - gain, low, high)
     return np.asarray(least.max(axis=1))

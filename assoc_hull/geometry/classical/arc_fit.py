@@ -120,9 +120,7 @@ def fit_arcs(
     return ArcFit(arcs, starts, smooth, deviation, place, stuck, sharpest)
 
 
-def _made(
-    pieces: Pieces, limits: Limits, within: float
-) -> tuple[dict[int, Chain], Links, Apart]:
+def _made(pieces: Pieces, limits: Limits, within: float) -> tuple[dict[int, Chain], Links, Apart]:
     """Search all pieces, measure them, and search those again that are too far off."""
     made: dict[int, Chain] = {}
     rows = np.flatnonzero(~pieces.straight)
@@ -146,9 +144,7 @@ def _made(
     return made, links, apart(pieces, links, samples)
 
 
-def _largest(
-    pieces: Pieces, links: Links, off: Apart, count: int
-) -> tuple[FloatArray, FloatArray]:
+def _largest(pieces: Pieces, links: Links, off: Apart, count: int) -> tuple[FloatArray, FloatArray]:
     """Give deviations and places of whole curves."""
     deviation, place = np.zeros((count, 2)), np.full((count, 2), np.nan)
     curve = pieces.curve[links.piece]
@@ -186,7 +182,9 @@ def _sharpest(pieces: Pieces, rows: list[int]) -> FloatArray:
     """Give place and radius (m) where some pieces are bent most."""
     best = np.array([np.nan, np.nan, np.inf])
     for row in rows:
-        w = np.linspace(pieces.first[row], pieces.stop[row], 200 * int(pieces.stop[row] - pieces.first[row]) + 1)
+        w = np.linspace(
+            pieces.first[row], pieces.stop[row], 200 * int(pieces.stop[row] - pieces.first[row]) + 1
+        )
         piece = np.full(len(w), row)
         with np.errstate(divide="ignore", invalid="ignore"):
             radius = 1.0 / np.abs(pieces.curvature(piece, w))

@@ -64,14 +64,14 @@ class Links:
         rows = [i for i in range(len(pieces)) if pieces.straight[i] or i in chains]
         parts = [chains[i] if i in chains else _line(pieces, i) for i in rows]
         piece = np.repeat(np.array(rows, np.int64), [len(each.ratio) for each in parts])
-        none = [np.zeros(0)]
+        cut = {
+            "low": [each.w[:-1] for each in parts], "high": [each.w[1:] for each in parts],
+            "begin": [each.angle[:-1] for each in parts],
+            "end": [each.angle[1:] for each in parts], "ratio": [each.ratio for each in parts],
+        }  # fmt: skip
         low, high, begin, end, ratio = (
-            np.concatenate([f(each) for each in parts] + none)
-            for f in (
-                lambda c: c.w[:-1], lambda c: c.w[1:], lambda c: c.angle[:-1],
-                lambda c: c.angle[1:], lambda c: c.ratio,
-            )
-        )  # fmt: skip
+            np.concatenate([*each, np.zeros(0)]) for each in cut.values()
+        )
         arcs, arc = _records(pieces, piece, (low, high), (begin, end), ratio)
         return cls(piece, low, high, arcs, arc)
 
@@ -138,7 +138,8 @@ def merged(arcs: Arcs, group: IntArray) -> tuple[Arcs, IntArray]:
     >>> from assoc_hull.geometry.classical.arc_links import merged
     >>> from assoc_hull.geometry.classical.arcs import Arcs
     >>> one = Arcs.make([[0, 0]], [0.0], [0.5], [2.0])
-    >>> both = Arcs.make([[0, 0], one.at(np.array([0]), [0.5])[0]], [0, 0.25], [0.5] * 2, [0.5, 1.5])
+    >>> join = one.at(np.array([0]), [0.5])[0]
+    >>> both = Arcs.make([[0, 0], join], [0, 0.25], [0.5, 0.5], [0.5, 1.5])
     >>> len(merged(both, np.zeros(2, int))[0])
     1
     """

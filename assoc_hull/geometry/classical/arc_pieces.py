@@ -137,9 +137,7 @@ class Pieces:
         return number, w - number
 
 
-def straight_runs(
-    cubic: FloatArray, cuts: NDArray[np.bool_], flat: float
-) -> list[tuple[int, int]]:
+def straight_runs(cubic: FloatArray, cuts: NDArray[np.bool_], flat: float) -> list[tuple[int, int]]:
     """Give (first, stop) of runs of cubics that lie on a straight line.
 
     One cubic by itself is a run if it is straight to rounding; near an inflection many are nearly

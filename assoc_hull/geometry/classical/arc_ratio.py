@@ -3,22 +3,15 @@
 Two directions and two points leave one freedom. With the direction of the join as the free number
 the parallel case is singular; with the part r that the chord of the first arc has of both it is
 not: for any directions less than a half turn from the chord every r between 0 and 1 gives one
-biarc without a loop, and r = 1/2 the one of equal chords. With alpha and beta the directions at
-the ends and tau that of the join, all from the chord P, the chords of the arcs lie at
-(alpha + tau) / 2 and (tau + beta) / 2, and their sum across the chord is nil::
-
-    tan(tau / 2) = - ((1 - r) sin(beta / 2) + r sin(alpha / 2))
-                   / ((1 - r) cos(beta / 2) + r cos(alpha / 2))
-
-Arcs turn by tau - alpha and beta - tau, so that all three directions are kept to rounding.
+biarc without a loop, and r = 1/2 the one of equal chords. `biarc_family` has the equations.
 
 Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.geometry.classical.arc_ratio import biarcs_by_ratio
 >>> quarter = biarcs_by_ratio(np.array([2.0]), np.array([0.7]), np.array([-0.7]), np.array([0.5]))
->>> bool(abs(quarter.bend[0, 0] - quarter.bend[1, 0]) < 1e-15), quarter.tau[0] + 0.0
-(True, 0.0)
+>>> bool(abs(quarter.bend[0, 0] - quarter.bend[1, 0]) < 1e-15), quarter.tau.round(12) + 0.0
+(True, array([0.]))
 """
 
 from __future__ import annotations
@@ -27,6 +20,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.classical.arcs import sinc
+from assoc_hull.geometry.classical.biarc_family import spanned
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["RatioBiarcs", "biarcs_by_ratio"]
@@ -84,13 +78,6 @@ def biarcs_by_ratio(
     >>> found.bend.round(8).tolist(), round(float(found.tau), 12)
     ([-0.04948079, 0.1453659], -0.25)
     """
-    rest = 1.0 - ratio
-    sine = rest * np.sin(0.5 * beta) + ratio * np.sin(0.5 * alpha)
-    cosine = rest * np.cos(0.5 * beta) + ratio * np.cos(0.5 * alpha)
-    tau = -2.0 * np.arctan(sine / cosine)
-    first, last = 0.5 * (alpha + tau), 0.5 * (tau + beta)
-    both = chord / (ratio * np.cos(first) + rest * np.cos(last))
-    chords = np.stack([ratio * both, rest * both])
-    half = 0.5 * np.stack([tau - alpha, beta - tau])
+    tau, first, chords, half = spanned(chord, alpha, beta, ratio, 1.0 - ratio)
     join = chords[0] * np.stack([np.cos(first), np.sin(first)])
     return RatioBiarcs(tau, join, 2.0 * np.sin(half) / chords, chords / sinc(half))

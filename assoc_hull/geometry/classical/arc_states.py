@@ -124,8 +124,7 @@ class Found:
         row = np.arange(len(far))[:, None]
         real = number[row, column] == np.arange(_COUNT)
         w, angle, way, parent, ratio = (
-            each[row, column]
-            for each in (self.w, self.angle, self.way, self.parent, self.ratio)
+            each[row, column] for each in (self.w, self.angle, self.way, self.parent, self.ratio)
         )
         return States(
             np.where(real, w, -np.inf), angle, way, parent, ratio,

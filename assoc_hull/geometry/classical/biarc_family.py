@@ -41,6 +41,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = [
     "BiarcChords", "biarc_points", "directions_to_shares", "interval", "one_sided_shares", "shared",
+    "spanned",
 ]  # fmt: skip
 
 _BACK = np.pi - 1e-9
@@ -155,6 +156,41 @@ class BiarcChords:
             )  # fmt: skip
 
 
+def spanned(
+    chord: FloatArray, alpha: FloatArray, beta: FloatArray, first: FloatArray, second: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Give what biarcs are made of, from arrays that are broadcast; nothing is checked.
+
+    Parameters
+    ----------
+    chord : (...), m
+        Distance of both points.
+    alpha, beta : (...), rad
+        Directions at both ends, from the chord.
+    first, second : (...)
+        Lengths of both chords in any common unit.
+
+    Returns
+    -------
+    tau : (...), rad
+        Direction at the join, from the chord.
+    phi : (...), rad
+        Direction of the first chord, from the whole.
+    chord : (2, ...), m
+        Lengths of both chords.
+    half : (2, ...), rad
+        Half of what each arc turns, to the left.
+    """
+    f1, f2 = first / (first + second), second / (first + second)
+    delta = 0.5 * (beta - alpha)
+    cosine, sine = np.cos(delta), np.sin(delta)
+    phi1 = -np.arctan2(f2 * sine, f1 + f2 * cosine)
+    phi2 = np.arctan2(f1 * sine, f2 + f1 * cosine)
+    whole = chord / np.hypot(f1 + f2 * cosine, f2 * sine)
+    half = np.stack([phi1 - alpha, beta - phi2])
+    return 2.0 * phi1 - alpha, phi1, np.stack([f1 * whole, f2 * whole]), half
+
+
 def shared(chords: BiarcChords, first: FloatArray, second: FloatArray) -> tuple[Arcs, FloatArray]:
     """Give the biarcs whose two chords are as `first` to `second`.
 
@@ -172,22 +208,14 @@ def shared(chords: BiarcChords, first: FloatArray, second: FloatArray) -> tuple[
     tau : (n,), rad
         Direction at the join, from the chord.
     """
-    f1, f2 = first / (first + second), second / (first + second)
-    delta = 0.5 * (chords.beta - chords.alpha)
-    cosine, sine = np.cos(delta), np.sin(delta)
-    phi1 = -np.arctan2(f2 * sine, f1 + f2 * cosine)
-    phi2 = np.arctan2(f1 * sine, f2 + f1 * cosine)
-    whole = chords.chord / np.hypot(f1 + f2 * cosine, f2 * sine)
-    half = np.stack([phi1 - chords.alpha, chords.beta - phi2], axis=1)
-    chord = np.stack([f1 * whole, f2 * whole], axis=1)
-    tau = 2.0 * phi1 - chords.alpha
-    way = chords.way + phi1
-    join = chords.start + chord[:, :1] * np.stack([np.cos(way), np.sin(way)], axis=1)
+    tau, phi, chord, half = spanned(chords.chord, chords.alpha, chords.beta, first, second)
+    way = chords.way + phi
+    join = chords.start + chord[0, :, None] * np.stack([np.cos(way), np.sin(way)], axis=1)
     arcs = Arcs(
         np.stack([chords.start, join], axis=1).reshape(-1, 2),
         np.stack([chords.way + chords.alpha, chords.way + tau], axis=1).ravel(),
-        (2.0 * np.sin(half) / chord).ravel(),
-        (chord / sinc(half)).ravel(),
+        (2.0 * np.sin(half) / chord).T.ravel(),
+        (chord / sinc(half)).T.ravel(),
     )
     return arcs, tau
 

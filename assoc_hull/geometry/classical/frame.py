@@ -177,9 +177,7 @@ class Frame:
     def half_breadth(self, level: float) -> float:
         """Give the greatest half-breadth at a height (m), m; nan where it has none."""
         found = self.side.crossings(float(finite(level, "frame", ())))
-        given = [run.points[run.points[:, 1] == level, 0] for run in self.runs]
-        at = np.concatenate([found, *given])
-        return float(at.max()) if len(at) else math.nan
+        return float(np.fmax.reduce(found, axis=None))
 
     def drawn(self, count: int = 8) -> FloatArray:
         """Give points up to the deck side, `count` chords a piece, (n, 2), m."""

@@ -120,9 +120,9 @@ class KeelOutline:
 def _contour(rows: ArrayLike, part: int, end: float) -> FloatArray:
     """Take a contour that comes to the level keel at `end`, its last row aft, its first forward."""
     given = finite(rows, f"contour: part {part}", (None, 2))
-    if len(given) < 2:
+    if not len(given):
         raise GeometryError(
-            f"contour: part {part} has {len(given)} row(s)", "give two or more", {"part": part}
+            f"contour: part {part} has {len(given)} row(s)", "give one or more", {"part": part}
         )
     step = np.diff(given[:, 0])
     if (step < 0.0).any():

@@ -184,6 +184,11 @@ def notes_of_section(
         Half-breadth over z.
     """
     found = [] if bottom is None else _of_bottom(sizes, bottom)
+    if bottom is not None and side.values[0] < bottom.last - 1e-9 * sizes.sb:
+        found.append(
+            f"section: the first waterline ends at y={figure(side.values[0])}, inside the last "
+            f"buttock at {figure(bottom.last)}"
+        )
     if sizes.cam < 0.0:
         found.append(f"section: camber {figure(sizes.cam)} is negative: the deck falls inboard")
     wide = float(side.at(sizes.hd))

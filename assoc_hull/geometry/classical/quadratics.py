@@ -28,6 +28,9 @@ __all__ = ["Quadratics"]
 _FAR = 1e9
 """Beyond this level (m) nothing lies."""
 
+_SLACK = 1e-12
+"""So far (as a part of the length) beyond an end is the end."""
+
 _GAUSS = np.polynomial.legendre.leggauss(3)
 
 
@@ -104,45 +107,46 @@ class Quadratics:
         """Give the integral of y dz over what lies at or below a level (m), m2."""
         if not np.isfinite(level):
             return self.area() if level > 0.0 else 0.0
-        breaks = self._breaks(level)
-        low, high = breaks[:, :-1], breaks[:, 1:]
-        middle = self._polynomial(self.z, 0.5 * (low + high))
-        wet = (middle <= level) & (high > low)
-        return float(np.where(wet, self._integral(high) - self._integral(low), 0.0).sum())
+        return float(self.each_below(level)[0].sum())
 
     def moment_below(self, level: float) -> float:
         """Give the integral of y z dz over what lies at or below a level (m), m3."""
-        level = min(max(level, -_FAR), _FAR)
-        breaks = self._breaks(level)
-        low, high = breaks[:, :-1, None], breaks[:, 1:, None]
-        wet = self._polynomial(self.z, 0.5 * (low + high)[..., 0]) <= level
+        return float(self.each_below(min(max(level, -_FAR), _FAR))[1].sum())
+
+    def each_below(self, level: float) -> tuple[FloatArray, FloatArray]:
+        """Give both integrals, m2 and m3, of each piece by itself, two of (n,)."""
+        inner = np.sort(np.nan_to_num(np.clip(self._roots(level), 0.0, self.length[:, None])))
+        breaks = np.column_stack([np.zeros(len(self)), inner, self.length])
+        low, high = breaks[:, :-1], breaks[:, 1:]
+        wet = self._polynomial(self.z, 0.5 * (low + high)) <= level
+        area = self._integral(high) - self._integral(low)
         # Three nodes of Gauss are exact to the fifth power, which is what stands here.
         node, weight = _GAUSS
-        p = (0.5 * (low + high) + 0.5 * (high - low) * node).reshape(len(self), -1)
+        p = (0.5 * (low + high)[..., None] + 0.5 * (high - low)[..., None] * node).reshape(
+            len(self), -1
+        )
         y, z = (self._polynomial(each, p) for each in (self.y, self.z))
         rise = self.z[:, 1:2] + 2.0 * p * self.z[:, 2:]
-        found = (y * z * rise).reshape(*wet.shape, 3) @ weight * 0.5 * (high - low)[..., 0]
-        return float(np.where(wet, found, 0.0).sum())
+        moment = (y * z * rise).reshape(*wet.shape, 3) @ weight * 0.5 * (high - low)
+        return np.where(wet, area, 0.0).sum(axis=1), np.where(wet, moment, 0.0).sum(axis=1)
 
     def crossings(self, level: float) -> FloatArray:
-        """Give y (m) where they pass a level (m), in order along them."""
-        inner = self._breaks(level)[:, 1:-1]
-        low, high = np.zeros(len(self)), self.length
-        piece, column = np.nonzero((inner > low[:, None]) & (inner < high[:, None]))
-        found = self.at(piece, inner[piece, column])
-        return np.asarray(found[:, 0])
+        """Give y (m) where each passes a level (m), (n, 2); nan where it does not."""
+        p = self._roots(level)
+        return np.asarray(self._polynomial(self.y, p))
 
-    def _breaks(self, level: float) -> FloatArray:
-        """Give p at the beginning, where a level is passed, and at the end, (n, 4)."""
+    def _roots(self, level: float) -> FloatArray:
+        """Give p where each passes a level, (n, 2), nan where it does not."""
         a, b, c = self.z[:, 2], self.z[:, 1], self.z[:, 0] - level
         root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
         # The stable form: no difference of numbers that are nearly the same.
         half = -0.5 * (b + np.where(b < 0.0, -root, root))
         with np.errstate(divide="ignore", invalid="ignore"):
             roots = np.stack([c / half, half / a], axis=1)
+        slack = _SLACK * self.length[:, None]
         real = (b * b - 4.0 * a * c >= 0.0)[:, None] & np.isfinite(roots)
-        inside = np.sort(np.clip(np.where(real, roots, 0.0), 0.0, self.length[:, None]), axis=1)
-        return np.column_stack([np.zeros(len(self)), inside, self.length])
+        real &= (roots >= -slack) & (roots <= self.length[:, None] + slack)
+        return np.where(real, roots, np.nan)
 
     def _polynomial(self, of: FloatArray, p: FloatArray) -> FloatArray:
         c = of if p.ndim == 1 else of[:, :, None]

@@ -240,6 +240,10 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
         lambda: Sfolds.make(BODY, [Portion.make(3, X, [narrow(0.0)] * 5)]).lines(),
         "main body: 0 section(s) with a breadth",
     ),
+    "no breadth amidships": (
+        lambda: Sfolds.make(BODY, [Portion.make(3, X, [*map(narrow, (3, 2, 0, 2, 3))])]).lines(),
+        "section at x=16 has no breadth, and the hull goes on beyond",
+    ),
     "lines of areas alone": (
         lambda: Sfolds.make(BODY, [Portion.of_areas(3, X, [1.0] * 5)]).lines(),
         "portion 3: no sections, only areas",

@@ -91,6 +91,7 @@ def test_a_ratio_of_four_is_repaired_or_falls_back(mirrored: float) -> None:
         assert_allclose(equal.lengths, [11.049534246781555], rtol=1e-14)
         assert equal.fallback.tolist() == [rule == "inverse"]
         assert bool(equal.notes) == (rule == "inverse")
+        assert all(note.startswith("biarc: fallback to equal chords, ") for note in equal.notes)
         assert ends_rightly(equal)
 
 

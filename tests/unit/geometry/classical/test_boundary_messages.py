@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
@@ -56,7 +57,9 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         "contour: part 3 must end at x=120 with z=0, got z=0 at x=121",
         lambda: keel(forward=[(121, 0), (130, 9)]),
     ),
-    "contour of one row": ("contour: part 1 has 1 row(s)", lambda: keel(aft=[(10, 0)])),
+    "contour of no rows": (
+        "contour: part 1 has 0 row(s)", lambda: keel(aft=np.zeros((0, 2))),
+    ),
     "contour upright in the middle": (
         "contour: part 1 is upright at row 2, x=5",
         lambda: keel(aft=[(0, 8), (5, 5), (5, 3), (10, 0)]),
@@ -161,7 +164,8 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: knuckle([1, 0, 3], (0, 10, 10, 40)),
     ),
     "knuckle line runs back": (
-        "knuckle line: x must be non-decreasing (row 2)", lambda: knuckle([1, 1, 1], (0, 10, 9, 40)),
+        "knuckle line: x must be non-decreasing (row 2)",
+        lambda: knuckle([1, 1, 1], (0, 10, 9, 40)),
     ),
     "knuckle line of one point": (
         "knuckle line: 1 point(s)", lambda: KnuckleLine.make([0], [1], []),
@@ -200,7 +204,7 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: Appendage.make([[(0, 0), (2, 2), (2, 0), (0, 3)]] , (0, 1)),
     ),
     "sections that cross themselves between": (
-        "appendage: section at x=1.5 self-intersects",
+        "appendage: section at x=1.125 self-intersects",
         lambda: Appendage.make([BOX, [(0, 0), (1, 0), (0.02, 1), (0, 1)], BOX], (0, 1, 6)),
     ),
     "sections the other way round": (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -33,11 +34,12 @@ BASE = [(0, 0), (0.4, 0), (0.4, 2), (0, 2)]
 MIDDLE = [(0, 0), (0.8, 0.2), (0.7, 2.5), (0, 2.4)]
 LAST = [(0, 0), (0.3, 0.1), (0.2, 1.6), (0, 1.5)]
 ROUND = Appendage.make([BASE, MIDDLE, LAST], (0, 2.4, 6))
+BLENDS: tuple[Literal["overhauser"] | None, ...] = (None, "overhauser")
 
 
-def knuckle(code: int, blend: str | None = None) -> float:
+def knuckle(code: int, blend: Literal["overhauser"] | None = None) -> float:
     """Value at x = 16, in the second of three intervals."""
-    line = KnuckleLine.make([0, 10, 25, 40], [5, 8, 9.5, 9], [1, code, 1], blend)  # type: ignore[arg-type]
+    line = KnuckleLine.make([0, 10, 25, 40], [5, 8, 9.5, 9], [1, code, 1], blend)
     return float(line.at(16))
 
 
@@ -197,10 +199,10 @@ def test_codes_2_to_4_reproduce_parabolas() -> None:
     """Exactly, with the blend too; slopes as well."""
     x = np.array([0.0, 3, 7, 12, 14, 20])
     rng = np.random.default_rng(3)
-    for codes in ([2, 2, 3, 4, 3], [1, 4, 2, 3, 3], [2, 4, 4, 4, 3]):
+    for codes in np.array([[2, 2, 3, 4, 3], [1, 4, 2, 3, 3], [2, 4, 4, 4, 3]]):
         a, b, c = rng.normal(size=3)
-        for blend in (None, "overhauser"):
-            line = KnuckleLine.make(x, a + b * x + c * x * x, codes, blend)  # type: ignore[arg-type]
+        for blend in BLENDS:
+            line = KnuckleLine.make(x, a + b * x + c * x * x, codes, blend)
             at = rng.uniform(3.0 if codes[0] == 1 else 0.0, 20.0, 50)
             assert line.at(at) == pytest.approx(a + b * at + c * at * at, abs=1e-10)
             assert line.slopes(at)[0] == pytest.approx(b + 2 * c * at, abs=1e-10)
@@ -208,7 +210,8 @@ def test_codes_2_to_4_reproduce_parabolas() -> None:
 
 def test_codes_1_to_4_are_continuous_and_their_jumps_of_slope_told() -> None:
     """Nil between blended intervals, by a polynomial of each interval elsewhere."""
-    x, v = [0.0, 4, 9, 15, 22], [[1.0, 9], [4, 8], [5, 8.5], [4.5, 9], [3, 9.8]]
+    x = [0.0, 4, 9, 15, 22]
+    v = np.array([[1.0, 9], [4, 8], [5, 8.5], [4.5, 9], [3, 9.8]])
     plain = KnuckleLine.make(x, v, [2, 4, 4, 3])
     blended = KnuckleLine.make(x, v, [2, 4, 4, 3], "overhauser")
     for line in (plain, blended):

@@ -247,6 +247,10 @@ REMARKED: dict[str, tuple[dict[str, object], str]] = {
         {"zb": [0.0, 0.05, 0.02, 0.31, 0.8]},
         "section: buttock heights decrease at buttock 2",
     ),
+    "a main part inside the bottom": (
+        {"yw": [11.9, 14.2, 14.8, 15.0, 15.1, 15.2, 15.2]},
+        "section: the first waterline ends at y=11.9, inside the last buttock at 12",
+    ),
     "another deck breadth": (
         {"bd": 15.0},
         "section: y(hd)=15.209375 at the deck side differs from bd=15 by more than 0.001 bd",
