@@ -16,7 +16,7 @@ Examples
 >>> curve = loft(CurveData.single(np.stack([x, np.sin(0.5 * x), 0.0 * x], axis=1)))
 >>> fit = fit_arcs(power(curve)[:, :, :2], np.array([0, 5]), within=0.001)
 >>> len(fit.arcs), bool(fit.deviation.max() <= 0.001)
-(16, True)
+(11, True)
 """
 
 from __future__ import annotations
