@@ -84,7 +84,7 @@ def test_words_tell_the_same(
         (["-o", "a.csv", "--biarcs", "2m"], "within is 2 m"),
         (["-o", "a.csv", "--biarcs", "1mm", "--lines", "WL 99"], "no object named 'WL 99'"),
     ],
-    ids=["drawing alone", "lines alone", "radius alone", "format", "ending", "unit", "coarse", "name"],
+    ids=["drawing", "lines", "radius", "format", "ending", "unit", "coarse", "name"],
 )  # fmt: skip
 def test_what_makes_no_sense_is_refused(
     hull: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
