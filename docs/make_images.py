@@ -26,6 +26,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
+from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
 from drawings.shifts import section_shifts
 from drawings.stern import bulk_carrier, carrier_combs, counter
@@ -122,6 +123,11 @@ def prelikon_ship() -> Figure:
     return lines_plan(examples.prelikon_ship(), paper="A4")
 
 
+def seaking_ship() -> Figure:
+    """Draw the lines plan of the coaster of lines along the hull."""
+    return lines_plan(examples.seaking_ship(), paper="A4")
+
+
 def sfolds_ship() -> Figure:
     """Draw the lines plan of the ferry of portions."""
     return lines_plan(examples.sfolds_ship(), paper="A4")
@@ -136,6 +142,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "plain_ship": plain_ship,
     "definitions": definitions,
     "prelikon_ship": prelikon_ship,
+    "seaking_ship": seaking_ship,
     "sfolds_ship": sfolds_ship,
     "series60": plan,
     "hydrostatic_curves": curves,
@@ -145,6 +152,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "panels": mesh,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,
+    "production_arcs": production_arcs_picture,
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
     "classical_splines": classical_splines,

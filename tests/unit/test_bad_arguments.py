@@ -15,21 +15,35 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.analysis.parameters import DRAUGHT
+from assoc_hull.creation.classical.middle_body import MiddleBody
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.creation.classical.prelikon_stations import Station
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
+from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
 from assoc_hull.geometry.classical.arc_section import round_corners, through_points
 from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.camber import Camber
 from assoc_hull.geometry.classical.camber_kinds import CamberKind
+from assoc_hull.geometry.classical.deck_corner import deck_corner
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck
+from assoc_hull.geometry.classical.frame import Frame
+from assoc_hull.geometry.classical.frame_parabolas import run_bends
+from assoc_hull.geometry.classical.keel_outline import KeelOutline
+from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
 from assoc_hull.geometry.classical.main_types import require_types
+from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.portion import Portion
+from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
+from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
+from assoc_hull.geometry.classical.portion import Portion, require_apart, three_eighths
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.io.classical.read import read_definition
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -319,6 +333,14 @@ FLOATING: dict[str, Given] = {
 }  # fmt: skip
 
 SHEER, CAMBER = Sheer.make([(0, 1), (9, 0)]), CamberKind.make(1, 9.0, 0.3)
+SECTION = OrdinateSection.make(
+    hb=0, sb=1, sw=2, hd=3.5, bd=4.75, cam=0.1, zb=[0], yw=[3, 4, 5]
+)  # fmt: skip
+PORTION = Portion.of_areas(3, [0, 4, 8], [1, 2, 1])
+SOLID = Portion.make(3, [0, 4, 8], [SECTION] * 3)
+MIDSHIP = Midship(8.0, 2.0, 0.2, 1.5)
+KEEL = KeelOutline.make(1, 9, [(0, 2), (1, 0)], [(9, 0), (10, 3)], [(1, 0), (9, 0)])
+SIDE = KnuckleLine.make([0, 10], [(8, 9), (8, 9)], [1])
 FRAME = through_points([(0, 0), (4, 0), (5, 3)])
 CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "OrdinateSection.make": (
@@ -328,6 +350,20 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
             "yw": [3.0, 4.0, 5.0], "nb": 0, "nw": 3, "form": "main+camber",
         },
     ),
+    "OrdinateSection.area_below": (SECTION.area_below, {"z": 1.0}),
+    "OrdinateSection.half_breadth": (SECTION.half_breadth, {"z": 1.0}),
+    "OrdinateSection.camber": (SECTION.camber, {"y": 1.0}),
+    "require_apart": (require_apart, {"portions": [PORTION]}),
+    "three_eighths": (three_eighths, {"values": [1, 2, 3, 4], "step": 1.0}),
+    "PairedParabolas.make": (
+        PairedParabolas.make, {"name": "a", "first": 0.0, "step": 1.0, "values": [1, 2, 3]}
+    ),
+    "PairedParabolas.integral": (PORTION.curve.integral, {"first": 0.0, "last": 1.0}),
+    "Portion.area": (PORTION.area, {"x": 1.0}),
+    "Portion.volume_below": (SOLID.volume_below, {"z": 1.0}),
+    "read_definition": (read_definition, {"text": "SFOLDS a", "source": "a"}),
+    "Sfolds.report": (Sfolds.make(SHIP, [PORTION]).report, {"state": None}),
+    "Sfolds.volume_below": (Sfolds.make(SHIP, [SOLID]).volume_below, {"z": 1.0}),
     "Portion.make": (Portion.make, {"number": 3, "stations": [0.0, 4.0, 8.0], "sections": ()}),
     "Portion.of_areas": (
         Portion.of_areas, {"number": 3, "stations": [0.0, 4.0, 8.0], "areas": [1.0, 2.0, 1.0]}
@@ -335,9 +371,78 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "Sfolds.make": (
         Sfolds.make,
         {
-            "particulars": SHIP, "portions": [Portion.of_areas(3, [0, 4, 8], [1, 2, 1])],
+            "particulars": SHIP, "portions": [PORTION],
             "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
         },
+    ),
+    "Midship": (
+        Midship,
+        {"half_breadth": 8.0, "flat": 2.0, "rise": 0.2, "radius": 1.5, "depth": 9.0},
+    ),
+    "KeelOutline.make": (
+        KeelOutline.make,
+        {
+            "x_a": 1.0, "x_b": 9.0, "aft": [(0, 2), (1, 0)], "forward": [(9, 0), (10, 3)],
+            "tangent": [(1, 0), (9, 0)],
+        },
+    ),
+    "ParallelWaterline.make": (
+        ParallelWaterline.make,
+        {
+            "z": 1.0, "points": [(1, 0), (3, 1), (6, 1), (9, 0.5)], "aft_end": (0, 0),
+            "fwd_end": (10, 0), "parallel": (3, 6), "parallel_half_breadth": 1.0,
+            "end_slope": (0.2, -0.2), "method": "graph",
+        },
+    ),
+    "KnuckleLine.make": (
+        KnuckleLine.make,
+        {"x": [0, 4, 9], "v": [(1, 3), (2, 3), (1, 4)], "code": [2, 3], "blend": "overhauser"},
+    ),
+    "Camber.make": (
+        Camber.make,
+        {"x": [0, 9], "half_breadth": 4.0, "side_height": 3.0, "rise": 0.2, "kind": "line"},
+    ),
+    "Appendage.make": (
+        Appendage.make, {"sections": [[(0, 0), (1, 0), (1, 1)]], "x": (0, 4), "sign": -1}
+    ),
+    "Frame.make": (
+        Frame.make,
+        {
+            "x": 3.0, "waterline_points": [(2, 1), (3, 2)], "deck_side": (4, 6), "keel": 0.0,
+            "flat": 1.0, "knuckles": [(3.5, 4)], "camber": 0.1, "camber_kind": "line",
+            "corner_radius": 0.2,
+        },
+    ),
+    "deck_corner": (
+        deck_corner,
+        {
+            "half_breadth": 8.0, "side_height": 9.0, "rise": 0.3, "radius": 0.5,
+            "side_angle": 1.5, "kind": "line", "name": "frame",
+        },
+    ),
+    "run_bends": (
+        run_bends, {"points": [(0, 0), (1, 1), (1.5, 3)], "start_angle": 0.0, "name": "frame"}
+    ),
+    "MiddleBody": (
+        MiddleBody,
+        {
+            "midship": MIDSHIP, "length": 40.0, "depth": 9.0, "draught": 6.0, "stations": 5,
+            "name": "body",
+        },
+    ),
+    "Seaking": (
+        Seaking,
+        {
+            "particulars": SHIP, "keel": KEEL, "waterlines": (), "deck": SIDE,
+            "frames": np.array([2.0, 5.0]), "parallel": Parallel(MIDSHIP, 2.0, 6.0),
+            "knuckles": (), "camber": DeckCamber(), "appendages": (), "buttocks": (1.0,),
+            "told": (),
+        },
+    ),
+    "Parallel": (Parallel, {"section": MIDSHIP, "first": 2.0, "last": 6.0}),
+    "DeckCamber": (
+        DeckCamber,
+        {"rise": [(0.0, 0.2), (9.0, 0.3)], "kind": "line", "corner": [(0.0, 0.2), (9.0, 0.3)]},
     ),
     "Sheer.make": (Sheer.make, {"points": [(0, 1), (9, 0)]}),
     "CamberKind.make": (

@@ -24,8 +24,9 @@ from assoc_hull.creation.classical.report import (
     measure_net,
 )
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.conformal import ConformalSections, lewis_sections
+from assoc_hull.geometry.classical.taken import numbers
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource
@@ -92,12 +93,12 @@ class LewisHull:
         >>> LewisHull.make(x, beam, np.full(11, 0.9), 6.0, 9.0).areas.max().round(6).item()
         86.4
         """
-        stations = finite(x, "Lewis hull", (None,))
+        stations = numbers(x, "Lewis hull", (None,))
         beams, full = (
-            finite(each, "Lewis hull", (len(stations),)) for each in (half_breadth, coefficient)
+            numbers(each, "Lewis hull", (len(stations),)) for each in (half_breadth, coefficient)
         )
-        deep, side = finite([draught, depth], "Lewis hull", (2,)).tolist()
-        heights = finite(levels, "Lewis hull", (None,))
+        deep, side = numbers([draught, depth], "Lewis hull", (2,)).tolist()
+        heights = numbers(levels, "Lewis hull", (None,))
         if len(stations) < 5 or not (np.diff(stations) > 0.0).all():
             what = f"Lewis hull: {len(stations)} stations that do not all rise"
             raise GeometryError(what, "give five or more, from aft forward")

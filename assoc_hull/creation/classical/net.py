@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
+from assoc_hull.arguments import shown
 from assoc_hull.edit.adopt import AdoptionReport, adopt
 from assoc_hull.edit.cut import add_line
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
@@ -117,6 +119,9 @@ def classical_net(
     >>> print(f"{body.volume(9.0):.5f}")
     11249.94226
     """
+    if not all(hasattr(definition, each) for each in ("lines", "particulars", "cuts")):
+        remedy = "give one that read_classical gives"
+        raise BadInputError(f"the definition is {shown(definition)}", "in classical_net", remedy)
     state, report = adopt(definition.lines(), definition.particulars, LINKS, tolerances)
     document = Document(state)
     for group, places in definition.cuts.items():

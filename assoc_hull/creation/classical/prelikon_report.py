@@ -15,6 +15,7 @@ from assoc_hull.creation.classical.report import (
     departures,
     measure_net,
 )
+from assoc_hull.errors import BadInputError
 from assoc_hull.model.state import HullState
 
 if TYPE_CHECKING:
@@ -36,9 +37,14 @@ def report_of(ship: Prelikon, state: HullState | None) -> ClassicalReport:
     state : HullState or None
         A net of it.
     """
-    figures = [*_of_hull(ship, state), *_of_boxes(ship), *_of_houses(ship)]
+    notes = ship.notes
+    try:
+        hull = _of_hull(ship, state)
+    except BadInputError as error:
+        hull, notes = _of_hull(ship, None), (*notes, f"the net cannot be measured: {error.what}")
+    figures = (*hull, *_of_boxes(ship), *_of_houses(ship))
     away = () if state is None else departures(state, _sections(ship))
-    return ClassicalReport(ship.kind, ship.particulars.name, tuple(figures), ship.notes, away)
+    return ClassicalReport(ship.kind, ship.particulars.name, figures, notes, away)
 
 
 def _of_hull(ship: Prelikon, state: HullState | None) -> list[Figure]:

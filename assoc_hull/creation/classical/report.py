@@ -15,6 +15,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import flotation
+from assoc_hull.arguments import word
+from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -107,8 +109,7 @@ class ClassicalReport:
         UnknownNameError
             There is none.
         """
-        from assoc_hull.errors import UnknownNameError
-
+        word(name, "name", "of a figure")
         for each in self.figures:
             if each.name == name:
                 return each

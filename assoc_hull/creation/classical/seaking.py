@@ -8,97 +8,65 @@ Mathematical Method for Design and Production", J. SNAK.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import all_of
 from assoc_hull.creation.classical.report import ClassicalReport
+from assoc_hull.creation.classical.seaking_checks import (
+    check_deck,
+    check_frames,
+    check_heights,
+    check_parallel,
+)
+from assoc_hull.creation.classical.seaking_parts import (
+    WHERE,
+    Attached,
+    DeckCamber,
+    Knuckle,
+    Parallel,
+    is_a,
+)
 from assoc_hull.creation.classical.seaking_sections import MidshipSection, Section
-from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.appendage import Appendage
-from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.checks import finite, inside
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 
-__all__ = ["Attached", "DeckCamber", "Knuckle", "Parallel", "Seaking"]
-
-_SAME = 1e-6
-"""Places (m) that differ by less are one."""
+__all__ = ["Seaking"]
 
 
-@attrs.frozen
-class Knuckle:
-    """A knuckle line: its name, and half-breadths and heights over x."""
-
-    name: str
-    line: KnuckleLine
+def _places(given: ArrayLike) -> FloatArray:
+    return finite(given, "frames", (None,))
 
 
-@attrs.frozen
-class Parallel:
-    """A midship section, and from where to where (m) the ship has it."""
-
-    section: Midship
-    first: float
-    last: float
+def _numbers(given: ArrayLike) -> tuple[float, ...]:
+    if isinstance(given, tuple | list) and not given:
+        return ()
+    return tuple(finite(given, "buttocks", (None,)).tolist())
 
 
-@attrs.frozen
-class Attached:
-    """An appendage: its name, and whether it is drawn on one side and stands on both."""
-
-    name: str
-    body: Appendage
-    both: bool = True
-
-    @property
-    def volume(self) -> float:
-        """With its sign, of both sides, m3."""
-        return (2.0 if self.both else 1.0) * self.body.volume
+def _waterlines(given: object) -> tuple[ParallelWaterline, ...]:
+    return tuple(all_of(given, ParallelWaterline, "waterlines", WHERE))
 
 
-@attrs.frozen(eq=False)
-class DeckCamber:
-    """Camber and rounded corners of the deck, in straight lines between given places.
+def _knuckles(given: object) -> tuple[Knuckle, ...]:
+    return tuple(all_of(given, Knuckle, "knuckles", WHERE))
 
-    Attributes
-    ----------
-    rise : (n, 2), m
-        Rows (x, c), c from the side to the centre line; empty for a deck straight across.
-    kind : {"line", "parabola"}
-        Of the camber.
-    corner : (k, 2), m
-        Rows (x, r), radii of the corner; empty for none. Beyond its ends there is none.
-    """
 
-    rise: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)))
-    kind: str = "parabola"
-    corner: FloatArray = attrs.field(factory=lambda: np.zeros((0, 2)))
+def _appendages(given: object) -> tuple[Attached, ...]:
+    return tuple(all_of(given, Attached, "appendages", WHERE))
 
-    def __attrs_post_init__(self) -> None:
-        freeze(self.rise, self.corner)
-        for rows, name in ((self.rise, "camber"), (self.corner, "corner radius")):
-            finite(rows, name, (None, 2))
-            if (np.diff(rows[:, 0]) <= 0.0).any():
-                row = int(np.argmax(np.diff(rows[:, 0]) <= 0.0)) + 1
-                what = f"{name}: x not strictly increasing at row {row}"
-                raise GeometryError(what, "put the rows in order from aft", {"row": row})
 
-    def at(self, x: float) -> tuple[float | None, float]:
-        """Give rise (m; None without camber) and corner radius (m) at x (m)."""
-        rise = float(np.interp(x, *self.rise.T)) if len(self.rise) else None
-        if not len(self.corner) or not self.corner[0, 0] <= x <= self.corner[-1, 0]:
-            return rise, 0.0
-        return rise, float(np.interp(x, *self.corner.T))
+def _told(given: object) -> tuple[str, ...]:
+    return tuple(all_of(given, str, "told", WHERE))
 
 
 @attrs.frozen(eq=False, kw_only=True)
@@ -131,25 +99,27 @@ class Seaking:
         Notes of whoever made it.
     """
 
-    particulars: Particulars
-    keel: KeelOutline
-    waterlines: tuple[ParallelWaterline, ...]
-    deck: KnuckleLine
-    frames: FloatArray
-    parallel: Parallel | None = None
-    knuckles: tuple[Knuckle, ...] = ()
-    camber: DeckCamber = attrs.field(factory=DeckCamber)
-    appendages: tuple[Attached, ...] = ()
-    buttocks: tuple[float, ...] = ()
-    told: tuple[str, ...] = ()
+    particulars: Particulars = attrs.field(validator=is_a(Particulars))
+    keel: KeelOutline = attrs.field(validator=is_a(KeelOutline))
+    waterlines: tuple[ParallelWaterline, ...] = attrs.field(converter=_waterlines)
+    deck: KnuckleLine = attrs.field(validator=is_a(KnuckleLine))
+    frames: FloatArray = attrs.field(converter=_places)
+    parallel: Parallel | None = attrs.field(
+        default=None, validator=attrs.validators.optional(is_a(Parallel))
+    )
+    knuckles: tuple[Knuckle, ...] = attrs.field(default=(), converter=_knuckles)
+    camber: DeckCamber = attrs.field(factory=DeckCamber, validator=is_a(DeckCamber))
+    appendages: tuple[Attached, ...] = attrs.field(default=(), converter=_appendages)
+    buttocks: tuple[float, ...] = attrs.field(default=(), converter=_numbers)
+    told: tuple[str, ...] = attrs.field(default=(), converter=_told)
 
     def __attrs_post_init__(self) -> None:
         freeze(self.frames)
-        _check_heights(self.waterlines)
-        _check_deck(self.deck, self.keel)
-        _check_frames(self.frames, self.keel.ends)
+        check_heights(self.waterlines)
+        check_deck(self.deck, self.keel)
+        check_frames(self.frames, self.keel.ends)
         if self.parallel is not None:
-            _check_parallel(self.parallel, self.deck, self.keel)
+            check_parallel(self.parallel, self.deck, self.keel)
 
     @property
     def kind(self) -> str:
@@ -245,66 +215,3 @@ def _over(at: object, ends: tuple[float, float], place: FloatArray) -> FloatArra
     found = np.array(found, np.float64)
     found[~there] = np.nan
     return found
-
-
-def _check_heights(waterlines: Sequence[ParallelWaterline]) -> None:
-    for one, other in itertools.pairwise(waterlines):
-        if other.z - one.z <= _SAME:
-            raise GeometryError(
-                f"waterline z={figure(other.z)}: stands at or below the one before it",
-                "give waterlines upward, each once", {"z": other.z},
-            )  # fmt: skip
-
-
-def _check_deck(deck: KnuckleLine, keel: KeelOutline) -> None:
-    if deck.single:
-        what = "deck side: has one column of values"
-        raise GeometryError(what, "give half-breadths and heights", {})
-    first, last = keel.ends
-    if deck.ends[0] > first + _SAME or deck.ends[1] < last - _SAME:
-        raise GeometryError(
-            f"deck side: must cover [{figure(first)}, {figure(last)}]",
-            "let it run as far as the contour", {"ends": deck.ends},
-        )  # fmt: skip
-    if (deck.v[:, 0] < 0.0).any():
-        row = int(np.argmax(deck.v[:, 0] < 0.0))
-        raise GeometryError(
-            f"deck side: negative half-breadth at row {row}", "give 0 or more", {"row": row}
-        )
-    for x in (first, last):
-        top, bottom = float(deck.at(x)[1]), float(keel.height(x))
-        if top < bottom - _SAME:
-            what = f"deck side: z={figure(top)} at x={figure(x)} lies below the contour"
-            raise GeometryError(what, "raise it or lower the contour", {"x": x, "z": top})
-
-
-def _check_frames(frames: FloatArray, ends: tuple[float, float]) -> None:
-    finite(frames, "frames", (None,))
-    step = np.diff(frames)
-    if len(frames) < 2 or (step <= _SAME).any():
-        row = int(np.argmax(step <= _SAME)) + 1 if len(frames) > 1 else 0
-        what = f"frames: x not strictly increasing at row {row}"
-        raise GeometryError(what, "give two frames or more, in order from aft", {"row": row})
-    inside(frames, "frames", *ends)
-
-
-def _check_parallel(parallel: Parallel, deck: KnuckleLine, keel: KeelOutline) -> None:
-    first, last, half = parallel.first, parallel.last, parallel.section.half_breadth
-    if not keel.x_a - _SAME <= first < last <= keel.x_b + _SAME:
-        raise GeometryError(
-            f"midship: its part [{figure(first)}, {figure(last)}] leaves the level keel",
-            f"let it lie between {figure(keel.x_a)} and {figure(keel.x_b)}", {},
-        )  # fmt: skip
-    nodes = deck.x[(deck.x > first) & (deck.x < last)]
-    for x in (first, *nodes.tolist(), last):
-        y, z = deck.at(x).tolist()
-        if abs(y - half) > _SAME:
-            raise GeometryError(
-                f"midship: the deck side at x={figure(x)} has y={figure(y)}, not a={figure(half)}",
-                "let the deck side run parallel there", {"x": x, "y": y, "a": half},
-            )  # fmt: skip
-        if parallel.section.centre[1] > z:
-            raise GeometryError(
-                f"midship: bilge centre z={figure(parallel.section.centre[1])} above the side "
-                f"height {figure(z)}", "give a smaller radius or rise", {"x": x, "D": z},
-            )  # fmt: skip

@@ -94,6 +94,14 @@ def _left_out(ship: Seaking) -> list[str]:
         found.append(
             "camber and rounded corners of the deck are not in the net: it ends at the deck side"
         )
+    steps = [
+        x for x, code in zip(ship.deck.x[1:].tolist(), ship.deck.code, strict=True) if code == 0
+    ]
+    if steps:
+        found.append(
+            f"deck side: it steps at x={', '.join(map(figure, steps))}; near there the net is rough "
+            "above the lower deck"
+        )
     if ship.appendages:
         names = ", ".join(each.name for each in ship.appendages)
         found.append(f"appendages are not in the net: {names}")

@@ -16,6 +16,7 @@ from typing import Self
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import instance
 from assoc_hull.creation.classical.middle_body import midship_outline
 from assoc_hull.creation.classical.outline import Outline, smooth, straight
 from assoc_hull.errors import GeometryError
@@ -69,6 +70,7 @@ class MidshipSection:
         GeometryError
             ``"frame x={x}: corner radius {r} does not fit"``.
         """
+        instance(midship, Midship, "midship", "in a section")
         top, corner = np.array([midship.half_breadth, depth]), None
         if radius:
             name = f"frame x={figure(x)}"

@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Appendage"]
@@ -56,7 +57,7 @@ class Appendage:
         freeze(self.sections, self.x)
 
     @classmethod
-    def make(cls, sections: Sequence[ArrayLike], x: ArrayLike, sign: int = 1) -> Self:
+    def make(cls, sections: Sequence[ArrayLike], x: ArrayLike, sign: float = 1) -> Self:
         """Check what is handed in; arguments as the attributes.
 
         Raises
@@ -67,6 +68,8 @@ class Appendage:
             section at x={x} self-intersects"``, ``"appendage: sections have opposite
             orientation"``; fewer than three points, another sign.
         """
+        if not isinstance(sections, list | tuple | np.ndarray):
+            raise GeometryError("appendage: sections are no row of arrays", "give 1, 2 or 3", {})
         drawn = [finite(each, "appendage", (None, 2)) for each in sections]
         if len(drawn) not in (1, 2, 3):
             what = f"appendage: 1, 2 or 3 sections expected, got {len(drawn)}"
@@ -83,9 +86,7 @@ class Appendage:
         if (np.diff(places) <= 0.0).any():
             what = "appendage: x must be strictly increasing"
             raise GeometryError(what, "give the places from aft forward", {"x": places.tolist()})
-        if sign not in (1, -1):
-            raise GeometryError(f"appendage: sign is {sign!r}", "give 1 or -1", {"sign": sign})
-        made = cls(np.stack(drawn), places, int(sign))
+        made = cls(np.stack(drawn), places, int(one_of(sign, (1, -1), "appendage: sign")))
         made._look()
         return made
 

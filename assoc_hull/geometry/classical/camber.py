@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["KINDS", "Camber"]
@@ -80,19 +81,15 @@ class Camber:
         GeometryError
             ``"camber: half-breadth must be positive"``; stations out of order, another kind.
         """
-        if kind not in KINDS:
-            what = f"camber: kind is {kind!r}"
-            raise GeometryError(what, "give 'line' or 'parabola'", {"kind": kind})
+        one_of(kind, KINDS, "camber: kind")
         places = finite(x, "camber", (None,))
         if not len(places) or (np.diff(places) <= 0.0).any():
             row = int(np.argmax(np.diff(places) <= 0.0)) + 1 if len(places) else 0
             what = f"camber: x not strictly increasing at row {row}"
             raise GeometryError(what, "put the stations in order from aft", {"row": row})
         breadth, side, bow = (
-            finite(np.full(len(places), each) if np.ndim(each) == 0 else each, "camber",
-                   (len(places),))
-            for each in (half_breadth, side_height, rise)
-        )  # fmt: skip
+            _each(part, len(places)) for part in (half_breadth, side_height, rise)
+        )
         if (breadth <= 0.0).any():
             row = int(np.argmax(breadth <= 0.0))
             told = {"row": row, "b": float(breadth[row])}
@@ -113,7 +110,7 @@ class Camber:
             ``"camber: |y|={y} exceeds half-breadth {b}"``, x beyond the stations.
         """
         _place, half, side, rise = self._at(x)
-        off = np.abs(finite(y, "camber", tuple(None for _ in np.shape(y))))
+        off = np.abs(_any(y))
         off, half, side, rise = np.broadcast_arrays(off, half, side, rise)
         beyond = off > half * (1.0 + _SLACK)
         if beyond.any():
@@ -138,6 +135,22 @@ class Camber:
         place = inside(x, "camber", float(self.x[0]), float(self.x[-1]))
         columns = (self.half_breadth, self.side_height, self.rise)
         return (place, *(np.asarray(np.interp(place, self.x, each)) for each in columns))
+
+
+def _each(value: ArrayLike, count: int) -> FloatArray:
+    """Take one number for all stations, or one each."""
+    if isinstance(value, int | float | np.number):
+        return np.full(count, finite(value, "camber", ()))
+    return finite(value, "camber", (count,))
+
+
+def _any(values: ArrayLike) -> FloatArray:
+    """Take numbers of any shape."""
+    try:
+        shape = np.shape(values)
+    except ValueError:
+        shape = ()
+    return finite(values, "camber", tuple(None for _ in shape))
 
 
 def _hollow(x: FloatArray, rise: FloatArray) -> tuple[str, ...]:

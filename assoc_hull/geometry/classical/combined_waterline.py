@@ -23,10 +23,11 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.checks import figure, inside
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import Quintic, fit_quintic
+from assoc_hull.geometry.classical.taken import named, number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["conic", "conic_coefficients", "conic_notes", "quintic_notes", "waterline"]
@@ -53,7 +54,7 @@ def conic_coefficients(height: ArrayLike, slope: ArrayLike) -> FloatArray:
     >>> conic_coefficients([2.0, 2.0], [1.0, 0.0]).tolist()
     [[4.0, 0.0], [8.0, -4.0]]
     """
-    y, s = np.broadcast_arrays(np.asarray(height, np.float64), np.asarray(slope, np.float64))
+    y, s = together((height, slope), "waterline")
     return np.stack([2.0 * y * (y - s), y * (2.0 * s - y)], axis=-1)
 
 
@@ -86,8 +87,8 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
     >>> float(nose.at(70.0).round(6)), round(nose.nose_radius(), 6)
     (3.475913, 1.108129)
     """
-    numbers = finite([first, last, y, slope, end], "waterline", (5,))
-    begin, finish, value, rise, level = numbers.tolist()
+    given = numbers([first, last, y, slope, end], "waterline", (5,))
+    begin, finish, value, rise, level = given.tolist()
     if not begin < finish:
         what = f"waterline: conic from x={figure(begin)} to x={figure(finish)}"
         raise GeometryError(what, "let it end beyond its beginning")
@@ -110,9 +111,8 @@ def conic(first: float, last: float, y: float, slope: float, end: float = 0.0) -
 
 def conic_notes(slope: float) -> tuple[str, ...]:
     """Tell if a conic bulges beyond its beginning; slope is dy/dv at v = 1, m."""
-    if slope >= 0.0:
-        return ()
-    return (f"waterline: y1'<0: conic bulges beyond y1 (y1' = {figure(slope)}).",)
+    s = number(slope, "waterline")
+    return () if s >= 0.0 else (f"waterline: y1'<0: conic bulges beyond y1 (y1' = {figure(s)}).",)
 
 
 def quintic_notes(curve: Quintic) -> tuple[str, ...]:
@@ -183,15 +183,13 @@ def waterline(
     >>> fore.at([50.0, 70.0]).round(6).tolist(), round(fore.area(), 6)
     ([8.894022, 3.475913], 469.943833)
     """
-    a, b, c, top, change, level, rise = finite(
+    a, b, c, top, change, level, rise = numbers(
         [x0, x1, x2, y0, y1, end, slope], "waterline", (7,)
     ).tolist()
-    begin = a if start is None else float(finite(start, "waterline", ()))
+    begin = a if start is None else number(start, "waterline")
     _check_ranges(begin, (a, b, c), (top, change, level))
-    if last not in ("conic", "cubic conic"):
-        what = f"waterline: last piece {str(last)!r}"
-        raise GeometryError(what, "give 'conic' or 'cubic conic'")
-    points = finite(offsets, "waterline", (None, 2))
+    named(last, "waterline: last piece", ("conic", "cubic conic"))
+    points = numbers(offsets, "waterline", (None, 2))
     if len(points):
         inside(points[:, 0], "waterline", a, b)
     between = points[(points[:, 0] > a) & (points[:, 0] < b)]

@@ -23,14 +23,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.linear_fits import whole_number
+from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.taken import numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]
 
 _CHECKED = 181
 """So many angles are looked at for folds: every half degree, and exactly for two terms."""
+
+_TRIALS = 100
+"""Of the angles of offsets; a section takes ten to forty."""
 
 _NIL = 1e-9
 """Less than this part of the scale on the wrong side is rounding."""
@@ -160,9 +163,9 @@ def lewis_sections(
     >>> lewis_sections([6.0], [5.0], [0.94]).terms[0].round(9).tolist()
     [0.081927588, -0.098796528]
     """
-    beam = finite(half_breadth, "conformal section", (None,))
+    beam = numbers(half_breadth, "conformal section", (None,))
     deep, sigma = (
-        finite(each, "conformal section", (len(beam),)) for each in (draught, coefficient)
+        numbers(each, "conformal section", (len(beam),)) for each in (draught, coefficient)
     )
     for name, values in (("half-breadth", beam), ("draught", deep), ("area coefficient", sigma)):
         bad = np.flatnonzero(values <= 0.0)
@@ -218,7 +221,7 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
     """
     from scipy.optimize import least_squares
 
-    points = finite(offsets, "conformal section", (None, 2))
+    points = numbers(offsets, "conformal section", (None, 2))
     if len(points) < 3:
         what = f"conformal section: {len(points)} offsets"
         raise GeometryError(what, "give three or more")
@@ -227,6 +230,9 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
     if not (steps > 0.0).all():
         what = f"conformal section: coincident points at index {int(np.argmin(steps)) + 1}"
         raise GeometryError(what, "leave one of them out")
+    if points[0, 1] <= points[-1, 1]:
+        what = f"conformal section: depths from {figure(points[0, 1])} to {figure(points[-1, 1])}"
+        raise GeometryError(what, "give offsets from the keel to the waterline")
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     start: FloatArray = 0.5 * np.pi * arc / arc[-1]
     if points.max(axis=0).min() <= 0.0:
@@ -249,7 +255,9 @@ def fit_conformal(offsets: ArrayLike, terms: int) -> tuple[ConformalSections, Fl
 
     if free.any():
         begin = np.clip(start[free], 1e-6, high - 1e-6)
-        found = least_squares(off, begin, bounds=(0.0, high), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+        found = least_squares(
+            off, begin, bounds=(0.0, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=_TRIALS
+        )
         start = whole(found.x)
     linear, rest = _linear(points, start, terms)
     if linear[0] <= 0.0:

@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.linear_fits import held_fit, linear_fit
 from assoc_hull.geometry.classical.pieces import Piece
+from assoc_hull.geometry.classical.taken import number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["cubic_conic", "cubic_conic_coefficients", "fit_cubic_conic"]
@@ -45,7 +46,7 @@ def cubic_conic_coefficients(height: ArrayLike, slope: ArrayLike, bend: ArrayLik
     >>> cubic_conic_coefficients(2.0, 1.0, -0.5).tolist()
     [4.0, 0.0, 0.0]
     """
-    y, s, c = np.broadcast_arrays(*(np.asarray(e, np.float64) for e in (height, slope, bend)))
+    y, s, c = together((height, slope, bend), "cubic conic")
     z, first, half = y * y, 2.0 * y * s, s * s + y * c
     b3 = z - first + half
     b2 = half - 3.0 * b3
@@ -83,8 +84,8 @@ def cubic_conic(
     >>> piece.coefficients[1:].round(6).tolist(), float(piece.at(67.5).round(6))
     ([33.557188, 8.379506, 0.313306], 4.348866)
     """
-    numbers = finite([first, last, y, slope, second, end], "cubic conic", (6,))
-    begin, finish, value, rise, bend, level = numbers.tolist()
+    given = numbers([first, last, y, slope, second, end], "cubic conic", (6,))
+    begin, finish, value, rise, bend, level = given.tolist()
     if not begin < finish:
         what = f"cubic conic: from x={figure(begin)} to x={figure(finish)}"
         raise GeometryError(what, "let it end beyond its beginning")
@@ -131,13 +132,13 @@ def fit_cubic_conic(
     >>> fit_cubic_conic(x, np.sqrt(4.0 * (10.0 - x)), 0.0, 10.0).coefficients.round(9).tolist()
     [0.0, 40.0, 0.0, 0.0]
     """
-    limits = finite([first, last, end], "cubic conic", (3,)).tolist()
+    limits = numbers([first, last, end], "cubic conic", (3,)).tolist()
     begin, finish, level = limits
     if not begin < finish:
         what = f"cubic conic: from x={figure(begin)} to x={figure(finish)}"
         raise GeometryError(what, "let it end beyond its beginning")
-    places = finite(x, "cubic conic", (None,))
-    heights = finite(y, "cubic conic", (len(places),)) - level
+    places = numbers(x, "cubic conic", (None,))
+    heights = numbers(y, "cubic conic", (len(places),)) - level
     v = (finish - places) / (finish - begin)
     bad = np.flatnonzero((v <= 0.0) | (v > 1.0) | (heights <= 0.0))
     if len(bad):
@@ -161,10 +162,10 @@ def _held(
         if slope is not None:
             raise GeometryError("cubic conic: a slope without a value", "give both, or neither")
         return [], []
-    height = float(finite(value, "cubic conic", ())) - level
+    height = number(value, "cubic conic") - level
     held, values = [[1.0, 1.0, 1.0]], [height * height]
     if slope is not None:
-        rise = -float(finite(slope, "cubic conic", ())) * length
+        rise = -number(slope, "cubic conic") * length
         held.append([1.0, 2.0, 3.0])
         values.append(2.0 * height * rise)
     return held, values

@@ -23,7 +23,9 @@ from scipy.optimize import brentq
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.quadratics import Quadratics
 from assoc_hull.geometry.curves import FloatArray
 
@@ -86,6 +88,7 @@ def deck_corner(
     GeometryError
         ``"frame x={x}: corner radius {r} does not fit"``.
     """
+    one_of(kind, KINDS, f"{name}: camber kind")
     numbers = (half_breadth, side_height, rise, radius, side_angle)
     b, zs, c, r, lean = (float(finite(each, name, ())) for each in numbers)
     if not r > 0.0 or not b > 0.0:

@@ -19,8 +19,9 @@ from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import finite, inside
-from assoc_hull.geometry.classical.linear_fits import linear_fit, whole_number
+from assoc_hull.geometry.classical.checks import inside
+from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.taken import numbers, places, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["DraftFunctions", "PolynomialHull", "fit_polynomial_hull"]
@@ -89,8 +90,8 @@ class DraftFunctions:
         """
         from scipy.interpolate import CubicSpline
 
-        z = finite(levels, "draft functions", (None,))
-        table = finite(values, "draft functions", (len(z), None))
+        z = numbers(levels, "draft functions", (None,))
+        table = numbers(values, "draft functions", (len(z), None))
         if len(z) < 2 or not (np.diff(z) > 0.0).all():
             what = f"draft functions: {len(z)} levels that do not all rise"
             raise GeometryError(what, "give two or more, from below upward")
@@ -125,22 +126,35 @@ class PolynomialHull:
     Attributes
     ----------
     functions : DraftFunctions
+    span : (float, float)
+        The range of x.
     rms : (n,), m
         Of each waterline at its own level, before draft functions.
     """
 
     functions: DraftFunctions
+    span: tuple[float, float]
     rms: FloatArray
 
+    def __attrs_post_init__(self) -> None:
+        freeze(self.rms)
+
     def at(self, x: ArrayLike, z: ArrayLike) -> FloatArray:
-        """Give half-breadths at places of one shape, m; x in the unit of the fit."""
-        level = np.asarray(z)
-        places = finite(x, "polynomial hull", tuple(None for _ in np.shape(x)))
-        if places.shape != level.shape:
-            what = f"polynomial hull: x of shape {places.shape}, z of shape {level.shape}"
+        """Give half-breadths at places of one shape, m; x in the unit of the fit.
+
+        Raises
+        ------
+        GeometryError
+            ``"polynomial hull: x={x} outside [{a}, {b}]"``; levels outside; other shapes.
+        """
+        low, high = self.span
+        along = inside(x, "polynomial hull", low, high, _SLACK * (high - low))
+        level = places(z, "polynomial hull")
+        if along.shape != level.shape:
+            what = f"polynomial hull: x of shape {along.shape}, z of shape {level.shape}"
             raise GeometryError(what, "give places of one shape")
         power = np.arange(self.functions.values.shape[1])
-        return np.asarray(np.sum(self.functions.at(level) * places[..., None] ** power, axis=-1))
+        return np.asarray(np.sum(self.functions.at(level) * along[..., None] ** power, axis=-1))
 
 
 def fit_polynomial_hull(
@@ -173,15 +187,17 @@ def fit_polynomial_hull(
     >>> round(float(hull.at(0.5, 3.0)), 9)
     2.25
     """
-    places = finite(x, "polynomial hull", (None,))
-    z = finite(levels, "polynomial hull", (None,))
-    table = finite(y, "polynomial hull", (len(z), len(places)))
-    whole_number(degree, "polynomial hull: degree", 0, len(places) - 1)
-    rows = polynomial.polyvander(places, degree)
+    at = inside(numbers(x, "polynomial hull", (None,)), "polynomial hull", -1.0, 1.0)
+    z = numbers(levels, "polynomial hull", (None,))
+    table = numbers(y, "polynomial hull", (len(z), len(at)))
+    whole_number(degree, "polynomial hull: degree", 0, len(at) - 1)
+    rows = polynomial.polyvander(at, degree)
     fits = [linear_fit(rows, each, name="polynomial hull") for each in table]
     values = np.array([fit.coefficients for fit in fits])
     return PolynomialHull(
-        DraftFunctions.make(z, values, draft_degree), np.array([fit.rms for fit in fits])
+        DraftFunctions.make(z, values, draft_degree),
+        (float(at.min()), float(at.max())),
+        np.array([fit.rms for fit in fits]),
     )
 
 

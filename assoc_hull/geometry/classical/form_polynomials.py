@@ -23,7 +23,8 @@ from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.checks import called, figure, inside
+from assoc_hull.geometry.classical.taken import listed, named, number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["chapman", "form_polynomial", "product_hull", "taylor_quintic"]
@@ -56,10 +57,7 @@ def taylor_quintic(t: ArrayLike, p: ArrayLike, c: ArrayLike) -> FloatArray:
     >>> taylor_quintic(1.8, -2.2, 0.7).round(9).tolist()
     [0.0, 1.8, 2.3, -8.8, 8.5, -2.8]
     """
-    each = (np.asarray(e) for e in (t, p, c))
-    end, bend, full = np.broadcast_arrays(
-        *(finite(e, "Taylor quintic", tuple(None for _ in e.shape)) for e in each)
-    )
+    end, bend, full = together((t, p, c), "Taylor quintic")
     power = np.arange(2.0, 6.0)
     rows = np.stack([np.ones(4), power, power * (power - 1.0), 1.0 / (power + 1.0)])
     right = np.stack([1.0 - end, -end, bend, full - 0.5 * end], axis=-1)
@@ -99,8 +97,8 @@ def form_polynomial(powers: Sequence[int], conditions: Sequence[Condition]) -> F
     >>> round(float(run.sum()), 9)
     1.0
     """
-    kinds = [_condition(each) for each in conditions]
-    power = finite(list(powers), "form polynomial", (None,))
+    kinds = [_condition(each) for each in listed(conditions, "form polynomial")]
+    power = numbers(listed(powers, "form polynomial"), "form polynomial", (None,))
     if len(power) != len(kinds) or not len(power):
         what = f"form polynomial: {len(power)} powers, {len(kinds)} conditions"
         raise GeometryError(what, "give as many conditions as powers")
@@ -134,7 +132,7 @@ def chapman(x: ArrayLike, n: float = 2.0) -> FloatArray:
     >>> round(float(chapman(0.4)), 12)
     0.84
     """
-    power = float(finite(n, "Chapman parabola", ()))
+    power = number(n, "Chapman parabola")
     if power <= 0.0:
         what = f"Chapman parabola: power {figure(power)}"
         raise GeometryError(what, "give one above 0", {"n": power})
@@ -169,13 +167,9 @@ def product_hull(x: ArrayLike, zeta: ArrayLike, a: ArrayLike, b: ArrayLike) -> F
     along = np.abs(inside(x, "product hull", -1.0, 1.0))
     down = inside(zeta, "product hull", 0.0, 1.0)
     first, second = (
-        np.concatenate([[1.0], -finite(each, "product hull", (None,))]) for each in (a, b)
+        np.concatenate([[1.0], -numbers(each, "product hull", (None,))]) for each in (a, b)
     )
-    try:
-        along, down = np.broadcast_arrays(along, down)
-    except ValueError:
-        what = f"product hull: x of shape {along.shape}, zeta of shape {down.shape}"
-        raise GeometryError(what, "give places of one shape") from None
+    along, down = together((along, down), "product hull")
     return np.asarray(polyval(along, first) * polyval(down, second))
 
 
@@ -183,12 +177,10 @@ def _condition(given: Condition) -> Condition:
     try:
         kind, place, value = given
     except (TypeError, ValueError):
-        what = f"form polynomial: condition {given!r:.40}"
+        what = f"form polynomial: condition {called(given)}"
         raise GeometryError(what, "give (what, where, how much)") from None
-    if kind not in _CONDITIONS:
-        what = f"form polynomial: no condition is called {str(kind)!r:.40}"
-        raise GeometryError(what, f"there are {', '.join(_CONDITIONS)}")
-    x, wanted = finite([place, value], "form polynomial", (2,)).tolist()
+    named(kind, "form polynomial: no condition is called", _CONDITIONS)
+    x, wanted = numbers([place, value], "form polynomial", (2,)).tolist()
     return kind, x, wanted
 
 

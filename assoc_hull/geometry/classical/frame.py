@@ -26,7 +26,9 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
+from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.deck_corner import DeckCorner, deck_corner, deck_pieces
 from assoc_hull.geometry.classical.frame_parabolas import run_bends, tangent_jumps
 from assoc_hull.geometry.classical.frame_points import Run, runs_of, spacing_notes
@@ -116,28 +118,33 @@ class Frame:
             not increasing in z at {z}"``, ``"frame x={x}: corner radius {r} does not fit"``.
         """
         name = f"frame x={figure(float(finite(x, 'frame', ())))}"
-        first = np.array([0.0, keel] if flat is None else [flat, 0.0])
+        one_of(camber_kind, KINDS, f"{name}: camber kind")
+        level = flat is not None
+        start = keel if flat is None else flat
+        foot, radius = (float(finite(each, name, ())) for each in (start, corner_radius))
+        first = np.array([foot, 0.0] if level else [0.0, foot])
+        rise = None if camber is None else float(finite(camber, name, ()))
         top = finite(deck_side, name, (2,))
         water = _rows(waterline_points, name)
         runs = runs_of(first, water, _rows(knuckles, name), top, name)
         notes = list(spacing_notes(water, first, top, name))
         pieces, jumps = [], []
         for number, run in enumerate(runs):
-            start = 0.0 if flat is not None and not number else None
-            bend, told = run_bends(run.points, start, name)
+            lean = 0.0 if level and not number else None
+            bend, told = run_bends(run.points, lean, name)
             pieces.append(Quadratics.over(run.points, bend))
             jumps.append(tangent_jumps(pieces[-1]))
             notes += told
-        if flat is not None:
+        if level:
             jumps.insert(0, pieces[0].angles()[0][:1])
         side = whole = Quadratics.join(pieces)
         corner = None
-        if corner_radius:
-            side, corner = _rounded(side, top, camber or 0.0, corner_radius, camber_kind, name)
-        deck = None if camber is None else deck_pieces(top, camber, camber_kind, corner)
+        if radius:
+            side, corner = _rounded(side, top, rise or 0.0, radius, camber_kind, name)
+        deck = None if rise is None else deck_pieces(top, rise, camber_kind, corner)
         return cls(
-            float(x), flat or 0.0, runs, side, corner, deck, np.concatenate(jumps), tuple(notes),
-            flat is not None, whole.area(),
+            float(x), foot if level else 0.0, runs, side, corner, deck, np.concatenate(jumps),
+            tuple(notes), level, whole.area(),
         )  # fmt: skip
 
     @property
@@ -190,7 +197,7 @@ class Frame:
 
 
 def _rows(points: ArrayLike | None, name: str) -> FloatArray:
-    if points is None or not np.size(points):
+    if points is None or (isinstance(points, list | tuple) and not points):
         return np.zeros((0, 2))
     return finite(points, name, (None, 2))
 

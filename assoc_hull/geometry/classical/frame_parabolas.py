@@ -71,7 +71,9 @@ def run_bends(
     before[1:], low = _with_neighbour(place[:-2], place[1:-1], along[1:], length[1:], ahead=False)
     after[:-1], high = _with_neighbour(place[2:], place[:-2], along[:-1], length[:-1], ahead=True)
     if start_angle is not None:
-        lean = float(wrap(start_angle - np.arctan2(step[0, 1], step[0, 0])))
+        lean = float(
+            wrap(float(finite(start_angle, name, ())) - np.arctan2(step[0, 1], step[0, 0]))
+        )
         if abs(lean) < 0.5 * np.pi:
             before[0] = -2.0 * np.tan(lean) / length[0]
     both = np.stack([before, after])

@@ -19,12 +19,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import called, figure
 from assoc_hull.geometry.classical.combined_waterline import conic, conic_notes, quintic_notes
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import fit_quintic
 from assoc_hull.geometry.classical.regions import Region
+from assoc_hull.geometry.classical.taken import listed, mapped, number, numbers
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["circle_piece", "joined_pieces"]
@@ -54,7 +55,7 @@ def circle_piece(first: float, last: float, y: float, slope: float, end: float) 
     >>> round(float(circle_piece(0.0, 4.0, 5.0, 0.0, 3.0).at(3.0)), 9)
     4.0
     """
-    begin, finish, value, rise, level = finite(
+    begin, finish, value, rise, level = numbers(
         [first, last, y, slope, end], "circle", (5,)
     ).tolist()
     length, fall = finish - begin, level - value
@@ -109,11 +110,16 @@ def joined_pieces(
     >>> [piece.formula for piece in curve.pieces]
     ['quintic', 'conic']
     """
-    points = finite(offsets, "regions", (None, 2))
+    points = numbers(offsets, "regions", (None, 2))
+    mapped(heights, "regions: half-breadths")
+    chain = listed(regions, "regions")
+    for each in chain:
+        if not isinstance(each, Region):
+            raise GeometryError(f"regions: {called(each)}", "give those of `Regions.at`")
     notes, pieces = list[str](), list[Piece]()
-    for number, region in enumerate(regions):
+    for k, region in enumerate(chain):
         ends = _height(heights, region.after), _height(heights, region.before)
-        after = regions[number + 1] if number + 1 < len(regions) else None
+        after = chain[k + 1] if k + 1 < len(chain) else None
         before = pieces[-1] if pieces else None
         if region.formula == "quintic":
             piece, told = _quintic(region, ends, before, _next_slope(after, heights), points)
@@ -130,7 +136,7 @@ def joined_pieces(
 def _height(heights: Mapping[str, float], name: str) -> float:
     if name not in heights:
         raise GeometryError(f"regions: no half-breadth on boundary {name}", "give one")
-    return float(finite(heights[name], f"regions: boundary {name}", ()))
+    return number(heights[name], f"regions: boundary {name}")
 
 
 def _next_slope(after: Region | None, heights: Mapping[str, float]) -> float | None:

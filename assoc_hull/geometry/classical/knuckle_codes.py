@@ -36,11 +36,10 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = ["KnuckleLine"]
-
-_BLENDS = (None, "overhauser")
 
 
 @attrs.frozen(eq=False)
@@ -97,15 +96,14 @@ class KnuckleLine:
             decreases, fewer than two points, another `blend`.
         """
         places = finite(x, "knuckle line", (None,))
-        single = np.ndim(v) == 1
-        values = finite(v, "knuckle line", (len(places),) if single else (len(places), 2))
+        values = _columns(v, len(places))
+        single = values.ndim == 1
         codes = finite(code, "knuckle line", (max(len(places) - 1, 0),))
         if len(places) < 2:
             what = f"knuckle line: {len(places)} point(s)"
             raise GeometryError(what, "give two or more", {"points": len(places)})
-        if blend not in _BLENDS:
-            what = f"knuckle line: blend is {blend!r}"
-            raise GeometryError(what, "leave it out or say 'overhauser'", {"blend": blend})
+        if blend is not None:
+            one_of(blend, ("overhauser",), "knuckle line: blend")
         _check(places, codes)
         columns = values[:, None] if single else values
         return cls(places, columns, codes.astype(np.int64), blend, single)
@@ -199,6 +197,14 @@ class KnuckleLine:
         factor, slope = self._bend(number, place)
         found = rise / h[..., None] + factor * (one + two)[..., None]
         return np.asarray(found + slope * (one * two)[..., None])
+
+
+def _columns(v: ArrayLike, count: int) -> FloatArray:
+    """Take values in one column or in two."""
+    try:
+        return finite(v, "knuckle line", (count,))
+    except GeometryError:
+        return finite(v, "knuckle line", (count, 2))
 
 
 def _second_difference(x: FloatArray, v: FloatArray, first: IntArray) -> FloatArray:

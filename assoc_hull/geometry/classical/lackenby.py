@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.taken import numbers
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["lackenby_shift", "one_minus_prismatic"]
@@ -60,7 +61,7 @@ def lackenby_shift(
     >>> round(float(lackenby_shift(0.6, phi, moment / phi, 0.02, 0.3, 0.03)), 11)
     0.03183673469
     """
-    full, centre, dphi, p, dp = finite(
+    full, centre, dphi, p, dp = numbers(
         [phi, centroid, change, parallel, parallel_change], "Lackenby", (5,)
     ).tolist()
     _check_half(full, p)
@@ -104,7 +105,7 @@ def one_minus_prismatic(x: ArrayLike, phi: float, change: float) -> FloatArray:
     >>> round(float(one_minus_prismatic(0.6, 0.3 + 1.4 / 3, 0.02)), 11)
     0.03428571429
     """
-    full, dphi = finite([phi, change], "Lackenby", (2,)).tolist()
+    full, dphi = numbers([phi, change], "Lackenby", (2,)).tolist()
     _check_half(full, 0.0)
     rate = 1.0 - dphi / (1.0 - full)
     if rate <= 0.0:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.classical.taken import numbers, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["LinearFit", "OrthogonalFit", "bounded_fit", "held_fit", "linear_fit", "orthogonal_fit"]
@@ -69,9 +69,9 @@ def linear_fit(
     >>> linear_fit([[1, 0], [1, 1], [1, 2]], [1, 3, 5]).coefficients.round(9).tolist()
     [1.0, 2.0]
     """
-    columns = finite(matrix, name, (None, None))
-    right = finite(data, name, (len(columns),))
-    root = np.sqrt(positive_weights(weights, len(columns), name))
+    columns = numbers(matrix, name, (None, None))
+    right = numbers(data, name, (len(columns),))
+    root = np.sqrt(weights_of(weights, len(columns), name))
     found, _, rank, _ = np.linalg.lstsq(root[:, None] * columns, root * right, rcond=None)
     if rank < columns.shape[1]:
         raise _deficient(name, int(rank), columns.shape[1])
@@ -111,16 +111,16 @@ def held_fit(
     """
     from scipy.linalg import null_space
 
-    columns = finite(matrix, name, (None, None))
-    equations = finite(held, name, (None, columns.shape[1]))
-    wanted = finite(values, name, (len(equations),))
+    columns = numbers(matrix, name, (None, None))
+    equations = numbers(held, name, (None, columns.shape[1]))
+    wanted = numbers(values, name, (len(equations),))
     given = np.linalg.lstsq(equations, wanted, rcond=None)[0]
     miss = float(np.abs(equations @ given - wanted).max(initial=0.0))
     if miss > 1e-9 * max(1.0, float(np.abs(wanted).max(initial=0.0))):
         what = f"{name}: the equations to be held contradict one another by {miss:.3g}"
         raise GeometryError(what, "leave one of them out", {"by": miss})
     free = null_space(equations)
-    right = finite(data, name, (len(columns),)) - columns @ given
+    right = numbers(data, name, (len(columns),)) - columns @ given
     part = linear_fit(columns @ free, right, weights, name)
     return LinearFit(given + free @ part.coefficients, part.rms)
 
@@ -140,7 +140,7 @@ def bounded_fit(
     Raises
     ------
     GeometryError
-        Bounds that leave nothing between them.
+        Bounds that leave nothing between them; no data.
 
     Examples
     --------
@@ -150,17 +150,19 @@ def bounded_fit(
     """
     from scipy.optimize import lsq_linear
 
-    columns = finite(matrix, name, (None, None))
-    right = finite(data, name, (len(columns),))
+    columns = numbers(matrix, name, (None, None))
+    right = numbers(data, name, (len(columns),))
     try:
         low, high = (np.broadcast_to(np.asarray(b, float), columns.shape[1]) for b in (least, most))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         what = f"{name}: bounds of {columns.shape[1]} coefficients are no numbers, or not so many"
         raise GeometryError(what, "give one for all, or one each") from None
     bad = np.flatnonzero(~(low < high))
     if len(bad):
         what = f"{name}: bounds {low[bad[0]]:g} to {high[bad[0]]:g} of coefficient {bad[0]}"
         raise GeometryError(what, "give the lesser first", {"index": int(bad[0])})
+    if not columns.size:
+        raise _deficient(name, 0, columns.shape[1])
     # Bounded variables by active sets end at a vertex exactly; the interior method only nears it.
     found = lsq_linear(columns, right, (low, high), method="bvls").x
     return LinearFit(np.asarray(found), _rms(columns @ found - right, np.ones(len(right))))
@@ -188,10 +190,17 @@ class OrthogonalFit:
         freeze(self.coefficients, self.back)
 
     def lower(self, terms: int) -> FloatArray:
-        """Give coefficients of the first `terms` columns as they were handed in, (terms,)."""
+        """Give coefficients of the first `terms` columns as they were handed in, (terms,).
+
+        Raises
+        ------
+        GeometryError
+            Terms that there are not.
+        """
         from scipy.linalg import solve_triangular
 
-        found: FloatArray = solve_triangular(self.back[:terms, :terms], self.coefficients[:terms])
+        n = whole_number(terms, "fit: terms", 1, len(self.coefficients))
+        found: FloatArray = solve_triangular(self.back[:n, :n], self.coefficients[:n])
         return found
 
 
@@ -217,36 +226,14 @@ def orthogonal_fit(matrix: ArrayLike, data: ArrayLike, name: str = "fit") -> Ort
     >>> fit.lower(2).round(9).tolist()
     [1.0, 2.0]
     """
-    columns = finite(matrix, name, (None, None))
-    right = finite(data, name, (len(columns),))
+    columns = numbers(matrix, name, (None, None))
+    right = numbers(data, name, (len(columns),))
     across, back = np.linalg.qr(columns)
     heart = np.abs(np.diag(back))
     rank = int((heart > heart.max(initial=0.0) * len(columns) * np.finfo(float).eps).sum())
     if len(columns) < columns.shape[1] or rank < columns.shape[1]:
         raise _deficient(name, rank, columns.shape[1])
     return OrthogonalFit(across.T @ right, back)
-
-
-def positive_weights(weights: ArrayLike | None, count: int, name: str) -> FloatArray:
-    """Take weights above 0, (count,); ones if None."""
-    if weights is None:
-        return np.ones(count)
-    found = finite(weights, name, (count,))
-    bad = np.flatnonzero(found <= 0.0)
-    if len(bad):
-        raise GeometryError(
-            f"{name}: weights must be positive", f"weight {bad[0]} is {found[bad[0]]:g}",
-            {"index": int(bad[0]), "weight": float(found[bad[0]])},
-        )  # fmt: skip
-    return found
-
-
-def whole_number(value: object, name: str, least: int, most: int) -> int:
-    """Take a whole number of a range."""
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        what = f"{name} {value!s:.40}"
-        raise GeometryError(what, f"give a whole number from {least} to {most}")
-    return value
 
 
 def _rms(residual: FloatArray, root: FloatArray) -> float:

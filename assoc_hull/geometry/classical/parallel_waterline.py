@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.waterline_piece import Chorded, Graph, Level, Piece
 from assoc_hull.geometry.curves import FloatArray, freeze
 
@@ -101,7 +102,8 @@ class ParallelWaterline:
         height = float(finite(z, "waterline", ()))
         name = f"waterline z={figure(height)}"
         given = _with_ends(_checked(points, name), aft_end, fwd_end, name)
-        _choose(method, name)
+        if method is not None:
+            one_of(method, ("graph", "chord"), f"{name}: method")
         ends = _slopes(end_slope, name)
         if parallel is None:
             if len(given) < 2:
@@ -190,12 +192,6 @@ def _with_ends(
         kept = given[sign * given[:, 0] > sign * place[0, 0] + _SAME]
         given = np.concatenate([place, kept] if sign > 0.0 else [kept, place])
     return given
-
-
-def _choose(method: object, name: str) -> None:
-    if method not in (None, "graph", "chord"):
-        what = f"{name}: method is {method!r}"
-        raise GeometryError(what, "leave it out or say 'graph' or 'chord'", {"method": method})
 
 
 def _slopes(given: object, name: str) -> tuple[float | None, float | None]:

@@ -23,7 +23,8 @@ from numpy.polynomial.polynomial import polyder, polyint, polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.taken import numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Join", "Piece", "PiecedCurve"]
@@ -187,8 +188,7 @@ class PiecedCurve:
         GeometryError
             ``"{name}: x={x} outside [{a}, {b}]"``; an order that is not 0, 1 or 2.
         """
-        if order not in (0, 1, 2):
-            raise GeometryError(f"{self.name}: derivative of order {order}", "give 0, 1 or 2")
+        whole_number(order, f"{self.name}: derivative of order", 0, 2)
         slack = _SLACK * (self.last - self.first)
         places = inside(x, self.name, self.first, self.last, slack)
         breaks = np.array([piece.first for piece in self.pieces[1:]])
@@ -214,5 +214,5 @@ class PiecedCurve:
 
     def off(self, offsets: ArrayLike) -> FloatArray:
         """Give by how much the curve passes above offsets (n, 2), m: (n,), m."""
-        points = finite(offsets, self.name, (None, 2))
+        points = numbers(offsets, self.name, (None, 2))
         return self.at(points[:, 0]) - points[:, 1]

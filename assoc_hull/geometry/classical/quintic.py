@@ -25,8 +25,9 @@ from numpy.polynomial.polynomial import polyder, polyval, polyvander
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
-from assoc_hull.geometry.classical.linear_fits import linear_fit, positive_weights
+from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.taken import number, numbers, places, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Quintic", "fit_quintic"]
@@ -61,7 +62,8 @@ class Quintic:
         GeometryError
             ``"quintic: u={u} outside [0,1]"``.
         """
-        return np.asarray(polyval(_unit(u), polyder(self.coefficients, order)))
+        n = whole_number(order, "quintic: derivative of order", 0, 5)
+        return np.asarray(polyval(_unit(u), polyder(self.coefficients, n)))
 
 
 def fit_quintic(
@@ -108,12 +110,12 @@ def fit_quintic(
     >>> float(fit.at(0.5).round(9)), round(fit.rms, 9)
     (6.351096452, 0.020009596)
     """
-    places = _unit(finite(u, "quintic", (None,)))
-    values = finite(y, "quintic", (len(places),))
-    w = positive_weights(weights, len(places), "quintic")
+    at = _unit(numbers(u, "quintic", (None,)))
+    values = numbers(y, "quintic", (len(at),))
+    w = weights_of(weights, len(at), "quintic")
     base, factor = _base(*_ends(y0, y1, d0, d1))
     count = 7 - len(factor)
-    interior = len(np.unique(places[(places > 0.0) & (places < 1.0)]))
+    interior = len(np.unique(at[(at > 0.0) & (at < 1.0)]))
     if interior < count:
         raise GeometryError(
             f"quintic: needs {count} distinct interior u, got {interior}", "give more points",
@@ -123,15 +125,14 @@ def fit_quintic(
     for column, shape in zip(powers.T, _SHAPES, strict=False):
         product = np.convolve(factor, shape)
         column[: len(product)] = product
-    vander = polyvander(places, 5)
-    columns = polyval(places, factor)[:, None] * legvander(2.0 * places - 1.0, count - 1)
+    vander = polyvander(at, 5)
+    columns = polyval(at, factor)[:, None] * legvander(2.0 * at - 1.0, count - 1)
     fit = linear_fit(columns, values - vander @ base, w, "quintic")
     return Quintic(base + powers @ fit.coefficients, fit.rms)
 
 
 def _unit(u: ArrayLike) -> FloatArray:
-    found = np.asarray(u)
-    found = finite(found, "quintic", tuple(None for _ in found.shape))
+    found = places(u, "quintic")
     outside = found[(found < 0.0) | (found > 1.0)]
     if outside.size:
         first = float(outside.flat[0])
@@ -143,8 +144,8 @@ def _unit(u: ArrayLike) -> FloatArray:
 def _ends(
     y0: float, y1: float, d0: float | None, d1: float | None
 ) -> tuple[float, float, float | None, float | None]:
-    first, last = (float(finite(each, "quintic", ())) for each in (y0, y1))
-    slopes = (None if each is None else float(finite(each, "quintic", ())) for each in (d0, d1))
+    first, last = (number(each, "quintic") for each in (y0, y1))
+    slopes = (None if each is None else number(each, "quintic") for each in (d0, d1))
     return first, last, *slopes  # type: ignore[return-value]
 
 

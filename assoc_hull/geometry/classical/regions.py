@@ -20,8 +20,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.pieces import Formula
+from assoc_hull.geometry.classical.taken import mapped, named, number, numbers
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Region", "Regions"]
@@ -92,15 +93,15 @@ class Regions:
         >>> {name: round(x, 6) for name, x in regions.places(6.5).items()}
         {'flat': 44.4, 'end': 74.5}
         """
+        mapped(boundaries, "regions: boundaries")
+        mapped(formulas, "regions: formulas")
         lines = {str(name): _polyline(str(name), given) for name, given in boundaries.items()}
         if len(lines) < 2:
             raise GeometryError(f"regions: {len(lines)} boundaries", "give two or more")
         for pair, formula in formulas.items():
-            if formula not in get_args(Formula):
-                what = f"regions: no formula is called {str(formula)!r}"
-                raise GeometryError(what, f"there are {', '.join(get_args(Formula))}")
+            named(formula, "regions: no formula is called", get_args(Formula))
             if pair not in product(lines, lines):
-                what = f"regions: no two boundaries are called {pair}"
+                what = f"regions: no two boundaries are called {pair!s:.60}"
                 raise GeometryError(what, f"there are {', '.join(lines)}")
         found = cls(lines, dict(formulas))
         for one, other in combinations(lines, 2):
@@ -121,7 +122,7 @@ class Regions:
         GeometryError
             ``"regions: boundary {a} does not reach z={z}"``.
         """
-        level = float(finite(z, "regions", ()))
+        level = number(z, "regions")
         found = dict[str, float]()
         for name, line in self.boundaries.items():
             if not line[0, 0] <= level <= line[-1, 0]:
@@ -183,7 +184,7 @@ class Regions:
 
 
 def _polyline(name: str, given: ArrayLike) -> FloatArray:
-    points = finite(given, f"regions: boundary {name}", (None, 2))
+    points = numbers(given, f"regions: boundary {name}", (None, 2))
     if len(points) < 2:
         raise GeometryError(f"regions: boundary {name} has {len(points)} points", "give two")
     falls = np.flatnonzero(np.diff(points[:, 0]) <= 0.0)

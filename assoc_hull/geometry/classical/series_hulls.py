@@ -21,8 +21,9 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.linear_fits import linear_fit, whole_number
+from assoc_hull.geometry.classical.checks import called, figure, inside
+from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.taken import listed, named, numbers, together, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
@@ -30,10 +31,8 @@ __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
 Basis = Literal["legendre", "chebyshev"]
 Column = Callable[[FloatArray, FloatArray], FloatArray]
 
-_VANDER = {
-    "legendre": (legendre.legvander, legendre.legvander2d),
-    "chebyshev": (chebyshev.chebvander, chebyshev.chebvander2d),
-}
+_VANDER = {"legendre": legendre.legvander, "chebyshev": chebyshev.chebvander}
+
 _SLACK = 1e-12
 """So far outside, in parts of the span, a place counts as the end."""
 
@@ -75,7 +74,7 @@ def fit_series(
     >>> round(float(fit_series(x, (1 - x**2) * (1 + 0.2 * x), 3, "chebyshev")[2]), 9)
     -0.5
     """
-    places = finite(x, "series", (None,))
+    places = numbers(x, "series", (None,))
     return linear_fit(series_columns(places, degree, basis, span), y, name="series").coefficients
 
 
@@ -95,8 +94,8 @@ def series_columns(
     >>> series_columns([0.0, 10.0], 2, span=(0.0, 10.0)).tolist()
     [[1.0, -1.0, 1.0], [1.0, 1.0, 1.0]]
     """
-    one = _VANDER[_known(basis)][0]
-    return np.asarray(one(_mapped(finite(x, "series", (None,)), span), _degree(degree)))
+    one = _VANDER[_known(basis)]
+    return np.asarray(one(_mapped(numbers(x, "series", (None,)), span), _degree(degree)))
 
 
 @attrs.frozen(eq=False)
@@ -192,16 +191,23 @@ def fit_series_hull(
     >>> round(float(hull.at(3.0, 1.0)), 9), hull.rms < 1e-12
     (18.0, True)
     """
-    places = finite(x, "series", (None,))
-    levels = finite(z, "series", (len(places),))
+    places = numbers(x, "series", (None,))
+    levels = numbers(z, "series", (len(places),))
     along, up = _pair(places, levels, x_span, z_span)
-    size = _degree(degrees[0]), _degree(degrees[1])
-    rows = _matrix(along, up, size, _known(basis), (x_span, z_span), tuple(columns))
+    pair = listed(degrees, "series: degrees")
+    if len(pair) != 2:
+        raise GeometryError(f"series: {len(pair)} degrees", "give one in x and one in z")
+    size = _degree(pair[0]), _degree(pair[1])
+    further = tuple(listed(columns, "series: columns"))
+    for column in further:
+        if not callable(column):
+            raise GeometryError(f"series: column {called(column)}", "give a function of x and z")
+    rows = _matrix(along, up, size, _known(basis), (x_span, z_span), further)
     fit = linear_fit(rows, y, weights, "series")
     count = (size[0] + 1) * (size[1] + 1)
     table = fit.coefficients[:count].reshape(size[0] + 1, size[1] + 1).copy()
     extra = fit.coefficients[count:].copy()
-    return SeriesHull(table, extra, basis, _span(x_span), _span(z_span), tuple(columns), fit.rms)
+    return SeriesHull(table, extra, basis, _span(x_span), _span(z_span), further, fit.rms)
 
 
 def _matrix(
@@ -213,22 +219,18 @@ def _matrix(
     columns: tuple[Column, ...],
 ) -> FloatArray:
     """Give a row per place: products of polynomials, x outside, then further columns."""
-    two = _VANDER[basis][1]
-    rows = two(_mapped(x, spans[0]), _mapped(z, spans[1]), degrees)
-    more = [finite(column(x, z), "series", (len(x),)) for column in columns]
+    one = _VANDER[basis]
+    across, up = one(_mapped(x, spans[0]), degrees[0]), one(_mapped(z, spans[1]), degrees[1])
+    rows = (across[:, :, None] * up[:, None, :]).reshape(len(x), across.shape[1] * up.shape[1])
+    more = [numbers(column(x, z), "series", (len(x),)) for column in columns]
     return np.column_stack([rows, *more])
 
 
 def _pair(
     x: ArrayLike, z: ArrayLike, x_span: tuple[float, float], z_span: tuple[float, float]
 ) -> tuple[FloatArray, FloatArray]:
-    along, up = _within(x, x_span), _within(z, z_span)
-    try:
-        one, other = np.broadcast_arrays(along, up)
-    except ValueError:
-        what = f"series: x of shape {along.shape}, z of shape {up.shape}"
-        raise GeometryError(what, "give places of one shape") from None
-    return one, other
+    along, up = together((_within(x, x_span), _within(z, z_span)), "series")
+    return along, up
 
 
 def _mapped(x: FloatArray, span: tuple[float, float]) -> FloatArray:
@@ -242,7 +244,7 @@ def _within(x: ArrayLike, span: tuple[float, float]) -> FloatArray:
 
 
 def _span(span: tuple[float, float]) -> tuple[float, float]:
-    low, high = finite(span, "series", (2,)).tolist()
+    low, high = numbers(span, "series", (2,)).tolist()
     if not low < high:
         what = f"series: span from {figure(low)} to {figure(high)}"
         raise GeometryError(what, "give the lesser end first")
@@ -254,7 +256,5 @@ def _degree(degree: int) -> int:
 
 
 def _known(basis: Basis) -> Basis:
-    if basis not in _VANDER:
-        what = f"series: no basis is called {str(basis)!r:.40}"
-        raise GeometryError(what, f"there are {', '.join(_VANDER)}")
+    named(basis, "series: no basis is called", _VANDER)
     return basis

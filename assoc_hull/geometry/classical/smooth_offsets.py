@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
-from assoc_hull.geometry.classical.linear_fits import positive_weights
+from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.taken import number, numbers, places, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SmoothedTable", "smooth_offsets", "smooth_table"]
@@ -55,13 +55,14 @@ def smooth_offsets(y: ArrayLike, stiffness: float, weights: ArrayLike | None = N
     """
     from scipy.linalg import solveh_banded
 
-    given = np.asarray(y)
-    values = finite(y, "offsets", (None,) if given.ndim < 2 else (None, None))
-    stiff = float(finite(stiffness, "offsets: stiffness", ()))
+    values = places(y, "offsets")
+    if values.ndim not in (1, 2):
+        raise GeometryError(f"offsets: shape {values.shape}", "give (n,) or (n, k)")
+    stiff = number(stiffness, "offsets: stiffness")
     if len(values) < 4 or stiff < 0.0:
         what = f"offsets: {len(values)} values, stiffness {figure(stiff)}"
         raise GeometryError(what, "give four values or more, and a stiffness of 0 or more")
-    w = positive_weights(weights, len(values), "offsets")
+    w = weights_of(weights, len(values), "offsets")
     third = np.array([-1.0, 3.0, -3.0, 1.0])
     bands = np.zeros((4, len(values)))
     for i in range(4):
@@ -132,19 +133,19 @@ def smooth_table(
     """
     from scipy.interpolate import make_smoothing_spline
 
-    stations, levels = finite(x, "offsets", (None,)), finite(z, "offsets", (None,))
-    table = given = finite(y, "offsets", (len(levels), len(stations)))
-    weight, near = finite([lam, tolerance], "offsets", (2,)).tolist()
-    for places in (stations, levels):
-        if len(places) < 5 or not (np.diff(places) > 0.0).all():
-            what = f"offsets: {len(places)} places that do not all rise"
+    stations, levels = numbers(x, "offsets", (None,)), numbers(z, "offsets", (None,))
+    table = given = numbers(y, "offsets", (len(levels), len(stations)))
+    weight, near = numbers([lam, tolerance], "offsets", (2,)).tolist()
+    for each in (stations, levels):
+        if len(each) < 5 or not (np.diff(each) > 0.0).all():
+            what = f"offsets: {len(each)} places that do not all rise"
             raise GeometryError(what, "give five or more, rising")
-    if weight < 0.0 or most < 1:
-        what = f"offsets: weight {figure(weight)}, {most} rounds"
-        raise GeometryError(what, "give a weight of 0 or more, and a round")
+    if weight < 0.0:
+        raise GeometryError(f"offsets: weight {figure(weight)}", "give one of 0 or more")
+    last = whole_number(most, "offsets: rounds", 1, 10_000)
     along, up = ((p - p[0]) / (p[-1] - p[0]) for p in (stations, levels))
     change, rounds = np.inf, 0
-    while rounds < most and change > near:
+    while rounds < last and change > near:
         before, rounds = table, rounds + 1
         table = make_smoothing_spline(along, table, lam=weight, axis=1)(along)
         table = make_smoothing_spline(up, table, lam=weight, axis=0)(up)

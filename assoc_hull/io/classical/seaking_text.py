@@ -22,7 +22,7 @@ Examples
 ... waterline 3
 ... 0 6
 ... 40 6
-... deck
+... deckside
 ... -2 8 9 1
 ... 42 8 9 0
 ... frames 5 20 35
@@ -40,7 +40,8 @@ from typing import Literal
 import numpy as np
 
 from assoc_hull.arguments import shown
-from assoc_hull.creation.classical.seaking import Attached, DeckCamber, Knuckle, Parallel, Seaking
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import Attached, DeckCamber, Knuckle, Parallel
 from assoc_hull.errors import BadInputError, GeometryError
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
@@ -56,8 +57,8 @@ from assoc_hull.io.digitised_piece import read_number
 __all__ = ["WORDS", "read_seaking"]
 
 WORDS = (
-    *DIMENSIONS, "deck", "origin", "keel", "contour", "tangent", "midship", "waterline", "knuckle",
-    "camber", "corner", "appendage", "frames", "buttocks", "between",
+    *DIMENSIONS, "deck", "deckside", "origin", "keel", "contour", "tangent", "midship",
+    "waterline", "knuckle", "camber", "corner", "appendage", "frames", "buttocks",
 )  # fmt: skip
 """The cards there are."""
 
@@ -85,7 +86,7 @@ def read_seaking(cards: Cards) -> Seaking:
         Numbers of which no curve, section or ship can be made; with the line of the text.
     """
     cards.require_known(WORDS)
-    ship = read_particulars(_dimensions(cards))
+    ship = read_particulars(cards)
     origin = read_origin(cards, ship.length)
     keel = _keel(cards, origin)
     waterlines = sorted(
@@ -95,7 +96,8 @@ def read_seaking(cards: Cards) -> Seaking:
     try:
         return Seaking(
             particulars=ship, keel=keel, waterlines=tuple(waterlines),
-            deck=_line(cards.one("deck"), origin), frames=origin.moved(np.sort(_places(frames))),
+            deck=_line(cards.one("deckside"), origin),
+            frames=origin.moved(np.sort(_places(frames))),
             parallel=_midship(cards, origin),
             knuckles=tuple(_knuckle(card, origin) for card in cards.every("knuckle")),
             camber=_camber(cards, origin),
@@ -105,17 +107,6 @@ def read_seaking(cards: Cards) -> Seaking:
         )  # fmt: skip
     except GeometryError as error:
         raise error.at(f"in {cards.source}") from None
-
-
-def _dimensions(cards: Cards) -> Cards:
-    """Let the card ``between`` say what lies between deck edges; ``deck`` is the deck side here."""
-    kept = tuple(card for card in cards.cards if card.word != "deck")
-    named = tuple(
-        Card("deck", card.cells, card.rows, card.line, card.source) if card.word == "between"
-        else card
-        for card in kept
-    )  # fmt: skip
-    return Cards(cards.kind, cards.title, named, cards.source)
 
 
 def _keel(cards: Cards, origin: Origin) -> KeelOutline:
@@ -131,7 +122,7 @@ def _keel(cards: Cards, origin: Origin) -> KeelOutline:
     for side in ("aft", "forward"):
         if side not in sides:
             raise BadInputError(f"contour {side} is missing", f"in {cards.source}", "add it")
-    aft, forward = (_moved(sides[side].table(2, least=2), origin) for side in ("aft", "forward"))
+    aft, forward = (_moved(sides[side].table(2, least=1), origin) for side in ("aft", "forward"))
     tangent = cards.maybe("tangent")
     rows = np.array([[first, 0.0], [last, 0.0]])
     if tangent is not None:
@@ -258,7 +249,7 @@ def _appendage(card: Card, origin: Origin) -> Attached:
     rows = card.table(width)
     sections = [rows[:, 2 * k : 2 * k + 2] for k in range(width // 2)]
     try:
-        made = Appendage.make(sections, origin.moved(places), int(sign) if sign % 1 == 0 else sign)  # type: ignore[arg-type]
+        made = Appendage.make(sections, origin.moved(places), sign)
     except GeometryError as error:
         raise error.at(card.where) from None
     return Attached(card.cells[0], made, sides == 2.0)

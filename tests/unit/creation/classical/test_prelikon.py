@@ -104,6 +104,16 @@ def test_the_net_of_a_middle_body_is_sound_and_has_its_volume() -> None:
     assert dressed.volume - bare.volume == pytest.approx(8.0, rel=1e-9)
 
 
+def test_a_net_of_two_ends_alone_is_made_and_not_measured() -> None:
+    """The report keeps the numbers of the definition, and says why the net has none."""
+    ship = body(stations=[Station(x, BILGE) for x in (0.0, 40.0)])
+    report = ship.report(ah.create(ship).state)
+    assert report.notes[-1].startswith("the net cannot be measured: 0 section(s)")
+    figure = report.figure("hull below the draught 6 m: volume")
+    assert figure.value == pytest.approx(40.0 * 2.0 * (60.0 - LOST))
+    assert figure.net is None
+
+
 def test_the_supply_ship_has_the_printed_numbers(supply: Prelikon) -> None:
     """Deck house 624 m3 with its centre at 14.90666667, box 32 m3 taken away, sheer and camber."""
     (house_,), (box,), (deck,) = supply.houses, supply.boxes, supply.decks
@@ -323,7 +333,7 @@ def test_what_makes_no_ship_is_refused_in_words(case: str) -> None:
     assert caught.value.remedy
 
 
-@pytest.mark.parametrize("given", [None, 3, "a", [None], object()], ids=repr)
+@pytest.mark.parametrize("given", [None, 3, "a", [None], {}], ids=repr)
 @pytest.mark.parametrize("name", ["stations", "decks", "boxes", "houses", "curves", "boundaries"])
 def test_parts_of_another_type_are_refused(name: str, given: object) -> None:
     """An error of the family."""

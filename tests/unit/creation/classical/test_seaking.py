@@ -11,7 +11,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.classical.net import classical_net
 from assoc_hull.creation.classical.report import ClassicalReport
-from assoc_hull.creation.classical.seaking import DeckCamber, Parallel, Seaking
+from assoc_hull.creation.classical.seaking import Seaking
+from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.seaking_sections import MidshipSection
 from assoc_hull.creation.classical.seaking_sums import sums
 from assoc_hull.errors import GeometryError
@@ -191,6 +192,11 @@ def test_a_deck_with_a_step_is_built_section_by_section() -> None:
     low, high = ship.sections([24.999, 25.0])
     assert (low.area() + 2 * 32) == pytest.approx(high.area(), rel=1e-12)
     assert ship.volume() == pytest.approx(25 * low.area() + 15 * high.area(), rel=1e-9)
+    assert "deck side: it steps at x=25; near there the net is rough" in "\n".join(ship.notes)
+    clear = body(deck=deck, frames=np.array([5.0, 15, 22, 28, 35]))
+    hull = ah.Hull(classical_net(clear)[0])
+    assert hull.check() == ()
+    assert ah.hydrostatics(hull, draught=9.0).volume == pytest.approx(ship.volume(9.0), rel=2e-4)
 
 
 REFUSED: dict[str, tuple[str, Callable[[], object]]] = {

@@ -158,6 +158,10 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         r"conformal section: not simple \(offsets on one line\)",
         lambda: fit_conformal([[0, 3], [0, 2], [0, 1]], 1),
     ),
+    "turned round": (
+        "conformal section: depths from 0 to 3; give offsets from the keel",
+        lambda: fit_conformal([[3, 0], [2, 2], [0, 3]], 1),
+    ),
     "one point twice": (
         "conformal section: coincident points at index 2",
         lambda: fit_conformal(np.array([[0, 3], [2, 2], [2, 2], [3, 0]]), 1),

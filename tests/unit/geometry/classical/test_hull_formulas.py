@@ -303,7 +303,7 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "Chapman power": ("Chapman parabola: power 0", lambda: chapman(0.5, 0.0)),
     "product outside": (r"product hull: x=2 outside", lambda: product_hull(2, 0, [1], [1])),
     "product of shapes": (
-        "product hull: x of shape", lambda: product_hull([0, 0], [0, 0, 0], [1], [1])
+        "product hull: shapes", lambda: product_hull([0, 0], [0, 0, 0], [1], [1])
     ),
     "series of few points": (
         r"series: rank-deficient \(points too close together\)", lambda: _fit(degree=30)
@@ -313,7 +313,7 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "series degree": ("series: degree -1; give a whole number from 0", lambda: _fit(degree=-1)),
     "series basis": ("series: no basis is called 'sine'", lambda: _fit(basis="sine")),
     "surface shapes": (
-        "series: x of shape",
+        "series: shapes",
         lambda: fit_series_hull(X, X, X, (1, 0), (-1, 1), (-1, 1)).at([0, 0], [0, 0, 0]),
     ),
     "levels that fall": (
@@ -342,6 +342,9 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         lambda: held_fit(np.eye(2), [1, 2], [[1, 0], [1, 0]], [0, 1]),
     ),
     "bounds": ("fit: bounds 2 to 1 of coefficient 0", lambda: bounded_fit(np.eye(2), [1, 2], 2, 1)),
+    "bounds without data": (
+        "fit: rank-deficient", lambda: bounded_fit(np.zeros((0, 2)), [], 0, 1)
+    ),
     "count of bounds": (
         "fit: bounds of 2 coefficients", lambda: bounded_fit(np.eye(2), [1, 2], [0, 0, 0], 1)
     ),

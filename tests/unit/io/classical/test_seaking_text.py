@@ -15,7 +15,7 @@ length 40
 breadth 32
 depth 14
 draught 9
-between closed
+deck closed
 keel 0 40
 contour aft
 -2 2
@@ -34,7 +34,7 @@ waterline 5 parallel=5,35 aft=-1.25,14 slope_forward=-0.1 method=graph
 waterline 3 method=chord
 -0.75 14
 40 14.5
-deck
+deckside
 -2 16 14 1
 40 16 14 0
 knuckle shelf blend=overhauser
@@ -122,7 +122,7 @@ def shifted(text: str, by: float) -> str:
         words = line.split()
         if words[0][0].isalpha():
             card = words[0]
-        elif card in ("contour", "tangent", "waterline", "deck", "knuckle", "camber", "corner"):
+        elif card in ("contour", "tangent", "waterline", "deckside", "knuckle", "camber", "corner"):
             words[0] = f"{float(words[0]) - by:g}"
         if words[0] == "keel":
             words[1:] = [f"{float(each) - by:g}" for each in words[1:]]
@@ -209,15 +209,15 @@ REFUSED = {
     ),
     "a deck row without a code": (
         changed("-2 16 14 1", "-2 16 14"),
-        "a row of deck has 3 cell(s)",
+        "a row of deckside has 3 cell(s)",
         "-2 16 14 1",
     ),
     "a number that is none": (changed("frames -1", "frames -1x"), "'-1x' is no number", "frames"),
     "no draught": (changed("draught 9", "draught 0"), "draught is 0 m", "draught"),
     "a deck that is nothing": (
-        changed("between closed", "between ajar"),
+        changed("deck closed", "deck ajar"),
         "deck is 'ajar'",
-        "between",
+        "deck closed",
     ),
 }
 
@@ -245,7 +245,7 @@ IMPOSSIBLE = {
     "a code that is none": (
         changed("-2 16 14 1", "-2 16 14 7"),
         "knuckle line: code 7 at interval 0",
-        "deck",
+        "deckside",
     ),
     "a blend that is none": (
         changed("blend=overhauser", "blend=more"),
