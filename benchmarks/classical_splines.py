@@ -48,7 +48,9 @@ def _splines(rounds: int) -> list[Figure]:
     return [
         Figure(f"mechanical spline through {POINTS} points, alone", 1e6 * found["one"], "us"),
         Figure("the same / scipy's CubicSpline y(x)", found["one"] / found["graph"]),
-        Figure(f"{COUNT} one at a time / in a batch", COUNT * found["one"] / found["batch"], "x", 3),
+        Figure(
+            f"{COUNT} one at a time / in a batch", COUNT * found["one"] / found["batch"], "x", 3
+        ),
         Figure(f"{COUNT} splines / half of them", found["batch"] / found["half"], "x", 2.5, "most"),
         Figure(
             f"{COUNT * POINTS} points / half of them", found["long"] / found["short"], "x", 2.5,

@@ -25,8 +25,8 @@ from assoc_hull.geometry.curves import FloatArray
 __all__ = ["with_length"]
 
 _PARTS = np.array([
-    1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 0.9,
-    0.95, 0.98, 0.99, 0.999, 0.9999, 1.0 - 1e-6,
+    1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5,
+    0.55, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.999, 0.9999, 1.0 - 1e-6,
 ])  # fmt: skip
 """Where the family is looked at, between the least modulus and 1."""
 

@@ -60,6 +60,7 @@ def test_the_closed_form_solves_the_differential_equation(
     assert rod.at(s) == pytest.approx(truth[:2].T, abs=1e-9)
     assert rod.direction(s) == pytest.approx(truth[2] + 0.4, abs=1e-9)
     assert rod.curvature(s) == pytest.approx(truth[3], abs=1e-9)
+    assert rod.curvature_rate(s) == pytest.approx(-force * np.sin(truth[2]), abs=1e-8)
     nodes, weights = gauss(40)
     bend = rod.curvature(nodes * rod.length)
     assert rod.energy == pytest.approx(float((bend**2) @ weights) * rod.length, rel=1e-8)
