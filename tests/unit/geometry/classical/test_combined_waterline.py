@@ -57,6 +57,7 @@ def test_the_test_values_of_the_waterline_are_met(line: PiecedCurve) -> None:
     for name, value in found.items():
         assert value == pytest.approx(PIECES[f"W.{name}"], rel=1e-10), name
     assert line.notes == ()
+    assert float(line.at(60.0, 2)) == line.joins()[0].after  # at a join: of the piece after
 
 
 def test_a_cubic_conic_meets_its_test_values_and_the_curvature() -> None:

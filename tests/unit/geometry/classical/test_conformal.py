@@ -99,6 +99,9 @@ def test_folds_are_found() -> None:
     terms = np.array([[0.0, 0.5, 0.0], [0.0, -0.6, 0.0], [0.3, 0.05, 0.45], [0.0, -0.12, 0.0]])
     folded = ConformalSections(np.ones(4), terms)
     assert folded.simple().tolist() == [False, False, False, True]
+    # Just beyond the cusp at -1/3 the loop is shorter than the step from angle to angle.
+    loop = ConformalSections(np.ones(2), np.array([[0.4072, -0.3345], [0.4072, -0.3325]]))
+    assert loop.simple().tolist() == [False, True]
 
 
 def _crossings(points: np.ndarray) -> int:

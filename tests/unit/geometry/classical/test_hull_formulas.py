@@ -65,6 +65,9 @@ def test_form_parameters_make_polynomials() -> None:
     other = form_polynomial([0, 2, 5], [("value", 0.5, 0.4), ("moment", 1, 0.3), ("area", 1, 0.5)])
     assert np.flatnonzero(other).tolist() == [0, 2, 5]
     assert float(polyval(0.5, other)) == pytest.approx(0.4)
+    half = form_polynomial([0, 1], [("area", 0.5, 0.3), ("moment", 0.5, 0.06)])
+    assert float(polyval(0.5, polyint(half))) == pytest.approx(0.3)
+    assert float(polyval(0.5, polyint(np.append(0.0, half)))) == pytest.approx(0.06)
     assert float(polyval(1.0, polyint(other))) == pytest.approx(0.5)
     assert float(polyval(1.0, polyint(np.append(0.0, other)))) == pytest.approx(0.3)
 

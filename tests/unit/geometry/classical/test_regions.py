@@ -53,6 +53,8 @@ def test_boundaries_that_coincide_drop_their_piece() -> None:
 
 def test_touching_boundaries_do_not_cross() -> None:
     """They may meet and part again on the same sides."""
+    near = FLAT + np.array([[0.0, 1e-9], [0.0, -1e-9], [0.0, 1e-9]])
+    assert [r.formula for r in made(change=near).at(5.0)] == ["conic"]
     touching = made(change=[(0, 58), (5, 42), (10, 66)])
     assert [r.formula for r in touching.at(5.0)] == ["conic"]
 
