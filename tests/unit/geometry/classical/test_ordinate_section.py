@@ -88,13 +88,13 @@ def test_steps_of_the_outline_join(seen: OrdinateSection) -> None:
 def test_the_moment_is_that_of_the_outline(last: float) -> None:
     """Area times centroid by a sum of thin layers from the areas below, and of the camber."""
     seen = section(zb=[0.0, 0.02, 0.10, 0.31, last], yw=[15.0, *GIVEN["yw"][1:]])
-    z = np.linspace(0.0, 12.4, 3001)
+    z = np.concatenate([np.linspace(0.0, 0.9, 200), np.linspace(0.92, 12.4, 150)])
     below = np.array([seen.area_below(each) for each in z.tolist()])
     layers = float(12.4 * below[-1] - np.trapezoid(below, z))
     y = np.linspace(0.0, 15.2, 2001)
     top = seen.camber(y)
     camber = float(np.trapezoid(top * top - 12.4**2, y))
-    assert seen.moment == pytest.approx(layers + camber, rel=2e-6)
+    assert seen.moment == pytest.approx(layers + camber, rel=4e-6)
     assert below[-1] == pytest.approx(2.0 * (seen.bottom_area + seen.main_area), rel=1e-14)
 
 
