@@ -308,7 +308,8 @@ def all_of(values: object, kind: type[Kind], name: str, where: str = _CALL) -> l
     WrongTypeError
         Anything else.
     """
-    if not isinstance(values, Iterable) or isinstance(values, str | bytes):
+    single = isinstance(values, str | bytes) or getattr(values, "ndim", 1) == 0
+    if single or not isinstance(values, Iterable):
         remedy = f"give a list of {kind.__name__}"
         raise WrongTypeError(f"{name} is {shown(values)}", where, remedy)
     given = cast("Iterable[object]", values)

@@ -19,11 +19,15 @@ from assoc_hull.analysis.arc_lines import ArcLines
 from assoc_hull.analysis.measured_hull import state_of
 from assoc_hull.analysis.production_arcs import arc_lines
 from assoc_hull.arguments import not_negative, positive
+from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 from assoc_hull.io.arc_file import write_arcs
 from assoc_hull.model.handles import Curve, Group, Line
 
 __all__ = ["ProductionArcs", "production_arcs"]
+
+_FINEST, _COARSEST = 1e-6, 1.0
+"""m: finer is the rounding of coordinates, coarser are no lines of a ship."""
 
 
 @attrs.frozen(eq=False)
@@ -66,7 +70,7 @@ def production_arcs(
         Which lines; all by default. Of a line that lies in no plane its plan and profile are
         given (of one athwart ships plan and body plan).
     within : float, m
-        The tolerance.
+        The tolerance, 0.001 mm to 1 m.
     least_radius : float, m
         Of all arcs; 0 leaves them free.
 
@@ -86,7 +90,7 @@ def production_arcs(
 
     Notes
     -----
-    Source: C.S. Kim, H. Chang, "Some Representations of Ship Hulls by Mathematical Method for
+    Source: Kim & Chang, "Some Representations of Ship Hulls by Mathematical Method for
     Design and Production", J. SNAK.
 
     Examples
@@ -100,8 +104,10 @@ def production_arcs(
     where = "in production_arcs"
     state = state_of(hull, where)
     hull.document.require_ended("production_arcs")
-    found = arc_lines(
-        state, lines, positive(within, "within", where),
-        not_negative(least_radius, "least_radius", where),
-    )  # fmt: skip
+    tolerance = positive(within, "within", where)
+    if not _FINEST <= tolerance <= _COARSEST:
+        what = f"within is {tolerance:g} m"
+        raise BadInputError(what, where, f"give {_FINEST:g} to {_COARSEST:g} m")
+    radius = not_negative(least_radius, "least_radius", where)
+    found = arc_lines(state, lines, tolerance, radius)
     return ProductionArcs(*attrs.astuple(found, recurse=False))

@@ -14,10 +14,8 @@ from benchmarks.clock import Figure
 
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
-    "form_curves", "created_hulls", "biarcs",
-    "form_curves", "created_hulls", "classical_splines",
-    "form_curves", "created_hulls", "biarcs", "conformal_sections",
-    "form_curves", "created_hulls", "biarcs", "classical_splines",
+    "form_curves", "created_hulls", "biarcs", "production_arcs", "classical_splines",
+    "conformal_sections",
 )  # fmt: skip
 
 

@@ -26,6 +26,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
+from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
 from drawings.shifts import section_shifts
 from drawings.stern import bulk_carrier, carrier_combs, counter
@@ -151,6 +152,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "panels": mesh,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,
+    "production_arcs": production_arcs_picture,
     "combined_waterline": combined_waterline,
     "conformal_sections": conformal_sections,
     "classical_splines": classical_splines,

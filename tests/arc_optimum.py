@@ -19,7 +19,7 @@ from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.biarc_family import BiarcChords, shared
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["PlaneCurve", "fewest_exact", "fewest_tilted"]
+__all__ = ["PlaneCurve", "fewest_exact", "fewest_tilted", "fits_one"]
 
 SHARES = np.linspace(0.1, 0.9, 17)
 _BLOCK = 16
@@ -61,6 +61,11 @@ def fewest_exact(
             if not fits.any():
                 break
     return int(best[-1])
+
+
+def fits_one(curve: PlaneCurve, i: int, j: int, within: float, samples: int = 40) -> bool:
+    """Whether one biarc fits between two break points, whatever its join."""
+    return bool(_biarcs_fit(curve, i, np.array([j]), within, samples, SHARES)[0])
 
 
 def _biarcs_fit(

@@ -40,8 +40,8 @@ def arc_words(arcs: ArcLines) -> str:
     >>> from assoc_hull.examples.wigley import wigley
     >>> print(arc_words(arc_lines(wigley(), "WL 5", 0.0005, 0.0)))
     line  arcs  straight  net points  off by (mm)  least radius (m)
-    WL 5    10         0          15        0.440           244.449
-    1 curves, 10 arcs (28 with a biarc between neighbouring net points), at most 0.440 mm off
+    WL 5    10         0          21        0.440           244.449
+    1 curves, 10 arcs (40 with a biarc between neighbouring net points), at most 0.440 mm off
     """
     head = ("line", "arcs", "straight", "net points", "off by (mm)", "least radius (m)")
     rows = [

@@ -38,10 +38,12 @@ from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
 from assoc_hull.geometry.classical.main_types import require_types
 from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
+from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.classical.portion import Portion
+from assoc_hull.geometry.classical.portion import Portion, require_apart, three_eighths
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.io.classical.read import read_definition
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -331,6 +333,11 @@ FLOATING: dict[str, Given] = {
 }  # fmt: skip
 
 SHEER, CAMBER = Sheer.make([(0, 1), (9, 0)]), CamberKind.make(1, 9.0, 0.3)
+SECTION = OrdinateSection.make(
+    hb=0, sb=1, sw=2, hd=3.5, bd=4.75, cam=0.1, zb=[0], yw=[3, 4, 5]
+)  # fmt: skip
+PORTION = Portion.of_areas(3, [0, 4, 8], [1, 2, 1])
+SOLID = Portion.make(3, [0, 4, 8], [SECTION] * 3)
 MIDSHIP = Midship(8.0, 2.0, 0.2, 1.5)
 KEEL = KeelOutline.make(1, 9, [(0, 2), (1, 0)], [(9, 0), (10, 3)], [(1, 0), (9, 0)])
 SIDE = KnuckleLine.make([0, 10], [(8, 9), (8, 9)], [1])
@@ -343,6 +350,20 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
             "yw": [3.0, 4.0, 5.0], "nb": 0, "nw": 3, "form": "main+camber",
         },
     ),
+    "OrdinateSection.area_below": (SECTION.area_below, {"z": 1.0}),
+    "OrdinateSection.half_breadth": (SECTION.half_breadth, {"z": 1.0}),
+    "OrdinateSection.camber": (SECTION.camber, {"y": 1.0}),
+    "require_apart": (require_apart, {"portions": [PORTION]}),
+    "three_eighths": (three_eighths, {"values": [1, 2, 3, 4], "step": 1.0}),
+    "PairedParabolas.make": (
+        PairedParabolas.make, {"name": "a", "first": 0.0, "step": 1.0, "values": [1, 2, 3]}
+    ),
+    "PairedParabolas.integral": (PORTION.curve.integral, {"first": 0.0, "last": 1.0}),
+    "Portion.area": (PORTION.area, {"x": 1.0}),
+    "Portion.volume_below": (SOLID.volume_below, {"z": 1.0}),
+    "read_definition": (read_definition, {"text": "SFOLDS a", "source": "a"}),
+    "Sfolds.report": (Sfolds.make(SHIP, [PORTION]).report, {"state": None}),
+    "Sfolds.volume_below": (Sfolds.make(SHIP, [SOLID]).volume_below, {"z": 1.0}),
     "Portion.make": (Portion.make, {"number": 3, "stations": [0.0, 4.0, 8.0], "sections": ()}),
     "Portion.of_areas": (
         Portion.of_areas, {"number": 3, "stations": [0.0, 4.0, 8.0], "areas": [1.0, 2.0, 1.0]}
@@ -350,7 +371,7 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "Sfolds.make": (
         Sfolds.make,
         {
-            "particulars": SHIP, "portions": [Portion.of_areas(3, [0, 4, 8], [1, 2, 1])],
+            "particulars": SHIP, "portions": [PORTION],
             "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
         },
     ),

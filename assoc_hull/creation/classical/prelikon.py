@@ -195,7 +195,8 @@ class Prelikon:
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of hull, boxes and houses, beside those of a net of it."""
-        return report_of(self, state)
+        given = None if state is None else instance(state, HullState, "state", "in a report")
+        return report_of(self, given)
 
 
 def _require_decks(

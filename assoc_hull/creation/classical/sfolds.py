@@ -150,6 +150,8 @@ class Sfolds:
 
     def report(self, state: HullState | None = None) -> ClassicalReport:
         """Give volumes and centres of portions and of the whole, beside those of a net of it."""
+        if state is not None:
+            instance(state, HullState, "state", "in a report of portions")
         return report_of(self, state)
 
 

@@ -128,7 +128,8 @@ class AppendageBox:
 
     def moved(self, by: float) -> Self:
         """Give the same box with `by` (m) added to x."""
-        return attrs.evolve(self, x=(self.x[0] + by, self.x[1] + by))
+        step = float(finite(by, "appendage box", ()))
+        return attrs.evolve(self, x=(self.x[0] + step, self.x[1] + step))
 
 
 def _limits(pair: ArrayLike, axis: str) -> Limits:

@@ -19,7 +19,7 @@ import numpy as np
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_curve import ArcCurve
 from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["ArcBoundary"]
@@ -83,7 +83,8 @@ class ArcBoundary:
 
     def moved(self, by: float) -> Self:
         """Give the same curve with `by` (m) added to every x."""
-        arcs, shift = self.curve.arcs, np.array([by, 0.0])
+        step = float(finite(by, f"boundary {self.name}", ()))
+        arcs, shift = self.curve.arcs, np.array([step, 0.0])
         moved = Arcs(
             arcs.start + shift, arcs.angle.copy(), arcs.curvature.copy(), arcs.length.copy()
         )

@@ -14,6 +14,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
@@ -23,6 +24,9 @@ __all__ = ["ArcCurve"]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 """Integrals over arcs that turn by up to half a circle are exact to rounding with so many."""
+
+_MOST = 1_000_000
+"""So many points of a curve are enough."""
 
 _TOLERANCE = 1e-9
 """Of places, as a part of the diagonal of the bounding box."""
@@ -76,17 +80,17 @@ class ArcCurve:
         return wrap(self.arcs.angle[1:] - self.arcs.end_angles()[:-1])
 
     def at(self, s: ArrayLike) -> FloatArray:
-        """Give points (k, 2), m, at arc lengths `s` (k,), m, from the start.
+        """Give points (..., 2), m, at arc lengths `s` (m) from the start, of any shape.
 
         Raises
         ------
         GeometryError
             An arc length outside the curve.
         """
-        asked = finite(s, self.name, (None,))
+        asked = finite(s, self.name, None)
         starts = self.starts
         if ((asked < -self.tolerance) | (asked > starts[-1] + self.tolerance)).any():
-            far = float(asked[np.argmax(np.abs(asked - 0.5 * starts[-1]))])
+            far = float(asked.flat[np.argmax(np.abs(asked - 0.5 * starts[-1]))])
             raise GeometryError(
                 f"{self.name}: s={figure(far)} outside [0, {figure(starts[-1])}]",
                 "ask between these", {"s": far},
@@ -100,11 +104,14 @@ class ArcCurve:
         Raises
         ------
         GeometryError
-            A step that is not above 0.
+            A step that is not above 0, or that makes more than a million points.
         """
         step = float(finite(most, self.name, ()))
         if not step > 0.0:
             raise GeometryError(f"{self.name}: step {figure(step)}", "give one above 0")
+        if self.length / step > _MOST:
+            what = f"{self.name}: step {figure(step)} for a length of {figure(self.length)}"
+            raise GeometryError(what, f"give one of at least {figure(self.length / _MOST)}")
         count = np.maximum(np.ceil(self.arcs.length / step), 1).astype(np.int64)
         piece = np.repeat(np.arange(len(count)), count)
         within = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)
@@ -126,13 +133,21 @@ class ArcCurve:
         piece, t
             Numbers of pieces, and arc lengths (m) from their starts. A piece that lies in
             that line gives both its ends; a joint comes once.
+
+        Raises
+        ------
+        GeometryError
+            Another axis, or a value that is no finite number.
         """
-        arcs, slack = self.arcs, self.tolerance
+        if shown(axis) not in ("0", "1"):
+            what = f"{self.name}: axis is {shown(axis)}"
+            raise GeometryError(what, "use 0 or 1", {"axis": axis})
+        arcs, slack, value = self.arcs, self.tolerance, float(finite(value, self.name, ()))
         every = np.arange(len(arcs))
         # t = 2 atan(k p) / k, and k (cos a - k d / 2) p^2 + sin a p - d / 2 = 0: no digits are
         # lost as k goes to nil.
         turned = arcs.angle if axis == 1 else arcs.angle + 0.5 * np.pi
-        away = float(value) - arcs.start[:, axis]
+        away = value - arcs.start[:, axis]
         square = arcs.curvature * (np.cos(turned) - 0.5 * arcs.curvature * away)
         linear = np.sin(turned)
         roots = _roots(square, linear, -0.5 * away)
@@ -162,19 +177,32 @@ class ArcCurve:
         Raises
         ------
         GeometryError
-            A value that is no finite number.
+            Another axis, or a value that is no finite number.
         """
-        asked = float(finite(value, self.name, ()))
-        points = self.arcs.at(*self.meet(axis, asked))
-        points[:, axis] = asked
+        points = self.arcs.at(*self.meet(axis, value))
+        points[:, axis] = value
         points = points[np.argsort(points[:, 1 - axis], kind="stable")]
         apart = np.ones(len(points), bool)
         apart[1:] = np.diff(points[:, 1 - axis]) > self.tolerance
         return points[apart]
 
     def cut(self, piece: int, t: float) -> ArcCurve:
-        """Give what lies before a place: piece number, arc length (m) from its start."""
-        arcs = self.arcs
+        """Give what lies before a place: piece number, arc length (m) from its start.
+
+        Raises
+        ------
+        GeometryError
+            A place that is not on the curve, or its very start.
+        """
+        arcs, t = self.arcs, float(finite(t, self.name, ()))
+        if (
+            shown(piece) not in map(str, range(len(arcs)))
+            or t > arcs.length[piece] + self.tolerance
+        ):
+            what = f"{self.name}: no place {figure(t)} m along piece {shown(piece)}"
+            raise GeometryError(what, f"there are {len(arcs)} pieces, from 0")
+        if piece == 0 and t <= self.tolerance:
+            raise GeometryError(f"{self.name}: nothing lies before its start", "cut it farther on")
         count = piece + 1 if t > self.tolerance or piece == 0 else piece
         length = arcs.length[:count].copy()
         if count == piece + 1:
@@ -196,11 +224,17 @@ class ArcCurve:
         area, first, second : m2, m3, m3
             Integrals of u dv, u^2/2 dv and u v dv, for the curve (u, v): positive where the
             curve runs upward with u above 0. Exact: with arcs, not with polygons.
+
+        Raises
+        ------
+        GeometryError
+            A level that is no number.
         """
         arcs = self.arcs
         piece, low, high = np.arange(len(arcs)), np.zeros(len(arcs)), arcs.length
-        if np.isfinite(level):
-            piece, low, high = self._parts(float(level))
+        if shown(level) not in ("inf", "np.float64(inf)"):
+            level = float(finite(level, self.name, ()))
+            piece, low, high = self._parts(level)
         middle = arcs.at(piece, 0.5 * (low + high))
         under = middle[:, 1] < level
         piece, low, high = piece[under], low[under], high[under]

@@ -16,7 +16,7 @@ Examples
 >>> curve = loft(CurveData.single(np.stack([x, np.sin(0.5 * x), 0.0 * x], axis=1)))
 >>> fit = fit_arcs(power(curve)[:, :, :2], np.array([0, 5]), within=0.001)
 >>> len(fit.arcs), bool(fit.deviation.max() <= 0.001)
-(16, True)
+(11, True)
 """
 
 from __future__ import annotations
@@ -24,12 +24,14 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
+from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_beam import Chain, chains
 from assoc_hull.geometry.classical.arc_check import Apart, apart
 from assoc_hull.geometry.classical.arc_links import Links, merged
 from assoc_hull.geometry.classical.arc_pieces import Pieces
 from assoc_hull.geometry.classical.arc_trials import Limits
 from assoc_hull.geometry.classical.arcs import Arcs
+from assoc_hull.geometry.classical.checks import figure, finite
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 
 __all__ = ["ArcFit", "fit_arcs"]
@@ -39,7 +41,9 @@ _DENSER = 10
 _MARGIN = 0.98
 """The search keeps this part of the tolerance; the rest is for what lies between its places."""
 _FLAT = 0.002
-"""A straight run leaves its chord by no more than this part of the tolerance."""
+"""A straight run leaves its chord by no more than this part of the tolerance,"""
+_FLATTEST = 1e-5
+"""and m: what is straight does not depend on how coarse arcs may be."""
 _AGAIN = 4
 
 
@@ -100,8 +104,18 @@ def fit_arcs(
         How far arcs may lie from their curve, and it from them.
     least_radius : float, m
         Of all arcs; 0 leaves them free.
+
+    Raises
+    ------
+    GeometryError
+        Arrays of other shapes, numbers that are not finite, a tolerance that is not above 0, a
+        cubic that is a point.
     """
-    pieces = Pieces.of(cubic, start, _FLAT * within)
+    cubic, start = _checked(cubic, start)
+    within, least_radius = _length(within, "within"), _length(least_radius, "least_radius")
+    if within == 0.0:
+        raise GeometryError("arcs: within is 0", "give a tolerance above 0, m", {"within": 0.0})
+    pieces = Pieces.of(cubic, start, min(_FLAT * within, _FLATTEST))
     bend = np.inf if least_radius <= 0.0 else (1.0 + 1e-12) / least_radius
     made, links, off = _made(pieces, Limits(_MARGIN * within, bend, _SAMPLES), within)
     curve = pieces.curve[links.piece]
@@ -118,6 +132,31 @@ def fit_arcs(
     for each in np.flatnonzero(stuck).tolist():
         sharpest[each] = _sharpest(pieces, [i for i in lost if pieces.curve[i] == each])
     return ArcFit(arcs, starts, smooth, deviation, place, stuck, sharpest)
+
+
+def _checked(cubic: FloatArray, start: IntArray) -> tuple[FloatArray, IntArray]:
+    """Take cubics and where those of each curve begin."""
+    found = finite(cubic, "arcs", (None, 4, 2))
+    starts = finite(start, "arcs", (None,))
+    whole = starts.astype(np.int64)
+    fits = len(whole) > 0 and whole[0] == 0 and whole[-1] == len(found)
+    if not fits or (whole != starts).any() or (np.diff(whole) < 1).any():
+        raise GeometryError(
+            f"arcs: the beginnings of curves do not part {len(found)} cubics",
+            "give rising numbers from 0 to their count", {"cubics": len(found)},
+        )  # fmt: skip
+    still = np.flatnonzero(np.abs(found[:, 1:]).max(axis=(1, 2)) == 0.0)
+    if len(still):
+        index = int(still[0])
+        raise GeometryError(f"arcs: cubic {index} is a point", "leave it out", {"index": index})
+    return found, whole
+
+
+def _length(value: float, name: str) -> float:
+    found = float(finite(value, f"arcs: {name}", ()))
+    if found < 0.0:
+        raise GeometryError(f"arcs: {name} is {figure(found)}", "give a length in m", {name: found})
+    return found
 
 
 def _made(pieces: Pieces, limits: Limits, within: float) -> tuple[dict[int, Chain], Links, Apart]:

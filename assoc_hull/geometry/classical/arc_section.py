@@ -337,4 +337,4 @@ def _indices(knuckles: object, count: int, name: str) -> list[int]:
 
 
 def _listed(value: object) -> TypeGuard[Sequence[Any]]:
-    return isinstance(value, list | tuple | np.ndarray)
+    return isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0)

@@ -19,13 +19,16 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure, finite, require_together
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["CamberKind"]
 
 _SLACK = 1e-9
 """So far beyond the reference half-breadth, as a part of it, counts as on it."""
+
+_LARGEST = 1e6
+"""No half-breadth (m) is larger."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(2)
 """Exact for cubics: each piece of a camber curve is a parabola."""
@@ -96,11 +99,8 @@ class CamberKind:
         most, drop, inner = (
             float(finite(each, "camber", ())) for each in (half_breadth, total, joint)
         )
-        if not most > 0.0:
-            raise GeometryError(
-                f"camber: half-breadth {figure(most)}", "give one above 0", {"B": most}
-            )
-        if known in (2, 4) and not 0.0 < inner < most:
+        _require_size(most)
+        if known in (2, 4) and not _SLACK * most < inner < most:
             raise GeometryError(
                 f"camber: y1={figure(inner)} must be inside (0, {figure(most)})",
                 "give a joint between the centre line and the reference half-breadth",
@@ -148,6 +148,7 @@ class CamberKind:
             )  # fmt: skip
         y, drops = rows[:, 0].copy(), rows[:, 1].copy()
         most, drop = float(y[-1]), float(drops[-1])
+        _require_size(most)
         return cls(known, most, drop, 0.0, "half", _scale(scale), y, drops, np.zeros(known - 1))
 
     def drop(self, y: ArrayLike, half_breadth: ArrayLike | None = None) -> FloatArray:
@@ -196,10 +197,11 @@ class CamberKind:
 
     def _referred(self, y: ArrayLike, half_breadth: ArrayLike | None) -> FloatArray:
         """Give y as it lies on the reference half-breadth."""
-        given = np.asarray(y)
-        asked = np.abs(finite(given, "camber", tuple(None for _ in given.shape)))
+        asked = np.abs(finite(y, "camber", None))
         if self.scale == "local":
-            asked = asked * (self.half_breadth / _breadths(half_breadth))
+            wide = _breadths(half_breadth)
+            require_together("camber", asked, wide)
+            asked = asked * (self.half_breadth / wide)
         beyond = asked > self.half_breadth * (1.0 + _SLACK)
         if beyond.any():
             first = float(asked[beyond].flat[0])
@@ -210,6 +212,14 @@ class CamberKind:
                 {"y": first, "B": self.half_breadth},
             )  # fmt: skip
         return np.minimum(asked, self.half_breadth)
+
+
+def _require_size(half_breadth: float) -> None:
+    if not _SLACK < half_breadth <= _LARGEST:
+        raise GeometryError(
+            f"camber: half-breadth {figure(half_breadth)}",
+            f"give one above 0, and of at most {_LARGEST:g} m", {"B": half_breadth},
+        )  # fmt: skip
 
 
 def _kind(kind: object) -> int:
@@ -230,8 +240,7 @@ def _breadths(half_breadth: ArrayLike | None) -> FloatArray:
     if half_breadth is None:
         what = "camber: scaled to the deck, whose half-breadth is not given"
         raise GeometryError(what, "give half_breadth")
-    given = np.asarray(half_breadth)
-    found = finite(given, "camber", tuple(None for _ in given.shape))
+    found = finite(half_breadth, "camber", None)
     if (found <= 0.0).any():
         what = f"camber: half-breadth {figure(float(found.min()))}"
         raise GeometryError(what, "give one above 0", {"half_breadth": float(found.min())})

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["called", "figure", "finite", "inside", "wrap"]
+__all__ = ["called", "figure", "finite", "inside", "require_together", "wrap"]
 
 
 def called(name: object) -> str:
@@ -42,7 +42,7 @@ def figure(value: float) -> str:
     return f"{float(value) + 0.0:.10g}"
 
 
-def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> FloatArray:
+def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None) -> FloatArray:
     """Take finite numbers of a shape; None in the shape stands for any size.
 
     Parameters
@@ -51,8 +51,8 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Float
         As handed in.
     name : str
         Of the curve, for the message.
-    shape : tuple of (int or None)
-        Wanted.
+    shape : tuple of (int or None), or None
+        Wanted; None is any shape.
 
     Returns
     -------
@@ -72,10 +72,12 @@ def finite(values: ArrayLike, name: str, shape: tuple[int | None, ...]) -> Float
     ...
     assoc_hull.errors.GeometryError: sheer: non-finite value at index 1; give a number
     """
-    wanted = f"({', '.join('n' if size is None else str(size) for size in shape)})"
+    each = ["..."] if shape is None else ["n" if size is None else str(size) for size in shape]
+    wanted = f"({', '.join(each)})"
     found = _numbers(values, name, wanted)
-    fits = found.ndim == len(shape) and all(
-        size is None or size == has for size, has in zip(shape, found.shape, strict=True)
+    fits = shape is None or (
+        found.ndim == len(shape)
+        and all(size is None or size == has for size, has in zip(shape, found.shape, strict=True))
     )
     if not fits:
         raise GeometryError(
@@ -133,8 +135,7 @@ def inside(x: ArrayLike, name: str, least: float, most: float, slack: float = 0.
     ...
     assoc_hull.errors.GeometryError: camber: x=11 outside [0, 10]; ask between these
     """
-    found = _numbers(x, name, "(...)")
-    found = finite(found, name, tuple(None for _ in found.shape))
+    found = finite(x, name, None)
     outside = (found < least - slack) | (found > most + slack)
     if outside.any():
         first = float(found[outside].flat[0])
@@ -143,6 +144,36 @@ def inside(x: ArrayLike, name: str, least: float, most: float, slack: float = 0.
             "ask between these", {"x": first, "least": least, "most": most},
         )  # fmt: skip
     return np.clip(found, least, most)
+
+
+def require_together(name: str, first: FloatArray, second: FloatArray) -> None:
+    """Check that two arrays of places fit one another, as they stand or broadcast.
+
+    Parameters
+    ----------
+    name : str
+        Of the curve, for the message.
+    first, second : array
+        Of any shapes.
+
+    Raises
+    ------
+    GeometryError
+        ``"{name}: expected shape {s}, got {t}"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.classical.checks import require_together
+    >>> require_together("deck", np.zeros((4, 1)), np.zeros(3))
+    """
+    try:
+        np.broadcast_shapes(first.shape, second.shape)
+    except ValueError:
+        raise GeometryError(
+            f"{name}: expected shape {first.shape}, got {second.shape}",
+            "give as many of both, or one", {"expected": first.shape, "got": second.shape},
+        ) from None  # fmt: skip
 
 
 def wrap(angle: ArrayLike) -> FloatArray:

@@ -21,12 +21,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Literal, Self
+from typing import Literal, Self, cast
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import inside
 from assoc_hull.geometry.classical.chord_spline_checks import (
@@ -39,6 +40,7 @@ from assoc_hull.geometry.classical.chord_spline_checks import (
     place_of,
 )
 from assoc_hull.geometry.classical.chord_spline_solve import Mode, slopes, solve_directions
+from assoc_hull.geometry.classical.inputs import one_of
 from assoc_hull.geometry.curvature import plane_curvature
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.evaluation import derivative, evaluate
@@ -218,12 +220,12 @@ class ChordSpline:
         >>> found.points[:, 0].round(4).tolist()
         [0.4651, 1.5349]
         """
-        if axis not in ("x", "y"):
-            raise GeometryError(f"spline: no axis {axis!r}", 'ask for "x" or "y"', {"axis": axis})
+        one_of(axis, ("x", "y"), "spline: no axis")
         column = 0 if axis == "x" else 1
         cubics = power(self.batch)[:, :, column]
-        wanted = np.atleast_1d(np.asarray(values))
-        wanted = inside(wanted, "spline", *_extent(cubics))
+        wanted = inside(values, "spline", *_extent(cubics)).ravel()
+        if not len(wanted):
+            return Meets(np.zeros(0, np.int64), np.zeros(0), np.zeros((0, 2)))
         index, segment, u = _roots(cubics, wanted)
         knot = self.knots
         t = np.clip(knot[segment] + u * (knot[segment + 1] - knot[segment]), 0.0, knot[-1])
@@ -262,13 +264,33 @@ def chord_splines(
     >>> [len(each.points) for each in both]
     [3, 2]
     """
-    given = [(None, None)] * len(curves) if ends is None else list(ends)
-    if len(given) != len(curves):
+    each = _each(curves)
+    given = [(None, None)] * len(each) if ends is None else _pairs(ends)
+    if len(given) != len(each):
         raise GeometryError(
-            f"spline: {len(given)} pairs of end directions for {len(curves)} curves",
-            "give one pair a curve", {"ends": len(given), "curves": len(curves)},
+            f"spline: {len(given)} pairs of end directions for {len(each)} curves",
+            "give one pair a curve", {"ends": len(given), "curves": len(each)},
         )  # fmt: skip
-    return tuple(ChordSpline(*each) for each in _made(list(curves), given, mode))
+    return tuple(ChordSpline(*made) for made in _made(each, given, mode))
+
+
+def _each(curves: object) -> list[ArrayLike]:
+    """Take curves one by one."""
+    many = isinstance(curves, Sequence) and not isinstance(curves, str | bytes)
+    if many or (isinstance(curves, np.ndarray) and curves.ndim):
+        return list(cast("Sequence[ArrayLike]", curves))
+    what = f"spline: {shown(curves)} are no curves"
+    raise GeometryError(what, "give a list of points for each")
+
+
+def _pairs(ends: object) -> list[tuple[float | None, float | None]]:
+    """Take pairs of directions."""
+    if isinstance(ends, Sequence) and all(
+        isinstance(each, Sequence) and not isinstance(each, str | bytes) and len(each) == 2
+        for each in ends
+    ):
+        return [(each[0], each[1]) for each in ends]
+    raise GeometryError(f"spline: ends are {shown(ends)}", "give a pair of directions a curve")
 
 
 def _made(
@@ -277,10 +299,7 @@ def _made(
     mode: Mode,
 ) -> list[tuple[FloatArray, FloatArray, Mode, tuple[str, ...]]]:
     """Check points, solve for directions, check slopes; what each spline is made of."""
-    if mode not in ("moment", "curvature"):
-        raise GeometryError(
-            f"spline: no mode {mode!r}", 'choose "moment" or "curvature"', {"mode": mode}
-        )
+    one_of(mode, ("moment", "curvature"), "spline: no mode")
     if not curves:
         return []
     points = [checked_points(each, place_of(i, len(curves))) for i, each in enumerate(curves)]

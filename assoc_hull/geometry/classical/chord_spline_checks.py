@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
 from assoc_hull.geometry.classical.chord_spline_solve import Chords
+from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
@@ -37,7 +38,7 @@ def place_of(number: int, count: int) -> str:
 def checked_points(points: ArrayLike, where: str) -> FloatArray:
     """Take points (n, 2), m: two or more, neighbours apart."""
     try:
-        found = finite(points, "spline", (None, 2))
+        found = bearable(finite(points, "spline", (None, 2)), "spline")
     except GeometryError as error:
         raise error.at(where) from None
     if len(found) < 2:

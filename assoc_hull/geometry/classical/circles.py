@@ -20,9 +20,11 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import flag
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = [
@@ -72,15 +74,19 @@ def circle_through(p: ArrayLike, q: ArrayLike, r: ArrayLike) -> TrueCircle:
     GeometryError
         ``"circle: points are collinear"``.
     """
-    first, second, third = (finite(each, "circle", (2,)) for each in (p, q, r))
+    first, second, third = (_point(each) for each in (p, q, r))
     a, b, c = second - first, third - first, third - second
     cross = float(a[0] * b[1] - a[1] * b[0])
     square_a, square_b, square_c = (float(each @ each) for each in (a, b, c))
-    if abs(cross) <= _FLAT * np.sqrt(square_a * square_b) or square_c == 0.0:
+    if abs(cross) <= _FLAT * np.sqrt(square_a * square_b) or square_a * square_b * square_c == 0.0:
         raise _collinear()
     away = np.array([b[1] * square_a - a[1] * square_b, a[0] * square_b - b[0] * square_a])
     bend = 2.0 * cross / float(np.sqrt(square_a * square_b * square_c))
     return TrueCircle(first + away / (2.0 * cross), bend)
+
+
+def _point(place: ArrayLike) -> FloatArray:
+    return bearable(finite(place, "circle", (2,)), "circle")
 
 
 def _collinear() -> GeometryError:
@@ -115,7 +121,7 @@ def tangent_curvature(start: ArrayLike, direction: ArrayLike, end: ArrayLike) ->
     >>> round(tangent_curvature([0, 0], [1, 0], [4, 1]), 9)
     0.117647059
     """
-    first, way, last = (finite(each, "circle", (2,)) for each in (start, direction, end))
+    first, way, last = (_point(each) for each in (start, direction, end))
     step, size = last - first, float(np.hypot(*way))
     if size == 0.0 or not step.any():
         raise GeometryError("circle: no direction, or one point twice", "give two points apart")
@@ -137,7 +143,7 @@ def circle_by_tangent(start: ArrayLike, direction: ArrayLike, end: ArrayLike) ->
         `tangent_curvature`.
     """
     bend = tangent_curvature(start, direction, end)
-    first, way, last = (finite(each, "circle", (2,)) for each in (start, direction, end))
+    first, way, last = (_point(each) for each in (start, direction, end))
     if abs(bend) * float(np.hypot(*(last - first))) <= 2.0 * _FLAT:
         raise _collinear()
     left = np.array([-way[1], way[0]]) / float(np.hypot(*way))
@@ -166,7 +172,8 @@ def fitted_circle(points: ArrayLike, *, polish: bool = False) -> TrueCircle:
     >>> round(fitted_circle([(0, 0), (1, 0.95), (2, 1.35), (3, 1.05), (4, 0.1)]).radius, 9)
     2.213672362
     """
-    found = finite(points, "circle", (None, 2))
+    found = bearable(finite(points, "circle", (None, 2)), "circle")
+    flag(polish, "polish", "in fitted_circle")
     if len(found) < 3:
         raise GeometryError("circle: at least 3 points", "give more", {"points": len(found)})
     middle = found.mean(axis=0)

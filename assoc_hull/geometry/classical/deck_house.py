@@ -155,5 +155,6 @@ class DeckHouse:
 
     def moved(self, by: float) -> Self:
         """Give the same house with `by` (m) added to x, its deck with it."""
-        ends = (self.x[0] + by, self.x[1] + by)
-        return attrs.evolve(self, deck=self.deck.moved(by), x=ends)
+        step = float(finite(by, "deck house", ()))
+        ends = (self.x[0] + step, self.x[1] + step)
+        return attrs.evolve(self, deck=self.deck.moved(step), x=ends)

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import instance
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.camber_kinds import CamberKind
-from assoc_hull.geometry.classical.checks import figure, finite
+from assoc_hull.geometry.classical.checks import figure, finite, require_together
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.curves import FloatArray
 
@@ -81,8 +81,7 @@ class Deck:
         GeometryError
             ``"deck {n}: sheer does not cover x={x}"``.
         """
-        given = np.asarray(x)
-        asked = finite(given, f"deck {self.number}", tuple(None for _ in given.shape))
+        asked = finite(x, f"deck {self.number}", None)
         least, most = self.sheer.range
         slack = 1e-9 * (most - least)
         outside = (asked < least - slack) | (asked > most + slack)
@@ -111,7 +110,9 @@ class Deck:
             ``"deck {n}: sheer does not cover x={x}"``;
             ``"camber: y={y} beyond reference half-breadth {B}"``.
         """
-        return np.asarray(self.centre(x) - self.camber.drop(y, half_breadth))
+        centre, drop = self.centre(x), self.camber.drop(y, half_breadth)
+        require_together(f"deck {self.number}", centre, drop)
+        return np.asarray(centre - drop)
 
     def moved(self, by: float) -> Self:
         """Give the same deck with `by` (m) added to x."""

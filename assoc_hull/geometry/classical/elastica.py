@@ -37,11 +37,15 @@ from scipy.special import ellipeinc, ellipj, ellipkinc
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
+from assoc_hull.geometry.classical.inputs import bearable, one_of
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Elastica", "Family", "check_modulus", "force_frame", "frame_direction"]
 
 Family = Literal["inflecting", "not inflecting"]
+
+_MOST_TURNS = 1e6
+"""rad: beyond, an amplitude has lost the digits of its angle."""
 
 
 def check_modulus(k: float) -> float:
@@ -166,24 +170,25 @@ class Elastica:
         low, high, speed, turn = (
             float(finite(each, "elastica", ())) for each in (phi0, phi1, rate, rotation)
         )
-        if family not in ("inflecting", "not inflecting"):
-            what = f"elastica: no family {family!r}"
-            raise GeometryError(what, 'choose "inflecting" or "not inflecting"')
-        if not low < high or not speed > 0.0:
+        one_of(family, ("inflecting", "not inflecting"), "elastica: no family")
+        if not -_MOST_TURNS < low < high < _MOST_TURNS or not speed > 0.0:
             raise GeometryError(
                 f"elastica: amplitudes {figure(low)} to {figure(high)} at a rate of "
-                f"{figure(speed)}", "give ascending amplitudes and a rate above 0",
+                f"{figure(speed)}", "give ascending amplitudes below 1e6 and a rate above 0",
                 {"phi0": low, "phi1": high, "rate": speed},
             )  # fmt: skip
         ends = np.array(low), np.array(high)
         length = float(force_frame(*ends, modulus, family)[2]) / speed
-        first = finite(start, "elastica", (2,))
+        bearable(np.array([speed, max(abs(low), abs(high))]), "elastica")
+        first = bearable(finite(start, "elastica", (2,)), "elastica")
         return cls(first, turn, modulus, low, high, speed, length, family)
 
     @classmethod
     def straight(cls, start: ArrayLike, end: ArrayLike) -> Self:
         """Give the straight line between two points (2,), m."""
-        first, last = (finite(each, "elastica", (2,)) for each in (start, end))
+        first, last = (
+            bearable(finite(each, "elastica", (2,)), "elastica") for each in (start, end)
+        )
         step = last - first
         angle, size = float(np.arctan2(step[1], step[0])), float(np.hypot(*step))
         return cls(first, angle, 1.0, 0.0, 0.0, 0.0, size)
@@ -210,7 +215,9 @@ class Elastica:
 
     def frame_point(self, phi: ArrayLike) -> FloatArray:
         """Give xi, eta (..., 2), m, in axes of the force from the start, at amplitudes phi."""
-        at = np.asarray(phi, np.float64)
+        at = inside(phi, "elastica", self.phi0, self.phi1, slack=1e-12)
+        if self.is_straight:
+            return np.zeros((*at.shape, 2))
         xi, eta, _ = force_frame(np.array(self.phi0), at, self.k, self.family)
         return np.stack([xi, eta], axis=-1) / self.rate
 

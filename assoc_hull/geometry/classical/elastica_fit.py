@@ -27,6 +27,7 @@ from assoc_hull.geometry.classical.checks import figure, finite, wrap
 from assoc_hull.geometry.classical.elastica import Elastica, check_modulus, force_frame
 from assoc_hull.geometry.classical.elastica_length import with_length
 from assoc_hull.geometry.classical.elastica_solve import FREE_MODULUS, fit_amplitudes, no_solution
+from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["fit_elastica"]
@@ -71,7 +72,7 @@ def fit_elastica(
     >>> round(fit_elastica([0, 0], [1, 0], 0.5, -0.3, length=1.03).k, 9)
     0.423998899
     """
-    first, last = (finite(each, "elastica", (2,)) for each in (start, end))
+    first, last = (bearable(finite(each, "elastica", (2,)), "elastica") for each in (start, end))
     a, b = (float(wrap(finite(each, "elastica", ()))) for each in (alpha, beta))
     step = last - first
     chord = float(np.hypot(*step))

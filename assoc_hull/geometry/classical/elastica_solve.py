@@ -88,9 +88,9 @@ def _first_guess(
     last = 2.0 * np.tan(alpha) + 4.0 * np.tan(beta)
     middle, growth = 0.5 * (first + last), last - first
     # With q the square of sin(phi) at the middle: A q (1 - k^2 q) = D (1 - q)^2.
-    a, d = (middle * middle / (2.0 * k)) ** 2, growth * growth
-    root = np.sqrt(a * a + 4.0 * d * a * (1.0 - k * k))
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        a, d = (middle * middle / (2.0 * k)) ** 2, growth * growth
+        root = np.sqrt(a * a + 4.0 * d * a * (1.0 - k * k))
         sine2, cosine2 = 2.0 * d / (2.0 * d + a + root), (a + root) / (2.0 * d + a + root)
         bend = np.abs(middle) / (2.0 * k * np.sqrt(cosine2))
     symmetric = np.sqrt(np.abs(growth) / (2.0 * k * np.sqrt(1.0 - k * k)))

@@ -215,7 +215,7 @@ class OrdinateSection:
         GeometryError
             ``"camber: |y|={y} exceeds half-breadth {b}"``.
         """
-        across = np.abs(finite(y, "camber", tuple(None for _ in np.shape(y))))
+        across = np.abs(finite(y, "camber", None))
         if (across > self.bd * (1.0 + 1e-12)).any():
             worst = float(across.max())
             what = f"camber: |y|={figure(worst)} exceeds half-breadth {figure(self.bd)}"

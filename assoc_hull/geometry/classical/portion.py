@@ -241,7 +241,8 @@ def require_apart(portions: Sequence[Portion]) -> tuple[str, ...]:
     >>> require_apart([one, two])
     ('portions 2 and 5 of the main body leave a gap in x: [4,5]',)
     """
-    main = sorted((each for each in portions if each.is_main), key=lambda each: each.stations[0])
+    given = all_of(portions, Portion, "portions", "of a main body")
+    main = sorted((each for each in given if each.is_main), key=lambda each: each.stations[0])
     notes = []
     for one, two in itertools.pairwise(main):
         end, begin = float(one.stations[-1]), float(two.stations[0])

@@ -111,4 +111,5 @@ class Sheer:
 
     def moved(self, by: float) -> Self:
         """Give the same sheer with `by` (m) added to every x."""
-        return type(self)(self.x + by, self.rise.copy())
+        step = float(finite(by, "sheer", ()))
+        return type(self)(self.x + step, self.rise.copy())

@@ -137,8 +137,9 @@ class SpaceCurve:
 
     def moved(self, by: float) -> Self:
         """Give the same curve with `by` (m) added to every x."""
+        step = float(finite(by, "space curve", ()))
         return type(self).make(
-            self.points + np.array([by, 0.0, 0.0]), kind=self.kind, name=self.name
+            self.points + np.array([step, 0.0, 0.0]), kind=self.kind, name=self.name
         )
 
 

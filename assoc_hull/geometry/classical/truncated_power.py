@@ -31,6 +31,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import finite, inside
+from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["TruncatedPower", "power_columns", "solved_directly"]
@@ -104,10 +105,10 @@ class TruncatedPower:
 
 
 def _checked(x: ArrayLike, y: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    places = finite(x, "spline", (None,))
+    places = bearable(finite(x, "spline", (None,)), "spline")
     if len(places) < 3:
         raise GeometryError("spline: at least 3 points", "give more", {"points": len(places)})
-    heights = finite(y, "spline", (len(places),))
+    heights = bearable(finite(y, "spline", (len(places),)), "spline")
     back = np.diff(places) <= 0.0
     if back.any():
         index = int(np.argmax(back)) + 1
@@ -143,6 +144,7 @@ def power_columns(x: ArrayLike) -> FloatArray:
     True
     """
     places = finite(x, "spline", (None,))
+    places = _checked(places, np.zeros(len(places)))[0]
     beyond = np.maximum(places[:, None] - places[None, 1:-1], 0.0)
     values = np.column_stack([places[:, None] ** np.arange(4), beyond**3])
     ends = places[[0, -1]]
@@ -162,4 +164,8 @@ def solved_directly(x: ArrayLike, y: ArrayLike) -> FloatArray:
     """
     places, heights = _checked(x, y)
     right = np.concatenate([heights, [0.0, 0.0]])
-    return np.asarray(np.linalg.solve(power_columns(places), right))
+    try:
+        return np.asarray(np.linalg.solve(power_columns(places), right))
+    except np.linalg.LinAlgError:
+        what = "spline: the columns of truncated powers are parallel to rounding"
+        raise GeometryError(what, "measure x from the first point") from None

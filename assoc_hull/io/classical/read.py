@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeGuard
 
-from assoc_hull.arguments import file_path
+from assoc_hull.arguments import file_path, word
 from assoc_hull.creation.classical.net import ClassicalDefinition
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.classical.cards import Cards, kind_of, read_cards
@@ -75,7 +75,8 @@ def read_definition(text: str, source: str) -> ClassicalDefinition:
     GeometryError
         Numbers of which no hull can be made.
     """
-    cards = read_cards(text, source)
+    where = "in read_definition"
+    cards = read_cards(word(text, "text", where), word(source, "source", where))
     if cards.kind not in READERS:
         remedy = f"give one of {', '.join(READERS)}"
         raise BadInputError(f"texts of the kind {cards.kind} are not read", f"in {source}", remedy)

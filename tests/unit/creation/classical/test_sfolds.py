@@ -273,4 +273,6 @@ def test_a_hull_that_ends_on_its_stem() -> None:
     )  # fmt: skip
     names = [each.name for each in ship.lines()]
     assert names == ["profile", "deck edge", "ST 8", "ST 16", "ST 24"]
+    keel = [[x, 0.0, 0.0] for x in X.tolist()]
+    assert ship.lines()[0].points.tolist() == [[0.0, 0.0, 3.5], *keel, [32.0, 0.0, 3.5]]
     assert ah.create(ship).check() == ()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
 from assoc_hull.geometry.classical.arc_pieces import Pieces
 from assoc_hull.geometry.classical.arc_ratio import biarcs_by_ratio
@@ -233,3 +234,35 @@ def test_biarcs_by_ratio_are_those_of_the_family() -> None:
     )
     assert found.length.T.ravel() == pytest.approx(arcs.length, rel=1e-12)
     assert np.abs(found.join.T - arcs.start[1::2]).max() < 1e-11
+
+
+LINE = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [0.0, 0.0]]])
+
+
+@pytest.mark.parametrize(
+    ("cubic", "start", "within", "radius", "message"),
+    [
+        (None, [0, 1], WITHIN, 0.0, "arcs: expected shape"),
+        (LINE[:, :3], [0, 1], WITHIN, 0.0, "arcs: expected shape"),
+        (LINE * np.nan, [0, 1], WITHIN, 0.0, "arcs: non-finite value"),
+        (LINE, [0, 2], WITHIN, 0.0, "do not part 1 cubics"),
+        (LINE, [], WITHIN, 0.0, "do not part 1 cubics"),
+        (LINE, [0, 0.5, 1], WITHIN, 0.0, "do not part 1 cubics"),
+        (LINE * 0.0, [0, 1], WITHIN, 0.0, "arcs: cubic 0 is a point"),
+        (LINE, [0, 1], 0.0, 0.0, "arcs: within is 0"),
+        (LINE, [0, 1], -1.0, 0.0, "arcs: within is -1"),
+        (LINE, [0, 1], math.nan, 0.0, "arcs: within: non-finite"),
+        (LINE, [0, 1], WITHIN, -2.0, "arcs: least_radius is -2"),
+        (LINE, [0, 1], "a", 0.0, "arcs: within: expected shape"),
+    ],
+    ids=[
+        "nothing", "quadratics", "no number", "too many", "no curve", "half a cubic", "point",
+        "no tolerance", "negative", "nan", "negative radius", "word",
+    ],
+)  # fmt: skip
+def test_what_makes_no_arcs_is_refused(
+    cubic: FloatArray, start: IntArray, within: float, radius: float, message: str
+) -> None:
+    """By a message that says what is wrong, never from within numpy."""
+    with pytest.raises(GeometryError, match=message):
+        fit_arcs(cubic, start, within, radius)

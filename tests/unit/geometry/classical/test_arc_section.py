@@ -78,6 +78,21 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     "knuckle at no point": ("section: knuckles are [7]", lambda: arc(knuckles=[7])),
     "beyond its length": ("section: s=11 outside [0, 10]", lambda: arc().at([11.0])),
     "no step": ("section: step 0", lambda: arc().sampled(0.0)),
+    "too many points": ("section: step 1e-12 for a length of 10", lambda: arc().sampled(1e-12)),
+    "kind of no list": ("section: kind is array(5.)", lambda: arc(kind=np.array(5.0))),
+    "radius of no list": ("section: radius is array(5.)", lambda: arc(np.array(5.0))),
+    "knuckles of no list": ("section: knuckles are array(5.)", lambda: arc(knuckles=np.array(5.0))),
+    "third axis": ("section: axis is 2", lambda: arc().where(2, 0.0)),
+    "level of no number": (
+        "section: non-finite value at index 0",
+        lambda: arc().moments_below(float("nan")),
+    ),
+    "cut before it begins": ("section: nothing lies before its start", lambda: arc().cut(0, 0.0)),
+    "cut beyond its end": ("section: no place 11 m along piece 0", lambda: arc().cut(0, 11.0)),
+    "moved nowhere": (
+        "boundary stem: expected shape (), got",
+        lambda: STEM.moved("far"),  # type: ignore[arg-type]
+    ),
     "above a boundary": ("boundary stem: does not reach z=4.5", lambda: STEM.x(4.5)),
     "before a boundary": ("boundary stem: does not reach x=-1", lambda: STEM.z(-1.0)),
 }

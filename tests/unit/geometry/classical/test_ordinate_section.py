@@ -84,16 +84,24 @@ def test_steps_of_the_outline_join(seen: OrdinateSection) -> None:
     assert not steps[4, 2].any()
 
 
-def test_the_moment_is_that_of_the_outline(seen: OrdinateSection) -> None:
+@pytest.mark.parametrize("last", [0.8, 0.4])
+def test_the_moment_is_that_of_the_outline(last: float) -> None:
     """Area times centroid by a sum of thin layers from the areas below, and of the camber."""
+    seen = section(zb=[0.0, 0.02, 0.10, 0.31, last], yw=[15.0, *GIVEN["yw"][1:]])
     z = np.linspace(0.0, 12.4, 3001)
     below = np.array([seen.area_below(each) for each in z.tolist()])
     layers = float(12.4 * below[-1] - np.trapezoid(below, z))
     y = np.linspace(0.0, 15.2, 2001)
     top = seen.camber(y)
     camber = float(np.trapezoid(top * top - 12.4**2, y))
-    assert seen.moment == pytest.approx(layers + camber, rel=1e-5)
+    assert seen.moment == pytest.approx(layers + camber, rel=2e-6)
     assert below[-1] == pytest.approx(2.0 * (seen.bottom_area + seen.main_area), rel=1e-14)
+
+
+def test_the_area_below_a_height_of_a_straight_floor() -> None:
+    """Where parabolas are straight lines: a triangle."""
+    wedge = section(zb=[0.0, 0.125, 0.25, 0.375, 0.5], yw=[12.0, *GIVEN["yw"][1:]])
+    assert wedge.area_below(0.3) == pytest.approx(0.3 * 7.2, rel=1e-12)
 
 
 @pytest.mark.parametrize("level", [-0.1, 0.0, 0.05, 0.5, 0.85, 0.9, 3.3, 12.4])

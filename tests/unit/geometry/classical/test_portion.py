@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+import assoc_hull as ah
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 from assoc_hull.geometry.classical.portion import KINDS, Portion, require_apart, three_eighths
 from tests.unit.geometry.classical.test_ordinate_section import section
@@ -121,8 +121,8 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
         "portion 3: stations not equally spaced at index 2 (step 9, expected 8)",
     ),
     "a step off by more than a millionth": (
-        lambda: of(3, [0.0, 8.0, 16.0 + 1.7e-5, 24.0, 32.0]),
-        "portion 3: stations not equally spaced at index 1 (step 8.000017, expected 8)",
+        lambda: of(3, [0.0, 8.0, 16.0 + 1.2e-5, 24.0, 32.0]),
+        "portion 3: stations not equally spaced at index 1 (step 8.000012, expected 8)",
     ),
     "descending": (
         lambda: of(3, X[::-1]), "portion 3: stations not ascending at index 0 (step -8)"
@@ -130,6 +130,10 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "overlap": (
         lambda: require_apart([of(5, np.array(X) + 24.0), of(4)]),
         "portions 4 and 5 of the main body overlap in x: [24,32]",
+    ),
+    "one within another": (
+        lambda: require_apart([of(4), of(5, 0.25 * np.array(X) + 8.0)]),
+        "portions 4 and 5 of the main body overlap in x: [8,16]",
     ),
     "other counts": (lambda: of(3, X, AREAS[:3]), "portion 3: 5 stations and 3 sections"),
     "not finite": (
@@ -160,7 +164,7 @@ def test_steps_within_a_millionth_are_equal() -> None:
 
 
 def test_what_is_no_section_is_refused() -> None:
-    """A portion takes sections only."""
-    with pytest.raises(ValueError, match="sections"):
-        Portion.make(3, X, [1.0] * 5)  # type: ignore[list-item]
-    assert isinstance(section(), OrdinateSection)
+    """A portion takes sections only; a number that stands as an array is no list of them."""
+    for given in ([1.0] * 5, np.array(5.0)):
+        with pytest.raises(ah.AssocHullError, match="sections"):
+            Portion.make(3, X, given)  # type: ignore[arg-type]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
+from assoc_hull.geometry.classical.arc_section import through_points
 from assoc_hull.geometry.classical.camber_kinds import CamberKind
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck, require_apart
@@ -57,6 +59,16 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     "beyond the reference": (
         "camber: y=15.1 beyond reference half-breadth 15", lambda: PARABOLA.drop([1.0, -15.1])
     ),
+    "camber joint next to the centre line": (
+        "camber: y1=1e-308 must be inside (0, 15)",
+        lambda: CamberKind.make(2, 15.0, 0.5, joint=1e-308),
+    ),
+    "camber of no ship": (
+        "camber: half-breadth 1e+308", lambda: CamberKind.make(2, 1e308, 0.5, joint=1.0)
+    ),
+    "house in no decks": (
+        "deck house: non-finite value at index 0", lambda: house().moved(float("nan"))
+    ),
     "camber without breadth": ("camber: half-breadth 0", lambda: CamberKind.make(1, 0.0, 0.5)),
     "camber half of kind 1": (
         "camber: kind 1 read on the half-breadth", lambda: CamberKind.through(1, [(0, 0)])
@@ -74,6 +86,13 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     ),
     "camber mean of nothing": ("camber: mean up to y=0", lambda: PARABOLA.mean(0.0)),
     "deck without sheer": ("deck 1: sheer does not cover x=60.5", lambda: DECK.at(60.5, 0.0)),
+    "places that do not fit": (
+        "deck 1: expected shape (2,), got (3,)", lambda: DECK.at([1.0, 2.0], [1.0, 2.0, 3.0])
+    ),
+    "breadths that do not fit": (
+        "camber: expected shape (2,), got (3,)",
+        lambda: CamberKind.make(1, 15.0, 0.5, scale="local").drop([1.0, 2.0], [9.0] * 3),
+    ),
     "decks that meet": (
         "decks 1 and 2 intersect near x=0",
         lambda: require_apart(
@@ -145,6 +164,28 @@ def test_what_makes_no_curve_is_refused_in_words(case: str) -> None:
         call()
     assert str(caught.value).startswith(message)
     assert caught.value.remedy
+
+
+ASKED: dict[str, Callable[[Any], Any]] = {
+    "sheer": lambda x: SHEER.at(x),
+    "camber": lambda y: PARABOLA.drop(y),
+    "deck": lambda x: DECK.at(x, 0.0),
+    "deck across": lambda y: DECK.at(0.0, y),
+    "space curve": lambda t: SpaceCurve.make(SPACE).at(t),
+    "section": lambda s: through_points([(0, 0), (9, 0)]).at(s),
+}
+
+
+@pytest.mark.parametrize("case", ASKED)
+def test_places_may_have_any_shape_and_must_be_numbers(case: str) -> None:
+    """Scalars and tables come back in their shape; what is no number is refused in words."""
+    ask = ASKED[case]
+    last = (3,) if case == "space curve" else (2,) if case == "section" else ()
+    for given in (1.0, [1.0, 2.0], np.ones((2, 3))):
+        assert np.shape(ask(given)) == np.shape(given) + last
+    for bad in ([1, [2]], "a", None, [np.nan], object()):
+        with pytest.raises(GeometryError):
+            ask(bad)
 
 
 def test_a_job_of_the_required_types_is_enough() -> None:
