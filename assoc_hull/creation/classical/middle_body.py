@@ -34,6 +34,8 @@ def midship_outline(midship: Midship, depth: float) -> Outline:
     >>> chine.points.tolist(), chine.kind.tolist()
     ([[0.0, 0.0], [16.0, 0.0], [16.0, 10.0]], [0, 2, 0])
     """
+    instance(midship, Midship, "midship", "in its outline")
+    positive(depth, "depth", "in the outline of a midship section")
     bilge = midship.bilge()
     pieces = [
         straight((0.0, 0.0), (midship.flat, 0.0)),

@@ -15,7 +15,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.flotation import flotation
-from assoc_hull.arguments import word
+from assoc_hull.arguments import instance, text
 from assoc_hull.errors import UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
@@ -109,11 +109,11 @@ class ClassicalReport:
         UnknownNameError
             There is none.
         """
-        word(name, "name", "of a figure")
+        wanted = text(name, "name", "in a report of a definition")
         for each in self.figures:
-            if each.name == name:
+            if each.name == wanted:
                 return each
-        raise UnknownNameError("figure", name, tuple(each.name for each in self.figures))
+        raise UnknownNameError("figure", wanted, tuple(each.name for each in self.figures))
 
     @property
     def worst(self) -> Departure | None:
@@ -180,6 +180,7 @@ def measure_net(state: HullState, height: float) -> Measured:
     >>> round(found.volume), round(found.x, 6)
     (2777, 50.0)
     """
+    instance(state, HullState, "state", "in a report of a definition")
     plane = Planes(np.array([height]), np.zeros(1), np.zeros(1))
     found = flotation(state).measure(plane)
     volume = float(found.volume[0])

@@ -32,6 +32,7 @@ from assoc_hull.creation.classical.seaking_parts import (
 )
 from assoc_hull.creation.classical.seaking_sections import MidshipSection, Section
 from assoc_hull.geometry.classical.checks import finite, inside
+from assoc_hull.geometry.classical.choices import height_of
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
@@ -151,11 +152,11 @@ class Seaking:
         GeometryError
             x beyond the ends; lines of which no frame can be made there.
         """
-        return self.sections([x])[0]
+        return self.sections([float(finite(x, "frame", ()))])[0]
 
     def sections(self, x: ArrayLike) -> list[Section]:
         """Build sections at places (n,), m; as `section`, with lines cut all at once."""
-        place = inside(np.atleast_1d(np.asarray(x, np.float64)), "frame", *self.ends)
+        place = inside(finite(x, "frame", (None,)), "frame", *self.ends)
         keel, flat, part = self.keel.height(place), self.keel.flat(place), self.keel.part(place)
         deck = self.deck.at(place)
         water = [_over(each.at, each.ends, place) for each in self.waterlines]
@@ -184,7 +185,8 @@ class Seaking:
 
     def areas(self, x: ArrayLike, level: float | None = None) -> FloatArray:
         """Give areas of sections, both sides, below a height (m), m2; whole if None."""
-        return np.array([each.area(level) for each in self.sections(x)])
+        height = None if level is None else height_of(level, "area")
+        return np.array([each.area(height) for each in self.sections(x)])
 
     def volume(self, draught: float | None = None) -> float:
         """Give the volume below a draught (m), m3, without appendages; whole if None.
@@ -193,7 +195,8 @@ class Seaking:
         """
         from assoc_hull.creation.classical.seaking_sums import sums
 
-        return sums(self, [draught])[0].volume
+        height = None if draught is None else height_of(draught, "volume")
+        return sums(self, [height])[0].volume
 
     def lines(self) -> tuple[LineSource, ...]:
         """Give frames, waterlines, profile, deck edge, knuckle lines, flat of bottom, transoms."""

@@ -94,13 +94,11 @@ def _left_out(ship: Seaking) -> list[str]:
         found.append(
             "camber and rounded corners of the deck are not in the net: it ends at the deck side"
         )
-    steps = [
-        x for x, code in zip(ship.deck.x[1:].tolist(), ship.deck.code, strict=True) if code == 0
-    ]
+    steps = ship.deck.x[1:][ship.deck.code == 0].tolist()
     if steps:
         found.append(
-            f"deck side: it steps at x={', '.join(map(figure, steps))}; near there the net is rough "
-            "above the lower deck"
+            f"deck side: it steps at x={', '.join(map(figure, steps))}; near there the net is "
+            "rough above the lower deck"
         )
     if ship.appendages:
         names = ", ".join(each.name for each in ship.appendages)

@@ -21,7 +21,9 @@ from assoc_hull.creation.classical.middle_body import midship_outline
 from assoc_hull.creation.classical.outline import Outline, smooth, straight
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
+from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.choices import height_of, one_of
 from assoc_hull.geometry.classical.deck_corner import DeckCorner, deck_corner, deck_pieces
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.midship import Midship
@@ -71,18 +73,21 @@ class MidshipSection:
             ``"frame x={x}: corner radius {r} does not fit"``.
         """
         instance(midship, Midship, "midship", "in a section")
-        top, corner = np.array([midship.half_breadth, depth]), None
-        if radius:
-            name = f"frame x={figure(x)}"
+        given = (depth, radius, x, 0.0 if rise is None else rise)
+        height, round_off, place, crown = (height_of(each, "frame") for each in given)
+        top, corner = np.array([midship.half_breadth, height]), None
+        if round_off:
+            name = f"frame x={figure(place)}"
             corner = deck_corner(
-                midship.half_breadth, depth, rise or 0.0, radius, kind=kind, name=name
+                midship.half_breadth, height, crown, round_off, kind=kind, name=name
             )
             if corner.side_point[1] < midship.centre[1]:
-                what = f"{name}: corner radius {figure(radius)} does not fit"
-                raise GeometryError(what, "give a smaller radius", {"r": radius})
+                what = f"{name}: corner radius {figure(round_off)} does not fit"
+                raise GeometryError(what, "give a smaller radius", {"r": round_off})
+        one_of(kind, KINDS, "camber: kind")
         bare = rise is None and corner is None
-        deck = None if bare else deck_pieces(top, rise or 0.0, kind, corner)
-        return cls(x, midship, depth, deck, corner)
+        deck = None if bare else deck_pieces(top, crown, kind, corner)
+        return cls(place, midship, height, deck, corner)
 
     @property
     def largest_jump(self) -> float:

@@ -11,10 +11,45 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["one_of"]
+__all__ = ["height_of", "one_of", "places_of"]
+
+_HIGHEST = 1e6
+"""No hull reaches up or down to here (m)."""
+
+
+def height_of(value: object, name: str) -> float:
+    """Take a height, m; one beyond any hull counts as a million metres.
+
+    Raises
+    ------
+    GeometryError
+        Anything that is no finite number.
+    """
+    found = float(finite(value, name, ()))  # type: ignore[arg-type]
+    return min(max(found, -_HIGHEST), _HIGHEST)
+
+
+def places_of(values: ArrayLike, name: str) -> FloatArray:
+    """Take finite numbers of any shape.
+
+    Raises
+    ------
+    GeometryError
+        Anything else.
+    """
+    try:
+        shape = np.shape(values)
+    except ValueError:
+        shape = ()
+    return finite(values, name, tuple(None for _ in shape))
 
 
 def one_of(value: object, known: Sequence[str | int], name: str) -> str | int:

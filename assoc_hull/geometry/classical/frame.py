@@ -24,11 +24,12 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assoc_hull.arguments import integer
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
 from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import figure, finite
-from assoc_hull.geometry.classical.choices import one_of
+from assoc_hull.geometry.classical.choices import height_of, one_of
 from assoc_hull.geometry.classical.deck_corner import DeckCorner, deck_corner, deck_pieces
 from assoc_hull.geometry.classical.frame_parabolas import run_bends, tangent_jumps
 from assoc_hull.geometry.classical.frame_points import Run, runs_of, spacing_notes
@@ -162,7 +163,7 @@ class Frame:
 
         Exact: parabolas, arc and camber are integrated in closed form.
         """
-        height = math.inf if level is None else float(finite(level, "frame area", ()))
+        height = math.inf if level is None else height_of(level, "frame area")
         parts = [self.side] if self.deck is None else [self.side, self.deck]
         if not math.isfinite(height):
             found = sum(each.area() for each in parts)
@@ -174,7 +175,7 @@ class Frame:
 
     def moment(self, level: float) -> float:
         """Give the moment of the area of both sides below a height (m) about the base, m3."""
-        height = float(finite(level, "frame moment", ()))
+        height = height_of(level, "frame moment")
         parts = [self.side] if self.deck is None else [self.side, self.deck]
         found = sum(each.moment_below(height) for each in parts)
         if self.corner is not None:
@@ -183,11 +184,12 @@ class Frame:
 
     def half_breadth(self, level: float) -> float:
         """Give the greatest half-breadth at a height (m), m; nan where it has none."""
-        found = self.side.crossings(float(finite(level, "frame", ())))
+        found = self.side.crossings(height_of(level, "frame"))
         return float(np.fmax.reduce(found, axis=None))
 
     def drawn(self, count: int = 8) -> FloatArray:
         """Give points up to the deck side, `count` chords a piece, (n, 2), m."""
+        integer(count, "count", "in a drawn frame", least=1, most=10_000)
         part = np.linspace(0.0, 1.0, count + 1)[1:]
         piece = np.repeat(np.arange(len(self.side)), count)
         inner = self.side.at(piece, np.outer(self.side.length, part).ravel())

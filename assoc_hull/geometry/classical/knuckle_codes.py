@@ -133,6 +133,7 @@ class KnuckleLine:
         GeometryError
             ``"knuckle line: x={x} outside [{a}, {b}]"``.
         """
+        one_of(side, ("left", "right"), "knuckle line: side")
         place = inside(x, "knuckle line", *self.ends)
         found = self._interval_values(place, self._interval(place, side))
         beyond = place == (self.x[-1] if side == "right" else self.x[0])

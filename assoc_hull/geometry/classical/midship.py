@@ -29,6 +29,9 @@ from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["Midship"]
 
+_HIGHEST = 1e6
+"""No draught (m) reaches up to here."""
+
 
 def _number(value: object) -> float:
     return float(finite(value, "midship", ()))  # type: ignore[arg-type]
@@ -126,7 +129,7 @@ class Midship:
         GeometryError
             A draught below the base line.
         """
-        level = float(inside(draught, "midship area", 0.0, math.inf))
+        level = float(inside(finite(draught, "midship area", ()), "midship area", 0.0, _HIGHEST))
         a, b, top = self.half_breadth, self.flat, self.centre[1]
         if level >= top:
             turn = 0.5 * math.pi - self.floor_angle
@@ -140,7 +143,7 @@ class Midship:
 
     def moment(self, draught: float) -> float:
         """Give the moment of that area about the base line, m3."""
-        level = float(inside(draught, "midship area", 0.0, math.inf))
+        level = float(inside(finite(draught, "midship area", ()), "midship area", 0.0, _HIGHEST))
         top, bilge = self.centre[1], self.bilge()
         floor = min(level, self.floor_point[1])
         lean = 1.0 / math.tan(self.floor_angle) if self.rise else 0.0
@@ -170,7 +173,7 @@ class Midship:
         GeometryError
             A height below the base line.
         """
-        height = inside(z, "midship", 0.0, math.inf)
+        height = inside(z, "midship", 0.0, _HIGHEST)
         (yc, zc), slope = self.centre, self.floor_angle
         low = self.floor_point[1]
         with np.errstate(divide="ignore", invalid="ignore"):
