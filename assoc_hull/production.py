@@ -34,20 +34,23 @@ _FINEST, _COARSEST = 1e-6, 1.0
 class ProductionArcs(ArcLines):
     """Lines of a hull as arcs; see `assoc_hull.analysis.arc_lines.ArcLines` for what it holds."""
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], entities: str = "polylines") -> None:
         """Write the arcs, as a drawing (``.dxf``) or as a table (``.csv``).
 
         Parameters
         ----------
         path : path
             The file; what was there is replaced by the whole of it, or stays.
+        entities : {"polylines", "arcs"}
+            Of a drawing: one polyline a curve, exact to the last digit; or ARC and LINE one by
+            one, for machines that read nothing else.
 
         Raises
         ------
         BadInputError, MissingExtraError
-            Another ending, a file that cannot be written, or no ezdxf for a drawing.
+            Another ending, other entities, a file that cannot be written; no ezdxf for a drawing.
         """
-        write_arcs(self, path)
+        write_arcs(self, path, entities)
 
 
 def production_arcs(

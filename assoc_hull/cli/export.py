@@ -48,6 +48,10 @@ def add(commands: Commands) -> None:
     arcs.add_argument(
         "--least-radius", type=length, metavar="R", help="radius of the sharpest arc, such as 50mm"
     )
+    arcs.add_argument(
+        "--entities", choices=("polylines", "arcs"),
+        help="of a .dxf: a polyline per curve (default), or ARC and LINE one by one",
+    )  # fmt: skip
     arcs.add_argument("--lines", nargs="+", metavar="NAME", help="lines or groups (default: all)")
     add_json(parser)
 
@@ -83,6 +87,7 @@ def _check_arcs(arguments: argparse.Namespace) -> None:
             "a .dxf file holds arcs": name.lower().endswith(".dxf") and arguments.format is None,
             "--least-radius is one of arcs": arguments.least_radius is not None,
             "--lines chooses lines for arcs": arguments.lines is not None,
+            "--entities is for a drawing of arcs": arguments.entities is not None,
         }
         for what, given in told.items():
             if given:

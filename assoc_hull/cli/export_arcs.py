@@ -24,7 +24,7 @@ def export_arcs(arguments: argparse.Namespace) -> int:
         arcs = production_arcs(
             hull, arguments.lines, arguments.biarcs, arguments.least_radius or 0.0
         )
-        arcs.save(arguments.out)
+        arcs.save(arguments.out, arguments.entities or "polylines")
     report = {"path": str(arguments.out), "form": form, **arcs.facts()}
     emit(arguments, {"arcs": report}, f"{arc_words(arcs)}\nwritten: {arguments.out} ({form})")
     return 0

@@ -4,7 +4,8 @@ A curve is one polyline of straight and round segments (LWPOLYLINE) in its own p
 round segment is told by its ends and its bulge, the tangent of a quarter of its turn: so segments
 join to the last digit, and an arc of a radius of a thousand kilometres is as exact as one of a
 metre. An ARC entity tells centre, radius and angles; there its ends are differences of large
-numbers. Drawing programs turn a polyline into ARC and LINE by one command.
+numbers. Machines that read no polylines are given ARC and LINE entities, which then meet to
+some digits of the radius.
 """
 
 from __future__ import annotations
@@ -17,23 +18,39 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
+from assoc_hull.arguments import choice
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["NAMES", "arc_drawing"]
+__all__ = ["ENTITIES", "NAMES", "arc_drawing"]
+
+ENTITIES = ("polylines", "arcs")
+"""What a curve may be drawn as."""
 
 NAMES = "ASSOC_HULL"
 """Application name of the extended data that hold the name of the line."""
 _COLOURS = 7
+_FLAT = 1e-9
+"""An arc that turns by less (rad) is a LINE: over 100 m it is 12 nm deep."""
 
 
-def arc_drawing(arcs: ArcLines) -> str:
+def arc_drawing(arcs: ArcLines, entities: str = "polylines") -> str:
     """Give the text of a DXF file (R2000), in metres; the same arcs give the same text.
+
+    Parameters
+    ----------
+    arcs : ArcLines
+        The curves.
+    entities : {"polylines", "arcs"}
+        One LWPOLYLINE a curve, or an ARC or a LINE for each of its arcs.
 
     Raises
     ------
+    BadInputError
+        Other entities.
     MissingExtraError
         ezdxf is not installed.
     """
+    add = _add_arcs if choice(entities, "entities", ENTITIES, "in a drawing") == "arcs" else _add
     try:
         import ezdxf
         from ezdxf import units
@@ -49,7 +66,7 @@ def arc_drawing(arcs: ArcLines) -> str:
         for number, group in enumerate(groups):
             drawing.layers.add(layers[group], color=number % _COLOURS + 1)
         for line in arcs.lines:
-            _add(space, line, layers[line.group])
+            add(space, line, layers[line.group])
         out = io.StringIO()
         drawing.write(out)
     return out.getvalue()
@@ -83,3 +100,22 @@ def _add(space: Any, line: ArcLine, layer: str) -> None:
         },
     )  # fmt: skip
     polyline.set_xdata(NAMES, [(1000, line.name)])
+
+
+def _add_arcs(space: Any, line: ArcLine, layer: str) -> None:
+    """Add the arcs of a curve one by one, in their order."""
+    arcs = line.arcs
+    turn = arcs.curvature * arcs.length
+    begin, end = line.in_space(arcs.start), line.in_space(arcs.ends())
+    # An ARC runs counter-clockwise about its extrusion, so a right turn is told from its end.
+    first = np.where(turn > 0.0, arcs.angle - 0.5 * np.pi, arcs.angle + turn + 0.5 * np.pi)
+    first, last = (np.rad2deg(each).tolist() for each in (first, first + np.abs(turn)))
+    centres = arcs.centres().tolist()
+    look = {"layer": layer, "extrusion": tuple(line.axes[2].tolist())}
+    for k in range(len(arcs)):
+        if abs(turn[k]) < _FLAT:
+            added = space.add_line(begin[k].tolist(), end[k].tolist(), {"layer": layer})
+        else:
+            centre, radius = (*centres[k], line.height), 1.0 / abs(float(arcs.curvature[k]))
+            added = space.add_arc(centre, radius, first[k], last[k], dxfattribs=look)
+        added.set_xdata(NAMES, [(1000, line.name)])

@@ -18,9 +18,9 @@ import os
 import numpy as np
 
 from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
-from assoc_hull.arguments import file_path
+from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.arc_dxf import arc_drawing
+from assoc_hull.io.arc_dxf import ENTITIES, arc_drawing
 from assoc_hull.io.whole_file import write_whole
 
 __all__ = ["arc_form", "arc_table", "write_arcs"]
@@ -54,16 +54,25 @@ def arc_form(path: str | os.PathLike[str]) -> str:
     raise BadInputError(what, f"at {os.fspath(path)}", f"end it in {' or '.join(_ENDINGS)}")
 
 
-def write_arcs(arcs: ArcLines, path: str | os.PathLike[str]) -> None:
+def write_arcs(arcs: ArcLines, path: str | os.PathLike[str], entities: str = "polylines") -> None:
     """Write a drawing or a table, by the ending of the name.
+
+    Parameters
+    ----------
+    arcs : ArcLines
+        The curves.
+    path : path
+        The file.
+    entities : {"polylines", "arcs"}
+        Of a drawing, see `assoc_hull.io.arc_dxf.arc_drawing`; a table is the same with both.
 
     Raises
     ------
     BadInputError, MissingExtraError
-        Another ending, a file that cannot be written, or no ezdxf for a drawing.
+        Another ending, other entities, a file that cannot be written, or no ezdxf for a drawing.
     """
-    form = arc_form(path)
-    text = arc_drawing(arcs) if form == "dxf" else arc_table(arcs)
+    form, kind = arc_form(path), choice(entities, "entities", ENTITIES, "in save")
+    text = arc_drawing(arcs, kind) if form == "dxf" else arc_table(arcs)
     write_whole(path, text.encode())
 
 

@@ -106,6 +106,43 @@ def test_the_drawing_says_what_it_is(arcs: ProductionArcs, drawing: Any) -> None
     assert {"sections", "waterlines", "boundary"} <= {each.dxf.name for each in drawing.layers}
 
 
+def test_arcs_one_by_one_are_the_same_curves(arcs: ProductionArcs, tmp_path: Path) -> None:
+    """An ARC or a LINE each, that meet in space to 1e-9 m and turn as the arcs do."""
+    ezdxf = pytest.importorskip("ezdxf")
+    arcs.save(tmp_path / "arcs.dxf", entities="arcs")
+    drawn = list(ezdxf.readfile(tmp_path / "arcs.dxf").modelspace())
+    assert len(drawn) == arcs.count
+    for line in arcs.lines:
+        begin = line.starts()
+        end = line.in_space(line.arcs.ends())
+        middle = line.in_space(line.arcs.at(np.arange(len(line.arcs)), 0.5 * line.arcs.length))
+        for k in range(len(line.arcs)):
+            each = drawn.pop(0)
+            assert name_of(each) == line.name
+            assert each.dxf.layer == line.group
+            if each.dxftype() == "LINE":
+                found = [tuple(each.dxf.start), tuple(each.dxf.end)]
+                assert abs(line.arcs.curvature[k]) * line.arcs.length[k] < 1e-9
+            else:
+                found = [tuple(each.start_point), tuple(each.end_point)]
+                half = each.dxf.start_angle + 0.5 * (
+                    (each.dxf.end_angle - each.dxf.start_angle) % 360.0
+                )
+                top = next(iter(each.vertices([half])))
+                assert np.abs(np.array(tuple(top)) - middle[k]).max() < 1e-9
+                if line.arcs.curvature[k] < 0.0:
+                    found.reverse()
+            assert np.abs(np.array(found) - [begin[k], end[k]]).max() < 1e-9
+    assert not drawn
+
+
+def test_other_entities_are_refused(arcs: ProductionArcs, tmp_path: Path) -> None:
+    """By name, and nothing is written."""
+    with pytest.raises(BadInputError, match="entities"):
+        arcs.save(tmp_path / "arcs.dxf", entities="splines")
+    assert not (tmp_path / "arcs.dxf").exists()
+
+
 def test_the_same_arcs_give_the_same_bytes(arcs: ProductionArcs, tmp_path: Path) -> None:
     """No times and no random numbers in either form."""
     pytest.importorskip("ezdxf")
