@@ -29,7 +29,7 @@ settings.register_profile(
     "ci",
     settings.get_profile("default"),
     derandomize=True,
-    max_examples=60,
+    max_examples=45,
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")
@@ -106,6 +106,9 @@ def shipped(tmp_path_factory: pytest.TempPathFactory) -> Shipped:
         "bulk_carrier_180m": examples.bulk_carrier_180m,
         "container_ship_225m": examples.container_ship_225m,
         "plain_ship": examples.plain_ship,
+        "seaking_ship": examples.seaking_ship,
+        "sfolds_ship": examples.sfolds_ship,
+        "prelikon_ship": examples.prelikon_ship,
     }
 
     @cache
@@ -129,7 +132,8 @@ def made_already(shipped: Shipped, monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(Examples, "series60", series60)
     monkeypatch.setattr(Examples, "bulk_carrier_207k", lambda _: shipped("bulk_carrier"))
-    for name in ("bulk_carrier_180m", "container_ship_225m", "plain_ship"):
+    created = ("bulk_carrier_180m", "container_ship_225m", "plain_ship")
+    for name in (*created, "seaking_ship", "sfolds_ship", "prelikon_ship"):
         monkeypatch.setattr(Examples, name, lambda _, name=name: shipped(name))
 
 
