@@ -10,7 +10,7 @@ Examples
 >>> from assoc_hull.geometry.classical.arc_section import round_corners
 >>> bilge = round_corners([(0, 0), (10, 0), (10, 9)], radius=[2.5])
 >>> [len(each.points) for each in pieces_of(bilge)]
-[2, 11, 2]
+[2, 13, 2]
 """
 
 from __future__ import annotations
