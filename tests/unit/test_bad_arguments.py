@@ -20,6 +20,7 @@ from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.creation.classical.prelikon_stations import Station
 from assoc_hull.creation.classical.seaking import Seaking
 from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
+from assoc_hull.creation.classical.seaking_sections import MidshipSection
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.classical.appendage import Appendage
@@ -43,7 +44,7 @@ from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.classical.portion import Portion, require_apart, three_eighths
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
-from assoc_hull.io.classical.read import read_definition
+from assoc_hull.io.classical.read import holds_definition, read_definition
 from assoc_hull.sources import Examples
 from tests.formed import formed
 
@@ -361,6 +362,7 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
     "PairedParabolas.integral": (PORTION.curve.integral, {"first": 0.0, "last": 1.0}),
     "Portion.area": (PORTION.area, {"x": 1.0}),
     "Portion.volume_below": (SOLID.volume_below, {"z": 1.0}),
+    "holds_definition": (holds_definition, {"path": "a"}),
     "read_definition": (read_definition, {"text": "SFOLDS a", "source": "a"}),
     "Sfolds.report": (Sfolds.make(SHIP, [PORTION]).report, {"state": None}),
     "Sfolds.volume_below": (Sfolds.make(SHIP, [SOLID]).volume_below, {"z": 1.0}),
@@ -373,6 +375,13 @@ CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
         {
             "particulars": SHIP, "portions": [PORTION],
             "corner": 10.0, "cuts": {"waterlines": [1.0]}, "notes": (),
+        },
+    ),
+    "MidshipSection.make": (
+        MidshipSection.make,
+        {
+            "x": 1.0, "midship": MIDSHIP, "depth": 6.0, "rise": 0.1, "kind": "line",
+            "radius": 0.2,
         },
     ),
     "Midship": (

@@ -104,7 +104,8 @@ def profile_of(
     Raises
     ------
     GeometryError
-        A section that does not begin on it; a stern or stem that does not reach the deck.
+        A section that does not begin on it; a stern or stem that does not reach the deck, or
+        reaches it beyond sections.
     """
     named = {each.name: each.curve for each in boundaries if each.name in ENDS}
     curves, flat = _ends(named, stations, deck)
@@ -118,6 +119,7 @@ def profile_of(
         keel.append(stem.arcs.start[0].tolist())
     made = Profile(stern, stem, np.array(keel), flat)
     _require_on(made, stations)
+    _require_between(made, stations)
     return made
 
 
@@ -196,6 +198,22 @@ def _require_on(profile: Profile, stations: Sequence[Station]) -> None:
                 f"the profile lies at {lies} there: change one of them",
                 {"x": each.x, "z": each.keel, "off": float(off)},
             )  # fmt: skip
+
+
+def _require_between(profile: Profile, stations: Sequence[Station]) -> None:
+    """Check that stern and stem end beyond all sections, as the deck edge that joins them does."""
+    for k, (name, other, way) in enumerate(
+        (("stern", "stem", "aft"), ("stem", "stern", "forward"))
+    ):
+        end, x = float(profile.ends[k][0]), stations[-k].x
+        if profile.flat[k] or (x - end if k == 0 else end - x) > AT:
+            continue
+        raise GeometryError(
+            f"boundary {name}: ends at x={figure(end)}, not {way} of the section at x={figure(x)}",
+            f"end it {way} of all sections, and give the {other} as a boundary of its own; or let "
+            "it end where that section begins: the hull ends flat there",
+            {"boundary": name, "end": end, "x": x},
+        )
 
 
 def _keel(points: FloatArray) -> list[Piece]:

@@ -68,7 +68,7 @@ class Appendage:
             section at x={x} self-intersects"``, ``"appendage: sections have opposite
             orientation"``; fewer than three points, another sign.
         """
-        if not isinstance(sections, list | tuple | np.ndarray):
+        if not isinstance(sections, list | tuple | np.ndarray) or getattr(sections, "ndim", 1) == 0:
             raise GeometryError("appendage: sections are no row of arrays", "give 1, 2 or 3", {})
         drawn = [finite(each, "appendage", (None, 2)) for each in sections]
         if len(drawn) not in (1, 2, 3):

@@ -44,11 +44,18 @@ _MOST = 20_000_000
 """A larger file is no definition by hand."""
 
 
-def holds_definition(path: Path) -> bool:
-    """Tell whether a file begins as a text of a definition does."""
-    if not path.is_file():
+def holds_definition(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file begins as a text of a definition does.
+
+    Raises
+    ------
+    BadInputError
+        What is handed in is no name of a file.
+    """
+    given = Path(file_path(path, "in holds_definition"))
+    if not given.is_file():
         return False
-    with path.open("rb") as file:
+    with given.open("rb") as file:
         head = file.read(_HEAD)
     return b"\0" not in head and kind_of(head.decode("utf-8", "replace")) is not None
 

@@ -114,6 +114,15 @@ def test_a_net_of_two_ends_alone_is_made_and_not_measured() -> None:
     assert figure.net is None
 
 
+@pytest.mark.parametrize("name", ["length", "breadth", "draught"])
+def test_the_supply_ship_takes_other_dimensions(net: ah.Hull, name: str) -> None:
+    """Two hundredths more: its stern is no circle, which would stay one and bend the planes."""
+    asked = 1.02 * getattr(net.particulars, name)
+    varied = ah.vary(net, set={name: asked}).hull
+    assert (varied.check(), varied.verify()) == ((), ())
+    assert getattr(varied.particulars, name) == pytest.approx(asked, rel=1e-3)
+
+
 def test_the_supply_ship_has_the_printed_numbers(supply: Prelikon) -> None:
     """Deck house 624 m3 with its centre at 14.90666667, box 32 m3 taken away, sheer and camber."""
     (house_,), (box,), (deck,) = supply.houses, supply.boxes, supply.decks
@@ -277,6 +286,15 @@ MESSAGES: dict[str, tuple[str, Callable[[], object]]] = {
     "section off the profile": (
         "section at x=30: begins at z=0, off the profile; the profile lies at 3.6 there",
         lambda: body(boundaries=[boundary("stem", (20, 0), (45, 9))]),
+    ),
+    "stem aft of a section": (
+        "boundary stem: ends at x=39, not forward of the section at x=40; end it forward of",
+        lambda: body(boundaries=[boundary("stem", (40, 0), (41, 7), (39, 14))]),
+    ),
+    "no stem but a stern that goes on": (
+        "boundary stern: ends at x=44, not aft of the section at x=0; end it aft of all "
+        "sections, and give the stem as a boundary of its own",
+        lambda: body(boundaries=[boundary("stern", (0, 0), (40, 0), (44, 14))]),
     ),
     "stem below the deck": (
         "boundary stem: does not reach deck 1",

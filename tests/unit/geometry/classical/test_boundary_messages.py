@@ -214,6 +214,9 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
     "sections of two points": (
         "appendage: a section has 2 point(s)", lambda: Appendage.make([BOX[:2]], (0, 1)),
     ),
+    "a number for sections": (
+        "appendage: sections are no row of arrays", lambda: Appendage.make(np.array(5.0), (0, 1)),
+    ),
     "another sign": ("appendage: sign is 2", lambda: Appendage.make([BOX], (0, 1), 2)),
     "beyond the appendage": (
         "appendage: x=3 outside [0, 1]", lambda: Appendage.make([BOX], (0, 1)).area(3),
