@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.choices import one_of, places_of
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["KINDS", "Camber"]
@@ -110,7 +110,7 @@ class Camber:
             ``"camber: |y|={y} exceeds half-breadth {b}"``, x beyond the stations.
         """
         _place, half, side, rise = self._at(x)
-        off = np.abs(places_of(y, "camber"))
+        off = np.abs(finite(y, "camber", None))
         off, half, side, rise = np.broadcast_arrays(off, half, side, rise)
         beyond = off > half * (1.0 + _SLACK)
         if beyond.any():

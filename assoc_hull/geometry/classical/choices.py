@@ -11,15 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import ArrayLike
-
 from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import finite
-from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["height_of", "one_of", "places_of"]
+__all__ = ["height_of", "one_of"]
 
 _HIGHEST = 1e6
 """No hull reaches up or down to here (m)."""
@@ -35,21 +31,6 @@ def height_of(value: object, name: str) -> float:
     """
     found = float(finite(value, name, ()))  # type: ignore[arg-type]
     return min(max(found, -_HIGHEST), _HIGHEST)
-
-
-def places_of(values: ArrayLike, name: str) -> FloatArray:
-    """Take finite numbers of any shape.
-
-    Raises
-    ------
-    GeometryError
-        Anything else.
-    """
-    try:
-        shape = np.shape(values)
-    except ValueError:
-        shape = ()
-    return finite(values, name, tuple(None for _ in shape))
 
 
 def one_of(value: object, known: Sequence[str | int], name: str) -> str | int:

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.choices import one_of, places_of
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.waterline_piece import Chorded, Graph, Level, Piece
 from assoc_hull.geometry.curves import FloatArray, freeze
 
@@ -138,7 +138,7 @@ class ParallelWaterline:
 
     def covers(self, x: ArrayLike) -> np.typing.NDArray[np.bool_]:
         """Tell whether it has a point at x (m)."""
-        place = places_of(x, self.name)
+        place = finite(x, self.name, None)
         return np.asarray((place >= self.ends[0] - _SAME) & (place <= self.ends[1] + _SAME))
 
     def at(self, x: ArrayLike) -> FloatArray:
