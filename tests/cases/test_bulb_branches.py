@@ -215,8 +215,8 @@ def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize(
     ("low", "high", "step"),
-    [(4.155, 6.155, 0.5), (4.155, 6.155, 0.1), (5.255 if LONG else 5.805, 6.105, 0.01)],
-    ids=["50 cm", "10 cm", "1 cm"],
+    [(4.155, 6.155, 0.5), (5.255 if LONG else 5.805, 6.105, 0.01)],
+    ids=["50 cm", "1 cm"],
 )
 def test_a_waterline_through_the_neck_and_over_the_bulb(
     path: Path, low: float, high: float, step: float
@@ -228,8 +228,8 @@ def test_a_waterline_through_the_neck_and_over_the_bulb(
 
 @pytest.mark.parametrize(
     ("low", "high", "step"),
-    [(0.203, 1.203, 0.5), (0.203, 1.203, 0.1), (0.603 if LONG else 0.863, 1.003, 0.01)],
-    ids=["50 cm", "10 cm", "1 cm"],
+    [(0.203, 1.203, 0.5), (0.603 if LONG else 0.863, 1.003, 0.01)],
+    ids=["50 cm", "1 cm"],
 )
 def test_a_buttock_from_the_centre_plane_out_through_the_neck(
     path: Path, low: float, high: float, step: float

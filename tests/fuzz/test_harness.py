@@ -117,7 +117,7 @@ def test_an_input_without_end_is_ended_and_the_next_is_tried() -> None:
     """One that hangs twice, or takes its process along, is named; the others are tried."""
     makers = (_spin, _die, _quick)
     items = [Item(Kind(make.__name__, "a", make, _nothing), 1, 0) for make in makers]
-    faults = {item.kind.name: each.fault for item, each in run_all(items, limit=1.5)}
+    faults = {item.kind.name: each.fault for item, each in run_all(items, limit=1.0)}
     assert faults == {"_spin": HANG, "_die": DEAD, "_quick": ""}
 
 

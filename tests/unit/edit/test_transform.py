@@ -201,7 +201,6 @@ MAPS: dict[str, tuple[Map, str]] = {
     "broader": (lambda xyz: xyz * [1.0, 1.1, 1.0], "stay"),
     "broader, buttocks too": (lambda xyz: xyz * [1.0, 1.1, 1.0], "follow"),
     "higher": (lambda xyz: xyz * [1.0, 1.0, 1.02], "stay"),
-    "lower": (lambda xyz: xyz * [1.0, 1.0, 0.98], "stay"),
     "swollen amidships": (swell, "stay"),
     "lifted aft": (lift, "stay"),
     "bent sections": (rake, "stay"),
