@@ -6,6 +6,8 @@ a similarity gives the same splines, a single ratio others within the tolerance 
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -22,7 +24,8 @@ from benchmarks.affine_exactness import (
 )
 from benchmarks.affine_image import affine_image
 
-SHIPS = ("wigley", "series60_70", "bulk_carrier", "dtc")
+LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
+SHIPS = ("wigley", "series60_70", "bulk_carrier", *(("dtc",) if LONG else ()))
 
 
 @pytest.fixture(scope="module")

@@ -215,7 +215,8 @@ REFUSED: dict[str, tuple[str, Callable[[], object]]] = {
         "appendage: a section has 2 point(s)", lambda: Appendage.make([BOX[:2]], (0, 1)),
     ),
     "a number for sections": (
-        "appendage: sections are no row of arrays", lambda: Appendage.make(np.array(5.0), (0, 1)),
+        "appendage: sections are no row of arrays",
+        lambda: Appendage.make(np.array(5.0), (0, 1)),  # type: ignore[arg-type]
     ),
     "another sign": ("appendage: sign is 2", lambda: Appendage.make([BOX], (0, 1), 2)),
     "beyond the appendage": (
