@@ -24,9 +24,9 @@ from assoc_hull.creation.classical.report import (
     measure_net,
 )
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import numbers
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.conformal import ConformalSections, lewis_sections
-from assoc_hull.geometry.classical.taken import numbers
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
 from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.source import LineSource

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,10 +13,10 @@ from assoc_hull.creation.classical.report import (
     ClassicalReport,
     Figure,
     Section,
+    beside_net,
     departures,
     measure_net,
 )
-from assoc_hull.errors import BadInputError
 from assoc_hull.model.state import HullState
 
 if TYPE_CHECKING:
@@ -37,14 +38,10 @@ def report_of(ship: Prelikon, state: HullState | None) -> ClassicalReport:
     state : HullState or None
         A net of it.
     """
-    notes = ship.notes
-    try:
-        hull = _of_hull(ship, state)
-    except BadInputError as error:
-        hull, notes = _of_hull(ship, None), (*notes, f"the net cannot be measured: {error.what}")
+    hull, notes = beside_net(partial(_of_hull, ship), state)
     figures = (*hull, *_of_boxes(ship), *_of_houses(ship))
     away = () if state is None else departures(state, _sections(ship))
-    return ClassicalReport(ship.kind, ship.particulars.name, figures, notes, away)
+    return ClassicalReport(ship.kind, ship.particulars.name, figures, (*ship.notes, *notes), away)
 
 
 def _of_hull(ship: Prelikon, state: HullState | None) -> list[Figure]:

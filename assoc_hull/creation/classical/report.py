@@ -8,7 +8,7 @@ continuous.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import attrs
@@ -16,7 +16,7 @@ import numpy as np
 
 from assoc_hull.analysis.flotation import flotation
 from assoc_hull.arguments import instance, text
-from assoc_hull.errors import UnknownNameError
+from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
 from assoc_hull.geometry.immersed import Planes
@@ -29,6 +29,7 @@ __all__ = [
     "Figure",
     "Measured",
     "Section",
+    "beside_net",
     "departures",
     "measure_net",
 ]
@@ -190,6 +191,24 @@ def measure_net(state: HullState, height: float) -> Measured:
         float(found.moment_z[0]) / volume,
         float(found.area[0]),
     )
+
+
+def beside_net(
+    figures: Callable[[HullState | None], Iterable[Figure]], state: HullState | None
+) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
+    """Give figures with those of a net beside them; a note in their place if it has none.
+
+    Parameters
+    ----------
+    figures : callable
+        Gives the figures of a definition, and those of a net where it is handed one.
+    state : HullState or None
+        The net.
+    """
+    try:
+        return tuple(figures(state)), ()
+    except BadInputError as error:
+        return tuple(figures(None)), (f"the net cannot be measured: {error.what}",)
 
 
 @attrs.frozen(eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,11 +11,11 @@ from assoc_hull.creation.classical.report import (
     ClassicalReport,
     Figure,
     Section,
+    beside_net,
     departures,
     measure_net,
 )
 from assoc_hull.creation.classical.sfolds_lines import Frame, frames_of, name_of
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 
@@ -38,15 +39,14 @@ def report_of(ship: Sfolds, state: HullState | None) -> ClassicalReport:
         A net of it.
     """
     figures = [*_of_portions(ship), *_of_whole(ship)]
-    notes = ship.notes
+    notes: tuple[str, ...] = ()
     if any(each.is_main and each.sections for each in ship.portions):
-        try:
-            figures += _below(ship, state)
-        except BadInputError as error:
-            notes = (*notes, f"the net cannot be measured: {error.what}")
-            figures += _below(ship, None)
+        below, notes = beside_net(partial(_below, ship), state)
+        figures += below
     away = () if state is None else departures(state, _sections(ship))
-    return ClassicalReport(ship.kind, ship.particulars.name, tuple(figures), notes, away)
+    return ClassicalReport(
+        ship.kind, ship.particulars.name, tuple(figures), (*ship.notes, *notes), away
+    )
 
 
 def _of_portions(ship: Sfolds) -> list[Figure]:

@@ -86,7 +86,7 @@ class Appendage:
         if (np.diff(places) <= 0.0).any():
             what = "appendage: x must be strictly increasing"
             raise GeometryError(what, "give the places from aft forward", {"x": places.tolist()})
-        made = cls(np.stack(drawn), places, int(one_of(sign, (1, -1), "appendage: sign")))
+        made = cls(np.stack(drawn), places, int(one_of(sign, (1, -1), "appendage: sign is")))
         made._look()
         return made
 

@@ -11,7 +11,7 @@ Examples
 
 from __future__ import annotations
 
-from typing import Literal, Self, get_args
+from typing import Literal, Self, cast, get_args
 
 import attrs
 import numpy as np
@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_runs import straight_runs
-from assoc_hull.geometry.classical.checks import called, finite
+from assoc_hull.geometry.classical.checks import finite
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["TangentForm", "TangentPart", "known_form"]
@@ -36,13 +37,8 @@ def known_form(form: object) -> TangentForm:
     GeometryError
         No such form.
     """
-    for each in get_args(TangentForm):
-        if isinstance(form, str) and form == each:
-            return each  # type: ignore[no-any-return]
-    raise GeometryError(
-        f"biarc: no form of tangents is called {called(form)}",
-        f"there are {', '.join(get_args(TangentForm))}", {"form": form},
-    )  # fmt: skip
+    what = "biarc: no form of tangents is called"
+    return cast(TangentForm, one_of(form, get_args(TangentForm), what))
 
 
 @attrs.frozen(eq=False)

@@ -19,16 +19,15 @@ Examples
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal, cast, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.biarc_c import stationary_chords
 from assoc_hull.geometry.classical.biarc_family import BiarcChords
 from assoc_hull.geometry.classical.biarc_s import chords_of_radii, ratio_radii
-from assoc_hull.geometry.classical.checks import called
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["BiarcRule", "biarc_kinds", "known_rule", "ruled_chords"]
@@ -50,13 +49,7 @@ def known_rule(rule: object) -> BiarcRule:
     GeometryError
         No such rule.
     """
-    for each in get_args(BiarcRule):
-        if isinstance(rule, str) and rule == each:
-            return each  # type: ignore[no-any-return]
-    raise GeometryError(
-        f"biarc: no rule is called {called(rule)}", f"there are {', '.join(get_args(BiarcRule))}",
-        {"rule": rule},
-    )  # fmt: skip
+    return cast(BiarcRule, one_of(rule, get_args(BiarcRule), "biarc: no rule is called"))
 
 
 def biarc_kinds(chords: BiarcChords) -> StrArray:

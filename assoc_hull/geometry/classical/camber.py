@@ -81,7 +81,7 @@ class Camber:
         GeometryError
             ``"camber: half-breadth must be positive"``; stations out of order, another kind.
         """
-        one_of(kind, KINDS, "camber: kind")
+        one_of(kind, KINDS, "camber: kind is")
         places = finite(x, "camber", (None,))
         if not len(places) or (np.diff(places) <= 0.0).any():
             row = int(np.argmax(np.diff(places) <= 0.0)) + 1 if len(places) else 0

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.arguments import shown
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.chord_spline_checks import (
     check_clamps,
     check_slopes,
@@ -40,7 +41,6 @@ from assoc_hull.geometry.classical.chord_spline_checks import (
     place_of,
 )
 from assoc_hull.geometry.classical.chord_spline_solve import Mode, slopes, solve_directions
-from assoc_hull.geometry.classical.inputs import one_of
 from assoc_hull.geometry.curvature import plane_curvature
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.geometry.evaluation import derivative, evaluate

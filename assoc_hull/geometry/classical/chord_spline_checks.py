@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import bearable
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
 from assoc_hull.geometry.classical.chord_spline_solve import Chords
-from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [

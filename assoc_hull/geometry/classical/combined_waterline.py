@@ -23,11 +23,12 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import number, numbers, together
 from assoc_hull.geometry.classical.checks import figure, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import Quintic, fit_quintic
-from assoc_hull.geometry.classical.taken import named, number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["conic", "conic_coefficients", "conic_notes", "quintic_notes", "waterline"]
@@ -188,7 +189,7 @@ def waterline(
     ).tolist()
     begin = a if start is None else number(start, "waterline")
     _check_ranges(begin, (a, b, c), (top, change, level))
-    named(last, "waterline: last piece", ("conic", "cubic conic"))
+    one_of(last, tuple(("conic", "cubic conic")), "waterline: last piece")
     points = numbers(offsets, "waterline", (None, 2))
     if len(points):
         inside(points[:, 0], "waterline", a, b)

@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import numbers, whole_number
 from assoc_hull.geometry.classical.checks import figure, inside
-from assoc_hull.geometry.classical.taken import numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["ConformalSections", "fit_conformal", "lewis_sections"]

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import number, numbers, together
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.linear_fits import held_fit, linear_fit
 from assoc_hull.geometry.classical.pieces import Piece
-from assoc_hull.geometry.classical.taken import number, numbers, together
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["cubic_conic", "cubic_conic_coefficients", "fit_cubic_conic"]

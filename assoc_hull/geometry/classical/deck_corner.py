@@ -88,7 +88,7 @@ def deck_corner(
     GeometryError
         ``"frame x={x}: corner radius {r} does not fit"``.
     """
-    one_of(kind, KINDS, f"{name}: camber kind")
+    one_of(kind, KINDS, f"{name}: camber kind is")
     numbers = (half_breadth, side_height, rise, radius, side_angle)
     b, zs, c, r, lean = (float(finite(each, name, ())) for each in numbers)
     if not r > 0.0 or not b > 0.0:

@@ -36,8 +36,9 @@ from numpy.typing import ArrayLike
 from scipy.special import ellipeinc, ellipj, ellipkinc
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import bearable
 from assoc_hull.geometry.classical.checks import figure, finite, inside
-from assoc_hull.geometry.classical.inputs import bearable, one_of
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Elastica", "Family", "check_modulus", "force_frame", "frame_direction"]

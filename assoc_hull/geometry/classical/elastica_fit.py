@@ -23,11 +23,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import bearable
 from assoc_hull.geometry.classical.checks import figure, finite, wrap
 from assoc_hull.geometry.classical.elastica import Elastica, check_modulus, force_frame
 from assoc_hull.geometry.classical.elastica_length import with_length
 from assoc_hull.geometry.classical.elastica_solve import FREE_MODULUS, fit_amplitudes, no_solution
-from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["fit_elastica"]

@@ -23,8 +23,9 @@ from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import listed, number, numbers, together
 from assoc_hull.geometry.classical.checks import called, figure, inside
-from assoc_hull.geometry.classical.taken import listed, named, number, numbers, together
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["chapman", "form_polynomial", "product_hull", "taylor_quintic"]
@@ -179,7 +180,7 @@ def _condition(given: Condition) -> Condition:
     except (TypeError, ValueError):
         what = f"form polynomial: condition {called(given)}"
         raise GeometryError(what, "give (what, where, how much)") from None
-    named(kind, "form polynomial: no condition is called", _CONDITIONS)
+    one_of(kind, tuple(_CONDITIONS), "form polynomial: no condition is called")
     x, wanted = numbers([place, value], "form polynomial", (2,)).tolist()
     return kind, x, wanted
 

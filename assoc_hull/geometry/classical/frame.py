@@ -119,7 +119,7 @@ class Frame:
             not increasing in z at {z}"``, ``"frame x={x}: corner radius {r} does not fit"``.
         """
         name = f"frame x={figure(float(finite(x, 'frame', ())))}"
-        one_of(camber_kind, KINDS, f"{name}: camber kind")
+        one_of(camber_kind, KINDS, f"{name}: camber kind is")
         level = flat is not None
         start = keel if flat is None else flat
         foot, radius = (float(finite(each, name, ())) for each in (start, corner_radius))

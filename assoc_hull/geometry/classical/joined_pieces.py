@@ -19,13 +19,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import listed, mapped, number, numbers
 from assoc_hull.geometry.classical.checks import called, figure
 from assoc_hull.geometry.classical.combined_waterline import conic, conic_notes, quintic_notes
 from assoc_hull.geometry.classical.cubic_conic import cubic_conic
 from assoc_hull.geometry.classical.pieces import Piece, PiecedCurve
 from assoc_hull.geometry.classical.quintic import fit_quintic
 from assoc_hull.geometry.classical.regions import Region
-from assoc_hull.geometry.classical.taken import listed, mapped, number, numbers
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["circle_piece", "joined_pieces"]

@@ -103,7 +103,7 @@ class KnuckleLine:
             what = f"knuckle line: {len(places)} point(s)"
             raise GeometryError(what, "give two or more", {"points": len(places)})
         if blend is not None:
-            one_of(blend, ("overhauser",), "knuckle line: blend")
+            one_of(blend, ("overhauser",), "knuckle line: blend is")
         _check(places, codes)
         columns = values[:, None] if single else values
         return cls(places, columns, codes.astype(np.int64), blend, single)
@@ -133,7 +133,7 @@ class KnuckleLine:
         GeometryError
             ``"knuckle line: x={x} outside [{a}, {b}]"``.
         """
-        one_of(side, ("left", "right"), "knuckle line: side")
+        one_of(side, ("left", "right"), "knuckle line: side is")
         place = inside(x, "knuckle line", *self.ends)
         found = self._interval_values(place, self._interval(place, side))
         beyond = place == (self.x[-1] if side == "right" else self.x[0])

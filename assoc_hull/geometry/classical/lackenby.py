@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import numbers
 from assoc_hull.geometry.classical.checks import figure, inside
-from assoc_hull.geometry.classical.taken import numbers
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = ["lackenby_shift", "one_minus_prismatic"]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.taken import numbers, weights_of, whole_number
+from assoc_hull.geometry.classical.checked_input import numbers, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["LinearFit", "OrthogonalFit", "bounded_fit", "held_fit", "linear_fit", "orthogonal_fit"]

@@ -103,7 +103,7 @@ class ParallelWaterline:
         name = f"waterline z={figure(height)}"
         given = _with_ends(_checked(points, name), aft_end, fwd_end, name)
         if method is not None:
-            one_of(method, ("graph", "chord"), f"{name}: method")
+            one_of(method, ("graph", "chord"), f"{name}: method is")
         ends = _slopes(end_slope, name)
         if parallel is None:
             if len(given) < 2:

@@ -23,8 +23,8 @@ from numpy.polynomial.polynomial import polyder, polyint, polyval
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import numbers, whole_number
 from assoc_hull.geometry.classical.checks import figure, inside
-from assoc_hull.geometry.classical.taken import numbers, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Join", "Piece", "PiecedCurve"]

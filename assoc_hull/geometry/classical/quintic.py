@@ -25,9 +25,15 @@ from numpy.polynomial.polynomial import polyder, polyval, polyvander
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import (
+    number,
+    numbers,
+    places,
+    weights_of,
+    whole_number,
+)
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.linear_fits import linear_fit
-from assoc_hull.geometry.classical.taken import number, numbers, places, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Quintic", "fit_quintic"]

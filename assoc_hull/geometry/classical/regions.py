@@ -20,9 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import mapped, number, numbers
 from assoc_hull.geometry.classical.checks import figure
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.pieces import Formula
-from assoc_hull.geometry.classical.taken import mapped, named, number, numbers
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Region", "Regions"]
@@ -99,7 +100,7 @@ class Regions:
         if len(lines) < 2:
             raise GeometryError(f"regions: {len(lines)} boundaries", "give two or more")
         for pair, formula in formulas.items():
-            named(formula, "regions: no formula is called", get_args(Formula))
+            one_of(formula, tuple(get_args(Formula)), "regions: no formula is called")
             if pair not in product(lines, lines):
                 what = f"regions: no two boundaries are called {pair!s:.60}"
                 raise GeometryError(what, f"there are {', '.join(lines)}")

@@ -21,9 +21,10 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import listed, numbers, together, whole_number
 from assoc_hull.geometry.classical.checks import called, figure, inside
+from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.linear_fits import linear_fit
-from assoc_hull.geometry.classical.taken import listed, named, numbers, together, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]
@@ -256,5 +257,5 @@ def _degree(degree: int) -> int:
 
 
 def _known(basis: Basis) -> Basis:
-    named(basis, "series: no basis is called", _VANDER)
+    one_of(basis, tuple(_VANDER), "series: no basis is called")
     return basis

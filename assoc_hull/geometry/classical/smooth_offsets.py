@@ -19,8 +19,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import (
+    number,
+    numbers,
+    places,
+    weights_of,
+    whole_number,
+)
 from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.classical.taken import number, numbers, places, weights_of, whole_number
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SmoothedTable", "smooth_offsets", "smooth_table"]

@@ -30,8 +30,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly
 
 from assoc_hull.errors import GeometryError
+from assoc_hull.geometry.classical.checked_input import bearable
 from assoc_hull.geometry.classical.checks import finite, inside
-from assoc_hull.geometry.classical.inputs import bearable
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["TruncatedPower", "power_columns", "solved_directly"]

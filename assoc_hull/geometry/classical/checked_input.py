@@ -1,15 +1,15 @@
-"""What formulas of hulls take: numbers of a size that can be squared, whole numbers, names, rows.
+"""Input of a size that arithmetic can bear, whole numbers, lists and mappings, or an error.
 
 Examples
 --------
->>> from assoc_hull.geometry.classical.taken import numbers
+>>> from assoc_hull.geometry.classical.checked_input import numbers
 >>> numbers([1, 1e-200], "offsets", (None,)).tolist()
 [1.0, 0.0]
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TypeVar
 
 import numpy as np
@@ -20,9 +20,11 @@ from assoc_hull.geometry.classical.checks import called, figure, finite, inside
 from assoc_hull.geometry.curves import FloatArray
 
 __all__ = [
+    "LEAST_EXTENT",
+    "MOST_EXTENT",
+    "bearable",
     "listed",
     "mapped",
-    "named",
     "number",
     "numbers",
     "places",
@@ -34,6 +36,9 @@ __all__ = [
 _MOST, _NIL = 1e30, 1e-30
 """Beyond the first a number is no measure of a ship, and its powers overflow; below the other it is
 nil, and quotients do."""
+
+LEAST_EXTENT, MOST_EXTENT = 1e-50, 1e50
+"""m: between an atom and the universe with room to spare."""
 
 Item = TypeVar("Item")
 
@@ -75,6 +80,31 @@ def together(values: Iterable[ArrayLike], name: str) -> tuple[FloatArray, ...]:
         raise GeometryError(f"{name}: shapes {told}", "give arrays of one shape") from None
 
 
+def bearable(values: FloatArray, name: str) -> FloatArray:
+    """Take coordinates of any shape, m, whose squares and cubes are numbers.
+
+    Raises
+    ------
+    GeometryError
+        The largest amount is beyond the bounds; points that are all nil pass.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.classical.checked_input import bearable
+    >>> bearable(np.array([0.0, 1e200]), "circle")
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.GeometryError: circle: a coordinate of 1e+200 m; give lengths in m
+    """
+    size = float(np.abs(values).max(initial=0.0))
+    if size and not LEAST_EXTENT <= size <= MOST_EXTENT:
+        raise GeometryError(
+            f"{name}: a coordinate of {figure(size)} m", "give lengths in m", {"size": size}
+        )
+    return values
+
+
 def whole_number(value: object, name: str, least: int, most: int) -> int:
     """Take a whole number of a range.
 
@@ -86,19 +116,6 @@ def whole_number(value: object, name: str, least: int, most: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         shown = str(value) if isinstance(value, int) and abs(value) < 1e9 else called(value)
         raise GeometryError(f"{name} {shown}", f"give a whole number from {least} to {most}")
-    return value
-
-
-def named(value: object, name: str, known: Collection[str]) -> str:
-    """Take one of some names.
-
-    Raises
-    ------
-    GeometryError
-        Another, or what is no name.
-    """
-    if not isinstance(value, str) or value not in known:
-        raise GeometryError(f"{name} {called(value)}", f"there are {', '.join(known)}")
     return value
 
 
