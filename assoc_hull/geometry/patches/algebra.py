@@ -1,0 +1,163 @@
+"""Polynomials of two parameters in Bernstein form: sums, products, derivatives, parts.
+
+Coefficients are arrays (..., m + 1, n + 1) on the unit square; the first of the last two axes is u.
+Leading axes are a batch and broadcast, as in numpy. A degree is always a length less one. Vectors
+have their components as the third axis from the end: (..., 3, m + 1, n + 1).
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.algebra import multiply
+>>> u, v = np.array([[0.0], [1.0]]), np.array([[0.0, 1.0]])
+>>> multiply(u, v)
+array([[0., 0.],
+       [0., 1.]])
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = [
+    "across", "add", "cross", "degrees", "dot", "elevated", "halves", "integral", "multiply",
+    "split", "subtract", "u_derivative", "v_derivative",
+]  # fmt: skip
+
+
+@cache
+def binomials(degree: int) -> FloatArray:
+    """Give the binomial coefficients of a degree, (degree + 1,)."""
+    found = np.array([math.comb(degree, i) for i in range(degree + 1)], np.float64)
+    freeze(found)
+    return found
+
+
+@cache
+def _weights(m: int, n: int) -> FloatArray:
+    """Give the products of binomial coefficients of a bidegree."""
+    found = np.outer(binomials(m), binomials(n))
+    freeze(found)
+    return found
+
+
+def degrees(a: FloatArray) -> tuple[int, int]:
+    """Give the degrees in u and v of coefficients (..., m + 1, n + 1)."""
+    return a.shape[-2] - 1, a.shape[-1] - 1
+
+
+def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Multiply polynomials: a convolution of coefficients times binomials."""
+    (m, n), (p, q) = degrees(a), degrees(b)
+    if a.shape[-2] * a.shape[-1] > b.shape[-2] * b.shape[-1]:
+        return multiply(b, a)
+    a, b = a * _weights(m, n), b * _weights(p, q)
+    batch = np.broadcast_shapes(a.shape[:-2], b.shape[:-2])
+    found = np.zeros((*batch, m + p + 1, n + q + 1))
+    for i in range(m + 1):
+        for j in range(n + 1):
+            found[..., i : i + p + 1, j : j + q + 1] += a[..., i, j, None, None] * b
+    found /= _weights(m + p, n + q)
+    return found
+
+
+@cache
+def _elevation(degree: int, by: int) -> FloatArray:
+    """Give the matrix (degree + by + 1, degree + 1) that raises a degree."""
+    found = np.zeros((degree + by + 1, degree + 1))
+    for i in range(degree + by + 1):
+        for j in range(max(0, i - by), min(degree, i) + 1):
+            found[i, j] = math.comb(degree, j) * math.comb(by, i - j) / math.comb(degree + by, i)
+    freeze(found)
+    return found
+
+
+def across(left: FloatArray, a: FloatArray, right: FloatArray) -> FloatArray:
+    """Apply one matrix to the rows (u) and another to the columns (v) of coefficients."""
+    found: FloatArray = left @ a @ right.T
+    return found
+
+
+def elevated(a: FloatArray, m: int, n: int) -> FloatArray:
+    """Write polynomials with degrees m and n, none below their own."""
+    p, q = degrees(a)
+    if (p, q) == (m, n):
+        return a
+    return across(_elevation(p, m - p), a, _elevation(q, n - q))
+
+
+def _alike(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:
+    (m, n), (p, q) = degrees(a), degrees(b)
+    return elevated(a, max(m, p), max(n, q)), elevated(b, max(m, p), max(n, q))
+
+
+def add(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Add polynomials; the lower degrees are raised."""
+    a, b = _alike(a, b)
+    return a + b
+
+
+def subtract(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Subtract polynomials; the lower degrees are raised."""
+    a, b = _alike(a, b)
+    return a - b
+
+
+def u_derivative(a: FloatArray) -> FloatArray:
+    """Differentiate with respect to u; a constant gives nil, of degree 0."""
+    m = a.shape[-2] - 1
+    if m == 0:
+        return np.zeros_like(a)
+    found: FloatArray = m * (a[..., 1:, :] - a[..., :-1, :])
+    return found
+
+
+def v_derivative(a: FloatArray) -> FloatArray:
+    """Differentiate with respect to v; a constant gives nil, of degree 0."""
+    n = a.shape[-1] - 1
+    if n == 0:
+        return np.zeros_like(a)
+    found: FloatArray = n * (a[..., 1:] - a[..., :-1])
+    return found
+
+
+def dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Give the scalar product of vectors (..., 3, m + 1, n + 1)."""
+    return np.asarray(multiply(a, b).sum(axis=-3))
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Give the vector product of vectors (..., 3, m + 1, n + 1)."""
+    after, last = [1, 2, 0], [2, 0, 1]
+    first = multiply(a[..., after, :, :], b[..., last, :, :])
+    return first - multiply(a[..., last, :, :], b[..., after, :, :])
+
+
+def integral(a: FloatArray) -> FloatArray:
+    """Integrate over the unit square: the mean of the coefficients."""
+    return np.asarray(a.mean(axis=(-2, -1)))
+
+
+@cache
+def split(degree: int, at: float) -> tuple[FloatArray, FloatArray]:
+    """Give the matrices that restrict coefficients to [0, at] and to [at, 1]."""
+    lower = np.zeros((degree + 1, degree + 1))
+    upper = np.zeros((degree + 1, degree + 1))
+    for i in range(degree + 1):
+        for j in range(i + 1):
+            lower[i, j] = math.comb(i, j) * at**j * (1.0 - at) ** (i - j)
+        for j in range(degree - i + 1):
+            rest = degree - i
+            upper[i, i + j] = math.comb(rest, j) * at**j * (1.0 - at) ** (rest - j)
+    freeze(lower, upper)
+    return lower, upper
+
+
+def halves(a: FloatArray, u: float, v: float) -> tuple[FloatArray, ...]:
+    """Cut the square at u and v: low-low, low-high, high-low and high-high coefficients."""
+    m, n = degrees(a)
+    return tuple(across(rows, a, columns) for rows in split(m, u) for columns in split(n, v))
