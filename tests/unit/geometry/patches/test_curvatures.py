@@ -74,7 +74,7 @@ def test_a_pole_has_no_curvature() -> None:
     """Where an edge has shrunk to a point there is a place but no curvature, and no warning."""
     found = curvatures(
         Patches.single(nets()["P17_pole_sphere"]),
-        np.zeros(2, np.intp), np.array([[0.5, 1.0], [0.5, 0.5]]),
+        np.zeros(2, np.intp), np.array([[0.5, 1.0], [0.3, 0.5]]),
     )  # fmt: skip
     for each in (found.gauss, found.mean, found.principal, found.axes, found.normal):
         assert np.isnan(each[0]).all()
