@@ -40,8 +40,8 @@ __all__ = ["FIRST_CUT", "solve"]
 
 FIRST_CUT = (0.4871, 0.5137)
 _EPS = 2.0**-53
-# From this level on, cells with no coefficient above so many errors are not cut: round a place where
-# the polynomial is nil by much, thousands of cells would tell where it begins to exceed its error.
+# From this level on, cells with no coefficient above so many errors are not cut: round a place
+# where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
 _FINE, _FAINT = 8, 8.0
 # Patches at a time, and cells cut at a time: their coefficients shall stay in the cache.
 _BATCH, _SLICE = 64, 128
