@@ -186,7 +186,9 @@ def test_the_whole_is_the_sum_of_its_patches() -> None:
     draw = np.random.default_rng(5)
     net = np.stack(np.mgrid[0:8, 0:6], axis=-1) * [1.0, 0.6]
     net = np.concatenate([net, 0.2 * draw.standard_normal((8, 6, 1))], axis=-1)
-    knots = [np.concatenate([[0] * 3, np.arange(count - 2.0), [count - 3.0] * 3]) for count in (8, 6)]
+    knots = [
+        np.concatenate([[0] * 3, np.arange(count - 2.0), [count - 3.0] * 3]) for count in (8, 6)
+    ]
     surface = SplineSurface("spline", (3, 3), *knots, net)
     whole = ah.curvature_regions(surface, zero="exact")
     apart = [SplineSurface.bezier(each) for each in surface.patches().net]

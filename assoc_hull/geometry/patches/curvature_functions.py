@@ -70,9 +70,7 @@ class IsoFunction:
         freeze(self.b, self.err)
 
 
-def gauss_function(
-    patches: Patches, level: float, delta: float | FloatArray = 0.0
-) -> IsoFunction:
+def gauss_function(patches: Patches, level: float, delta: float | FloatArray = 0.0) -> IsoFunction:
     """Give the polynomial that is positive where the Gaussian curvature exceeds a level.
 
     Parameters
