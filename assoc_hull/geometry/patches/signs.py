@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.cells import CellKind
 
-__all__ = ["changes", "edge_lines", "kinds", "signs"]
+__all__ = ["changes", "edge_lines", "first_and_last", "kinds", "signs"]
 
 Signs = NDArray[np.int8]
 
@@ -39,6 +39,12 @@ def changes(s: Signs) -> NDArray[np.intp]:
     """Count the changes of sign along the last axis; the dead band is passed over."""
     full = carried(s)
     return np.asarray(np.count_nonzero(full[..., 1:] * full[..., :-1] < 0, axis=-1))
+
+
+def first_and_last(s: Signs) -> tuple[Signs, Signs]:
+    """Give the first and the last sign along the last axis; 0 where there is none."""
+    full, back = carried(s), carried(s[..., ::-1])
+    return back[..., -1], full[..., -1]
 
 
 def edge_lines(b: FloatArray, err: FloatArray) -> NDArray[np.bool_]:
