@@ -59,7 +59,7 @@ def touching(low: FloatArray, high: FloatArray, tolerance: float) -> IntArray:
 
 
 def connected(count: int, pairs: IntArray) -> IntArray:
-    """Give the number of the part each is in (count,), where pairs (p, 2) connect; by first ones."""
+    """Give numbers (count,) to the parts into which pairs (p, 2) connect, by their first ones."""
     ones = np.ones(len(pairs), bool)
     graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     labels = connected_components(graph, directed=False)[1]
