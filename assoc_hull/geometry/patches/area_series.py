@@ -46,8 +46,8 @@ class AreaSeries:
     ----------
     patch : (r,) int
         The patches, in rising order.
-    terms : (r, p, p), m2
-        Coefficients of Chebyshev polynomials of 2u - 1 and 2v - 1.
+    terms : (2, r, p, p), m2
+        Coefficients of Chebyshev polynomials of 2u - 1 and 2v - 1; then the same exchanged.
     error : (r,) float, m2
         What an area may be off by.
     """
@@ -58,6 +58,11 @@ class AreaSeries:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.patch, self.terms, self.error)
+
+    @property
+    def count(self) -> int:
+        """The number of terms in each parameter."""
+        return self.terms.shape[2]
 
     def over(self, row: IntArray, box: FloatArray) -> FloatArray:
         """Integrate over boxes.
@@ -74,18 +79,22 @@ class AreaSeries:
         (c,) float, m2
             The areas.
         """
-        ends = _integrals(self.terms.shape[1], box)
+        ends = _integrals(self.count, box)
         u, v = np.moveaxis(ends[..., 1] - ends[..., 0], 2, 0)
-        lines = self.terms[row] @ np.ascontiguousarray(v.T)[..., None]
+        lines = self.terms[0, row] @ np.ascontiguousarray(v.T)[..., None]
         return added(u * lines[..., 0].T)
 
-    def between(self, row: IntArray, start: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
+    def between(
+        self, row: IntArray, flip: IntArray, start: FloatArray, u: FloatArray, v: FloatArray
+    ) -> FloatArray:
         """Integrate along lines v = constant.
 
         Parameters
         ----------
         row : (c,) int
             The row of the series for each.
+        flip : (c,) int
+            1 where u and v are exchanged, else 0.
         start : (c,)
             Where the lines begin.
         u, v : (c, q)
@@ -96,14 +105,9 @@ class AreaSeries:
         (c, q) float, m2
             The integrals, per unit of v.
         """
-        count = self.terms.shape[1]
-        lines = self.terms[row] @ np.ascontiguousarray(np.moveaxis(_chebyshev(count, v), 0, 1))
-        weight = _integrals(count, u) - _integrals(count, start)[..., None]
+        lines = self.terms[flip, row] @ np.ascontiguousarray(np.moveaxis(_chebyshev(self.count, v), 0, 1))
+        weight = _integrals(self.count, u) - _integrals(self.count, start)[..., None]
         return added(weight * np.moveaxis(lines, 1, 0))
-
-    def swapped(self) -> AreaSeries:
-        """Exchange the parameters."""
-        return AreaSeries(self.patch, self.terms.swapaxes(1, 2), self.error)
 
 
 def area_series(patches: Patches, tolerance: FloatArray) -> tuple[AreaSeries, ...]:
@@ -128,7 +132,7 @@ def area_series(patches: Patches, tolerance: FloatArray) -> tuple[AreaSeries, ..
     >>> net[1, :, 0] = net[:, 1, 1] = 1.0
     >>> [series] = area_series(Patches.single(net), np.array([1e-9]))
     >>> series.terms.shape
-    (1, 8, 8)
+    (2, 1, 8, 8)
     """
     left = np.arange(len(patches))
     found = list[AreaSeries]()
@@ -139,7 +143,8 @@ def area_series(patches: Patches, tolerance: FloatArray) -> tuple[AreaSeries, ..
         error = _tail(terms)
         enough = error <= tolerance[left]
         if enough.any():
-            found.append(AreaSeries(left[enough], terms[enough], error[enough]))
+            both = np.stack([terms[enough], terms[enough].swapaxes(1, 2)])
+            found.append(AreaSeries(left[enough], both, error[enough]))
         left = left[~enough]
     return tuple(found)
 
