@@ -27,7 +27,7 @@ from assoc_hull.geometry.patches.heights import heights
 __all__ = ["ArcCurves", "arc_curves"]
 
 # Arcs at a time, so that their values stay in the cache.
-_BLOCK = 256
+_BLOCK = 512
 
 
 @attrs.frozen(eq=False)

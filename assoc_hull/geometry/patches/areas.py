@@ -152,7 +152,7 @@ def _low_parts(
     patch = cells.patch[arcs.cell]
     number = np.bincount(patch, minlength=len(allowed))
     share = whole[arcs.cell] / ground.scale[patch] + 1.0 / number[patch]
-    tolerance = np.maximum(0.125 * allowed, 1e-15 * ground.scale)[patch] * share
+    tolerance = np.maximum(0.3 * allowed, 1e-15 * ground.scale)[patch] * share
     value, error = np.zeros((2, len(arcs)))
     for curves, rows in arc_curves(cells, arcs):
         value[rows], error[rows] = _low(ground, curves, tolerance[rows])
