@@ -1,0 +1,77 @@
+"""One batch of patches solved: polynomials, cells, arcs for each level, areas.
+
+Examples
+--------
+>>> from assoc_hull.surface.solving import KNOWN_TO
+>>> KNOWN_TO
+1e-09
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.arcs import arcs_of
+from assoc_hull.geometry.patches.area_ground import AreaGround
+from assoc_hull.geometry.patches.areas import areas
+from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.signs import edge_lines
+from assoc_hull.geometry.patches.solve import solve
+from assoc_hull.surface.band_areas import band_areas
+from assoc_hull.surface.given_surfaces import diagonals
+from assoc_hull.surface.region_options import RegionOptions
+from assoc_hull.surface.region_parts import AREAS, Solution
+from assoc_hull.surface.zero_band import ZeroBand
+
+__all__ = ["KNOWN_TO", "deltas", "levels_of", "solved"]
+
+KNOWN_TO = 1e-9
+"""Control points count as known to this part of the diagonal of their patch, without a band."""
+
+
+def levels_of(band: ZeroBand, options: RegionOptions) -> tuple[float, ...]:
+    """Give the levels to be solved for: those of the band, then the further ones, each once."""
+    return tuple(dict.fromkeys((*band.levels, *options.levels)))
+
+
+def deltas(patches: Patches, band: ZeroBand) -> FloatArray:
+    """Give what a coordinate of a control point may be off by, for each patch, (k,), m."""
+    if band.delta is None:
+        return KNOWN_TO * diagonals(patches)
+    return np.full(len(patches), band.delta)
+
+
+def solved(
+    patches: Patches, band: ZeroBand, options: RegionOptions
+) -> tuple[tuple[Solution, ...], FloatArray]:
+    """Solve for all levels, and give the areas (k, 8) of the regions that the band parts."""
+    delta = deltas(patches, band)
+    levels = levels_of(band, options)
+    functions = gauss_functions(patches, levels)
+    nil = [each.err for each in gauss_functions(patches, levels, delta)] if delta.any() else None
+    found = tuple(
+        _solution(level, functions[row], None if nil is None else nil[row], options)
+        for row, level in enumerate(levels)
+    )
+    return found, _areas(patches, found[: len(band.levels)], options.area_tol)
+
+
+def _solution(
+    level: float, function: IsoFunction, nil: FloatArray | None, options: RegionOptions
+) -> Solution:
+    """Solve for one level."""
+    cells = solve(function, options.depth, options.budget, nil=nil)
+    edges = edge_lines(function.b, function.err if nil is None else nil)
+    return Solution(level, cells, arcs_of(cells), edges)
+
+
+def _areas(patches: Patches, solutions: Sequence[Solution], area_tol: float) -> FloatArray:
+    """Give the areas of the regions, (k, 8), m2."""
+    ground = AreaGround.of(patches, area_tol)
+    tables = [areas(patches, each.cells, each.arcs, area_tol, ground) for each in solutions]
+    found = [np.column_stack([getattr(table, name) for name in AREAS]) for table in tables]
+    return found[0] if len(found) == 1 else band_areas(*found)
