@@ -41,9 +41,10 @@ def bits(value: object) -> object:
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, tuple | list):
         return [bits(each) for each in value]
-    if attrs.has(type(value)):
-        fields = attrs.fields(type(value))
-        return [bits(getattr(value, each.name)) for each in fields if each.name != "computed"]
+    kind: type = type(value)
+    if attrs.has(kind):
+        names = [each.name for each in attrs.fields(kind) if each.name != "computed"]
+        return [bits(getattr(value, name)) for name in names]
     return value
 
 
