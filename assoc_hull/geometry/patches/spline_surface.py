@@ -1,0 +1,268 @@
+"""Surfaces as tensor products of B-splines: their checks, points, patches and parts.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+>>> net = np.zeros((4, 4, 3))
+>>> net[..., 0], net[..., 1] = np.mgrid[0:4, 0:4] / 3.0
+>>> plane = SplineSurface.bezier(net, "plane")
+>>> plane.at(0.5, 0.25)
+array([0.5 , 0.25, 0.  ])
+>>> len(plane.patches())
+1
+"""
+
+from __future__ import annotations
+
+from typing import Self
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.patches.knots import blossom, cut, domain, limits, pieces, span_at
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.surface_checks import (
+    HIGHEST_DEGREE,
+    checked_degrees,
+    checked_name,
+    checked_net,
+    checked_parameters,
+    checked_part,
+    checked_surface_knots,
+    checked_weights,
+)  # fmt: skip
+
+__all__ = ["HIGHEST_DEGREE", "SplineSurface"]
+
+
+@attrs.frozen(eq=False)
+class SplineSurface:
+    """A tensor-product B-spline surface, one of its patches a Bezier surface.
+
+    Attributes
+    ----------
+    name : str
+        What messages and tables call it.
+    degrees : (int, int)
+        The degrees m in u and n in v, 1 to 7.
+    knots_u : (nu + m + 1,)
+        Knots in u, not falling. The parameter runs from knot m to knot nu; ends need not be
+        repeated. A knot within is repeated m times at most.
+    knots_v : (nv + n + 1,)
+        Knots in v, likewise.
+    net : (nu, nv, 3), m
+        Control points; the first axis is u.
+    weights : (nu, nv) or None
+        Weights of the control points, above 0; None, or all equal, for a polynomial surface.
+
+    Raises
+    ------
+    BadInputError
+        Numbers that are not finite, other shapes, falling or torn knots, weights that are not
+        above 0, degrees below 1 or above 7.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+    >>> net = np.zeros((3, 2, 3))
+    >>> net[..., 0], net[..., 1] = np.mgrid[0:3, 0:2]
+    >>> surface = SplineSurface("two strips", (1, 1), [0, 0, 1, 2, 2], [0, 0, 1, 1], net)
+    >>> surface.at([0.5, 2.0], 1.0)
+    array([[0.5, 1. , 0. ],
+           [2. , 1. , 0. ]])
+    """
+
+    name: str = attrs.field(converter=checked_name)
+    degrees: tuple[int, int] = attrs.field()
+    knots_u: FloatArray = attrs.field()
+    knots_v: FloatArray = attrs.field()
+    net: FloatArray = attrs.field()
+    weights: FloatArray | None = None
+
+    def __attrs_post_init__(self) -> None:
+        where = self.where
+        net = checked_net(self.net, where)
+        degrees = checked_degrees(self.degrees, net, where)
+        knots = checked_surface_knots((self.knots_u, self.knots_v), degrees, net, where)
+        weights = checked_weights(self.weights, net, where)
+        freeze(net, *knots, *([] if weights is None else [weights]))
+        found = {"degrees": degrees, "net": net, "weights": weights}
+        found |= {"knots_u": knots[0], "knots_v": knots[1]}
+        for key, value in found.items():
+            object.__setattr__(self, key, value)
+
+    @classmethod
+    def bezier(cls, net: FloatArray, name: str = "", weights: FloatArray | None = None) -> Self:
+        """Give the Bezier surface of a control net, with parameters 0 to 1.
+
+        Parameters
+        ----------
+        net : (m + 1, n + 1, 3), m
+            Control points; the first axis is u.
+        name : str
+            What messages and tables call it.
+        weights : (m + 1, n + 1), optional
+            Weights of the control points.
+
+        Raises
+        ------
+        BadInputError
+            As the class itself.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+        >>> SplineSurface.bezier(np.ones((2, 4, 3))).degrees
+        (1, 3)
+        """
+        points = checked_net(net, f"in surface {checked_name(name)!r}")
+        m, n = points.shape[0] - 1, points.shape[1] - 1
+        knots = [np.repeat([0.0, 1.0], degree + 1) for degree in (m, n)]
+        return cls(name, (m, n), knots[0], knots[1], points, weights)
+
+    @property
+    def where(self) -> str:
+        """How messages call the place of what is wrong with this surface."""
+        return f"in surface {self.name!r}" if self.name else "in a surface"
+
+    @property
+    def domain(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The least and greatest parameters: ``((u0, u1), (v0, v1))``."""
+        return domain(self.knots_u, self.degrees[0]), domain(self.knots_v, self.degrees[1])
+
+    @property
+    def rational(self) -> bool:
+        """Whether the weights differ."""
+        return self.weights is not None
+
+    def _homogeneous(self) -> FloatArray:
+        """Give the net (nu, nv, 3), or with weights (nu, nv, 4): weighted points and weights."""
+        if self.weights is None:
+            return self.net
+        weights = self.weights[..., None]
+        return np.concatenate([self.net * weights, weights], axis=-1)
+
+    def at(self, u: object, v: object) -> FloatArray:
+        """Give points of the surface.
+
+        Parameters
+        ----------
+        u, v : (...)
+            Parameters in the domain; numbers or arrays, which broadcast.
+
+        Returns
+        -------
+        (..., 3), m
+            The points.
+
+        Raises
+        ------
+        BadInputError
+            A parameter that is no number, or outside the domain.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+        >>> net = np.zeros((2, 2, 3))
+        >>> net[1, :, 0] = net[:, 1, 1] = net[1, 1, 2] = 1.0
+        >>> SplineSurface.bezier(net, "hypar").at(0.5, 0.5)
+        array([0.5 , 0.5 , 0.25])
+        """
+        (m, n), (ku, kv) = self.degrees, (self.knots_u, self.knots_v)
+        u, v = checked_parameters(u, v, self.domain, self.where)
+        s, t = u.ravel(), v.ravel()
+        i, j = span_at(ku, m, s), span_at(kv, n, t)
+        rows, columns = i[:, None] + np.arange(-m, 1), j[:, None] + np.arange(-n, 1)
+        local = self._homogeneous()[rows[:, :, None], columns[:, None, :]]
+        found = blossom(local, ku, m, i, np.repeat(s[:, None], m, 1))
+        found = blossom(found, kv, n, j, np.repeat(t[:, None], n, 1))
+        if self.weights is not None:
+            found = found[:, :3] / found[:, 3:]
+        return found.reshape(*u.shape, 3)
+
+    def patches(self, number: int = 0) -> Patches:
+        """Cut the surface at its knots into Bezier patches.
+
+        Parameters
+        ----------
+        number : int
+            The number of this surface, kept with the patches.
+
+        Returns
+        -------
+        Patches
+            The patches, in rows of equal u. Borders of neighbours have the same control points to
+            the last bit. A control point of the surface has a share in (m + 1) (n + 1) patches at
+            most; when it moves, the others stay as they are to the last bit.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+        >>> net = np.zeros((5, 4, 3))
+        >>> net[..., 0], net[..., 1] = np.mgrid[0:5, 0:4]
+        >>> knots = [0, 0, 0, 0, 1, 2, 2, 2, 2], [0, 0, 0, 0, 1, 1, 1, 1]
+        >>> SplineSurface("plane", (3, 3), *knots, net).patches().box.tolist()
+        [[[0.0, 1.0], [0.0, 1.0]], [[1.0, 2.0], [0.0, 1.0]]]
+        """
+        (m, n), (ku, kv) = self.degrees, (self.knots_u, self.knots_v)
+        rows = pieces(self._homogeneous(), ku, m)
+        found = pieces(np.moveaxis(rows, 2, 0), kv, n)
+        found = np.moveaxis(found, (0, 1, 2, 3), (1, 3, 0, 2))
+        found = np.ascontiguousarray(found).reshape(-1, m + 1, n + 1, found.shape[-1])
+        box = _boxes(limits(ku, m), limits(kv, n))
+        surface = np.full(len(found), number, np.intp)
+        if self.weights is None:
+            return Patches(found, box, surface)
+        weight = np.ascontiguousarray(found[..., 3])
+        return Patches(found[..., :3] / weight[..., None], box, surface, weight)
+
+    def restricted(self, u: object, v: object, name: str | None = None) -> Self:
+        """Give the part of the surface between two parameters each way, with parameters kept.
+
+        Parameters
+        ----------
+        u, v : (low, high)
+            The part; both in the domain.
+        name : str, optional
+            Its name; that of the surface if none is given.
+
+        Returns
+        -------
+        SplineSurface
+            The part, by knot insertion. Patches that it holds whole are those of the
+            surface, to rounding.
+
+        Raises
+        ------
+        BadInputError
+            Anything but two rising numbers in the domain.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+        >>> net = np.zeros((2, 2, 3))
+        >>> net[1, :, 0] = net[:, 1, 1] = 1.0
+        >>> half = SplineSurface.bezier(net).restricted((0.5, 1), (0, 1))
+        >>> half.domain, half.at(0.5, 1.0).tolist()
+        (((0.5, 1.0), (0.0, 1.0)), [0.5, 1.0, 0.0])
+        """
+        between = checked_part(u, v, self.domain, self.where)
+        points, knots_u = cut(self._homogeneous(), self.knots_u, self.degrees[0], *between[0])
+        turned, knots_v = cut(np.swapaxes(points, 0, 1), self.knots_v, self.degrees[1], *between[1])
+        net, weights = np.swapaxes(turned, 0, 1), None
+        if self.weights is not None:
+            net, weights = net[..., :3] / net[..., 3:], net[..., 3]
+        name = self.name if name is None else name
+        return type(self)(name, self.degrees, knots_u, knots_v, net, weights)
+
+
+def _boxes(u: FloatArray, v: FloatArray) -> FloatArray:
+    """Give all pairs of intervals (a, 2) and (b, 2), those of v running faster, (a b, 2, 2)."""
+    return np.stack([np.repeat(u, len(v), axis=0), np.tile(v, (len(u), 1))], axis=1)
