@@ -70,7 +70,9 @@ class IsoFunction:
         freeze(self.b, self.err)
 
 
-def gauss_function(patches: Patches, level: float, delta: float = 0.0) -> IsoFunction:
+def gauss_function(
+    patches: Patches, level: float, delta: float | FloatArray = 0.0
+) -> IsoFunction:
     """Give the polynomial that is positive where the Gaussian curvature exceeds a level.
 
     Parameters
@@ -79,8 +81,8 @@ def gauss_function(patches: Patches, level: float, delta: float = 0.0) -> IsoFun
         The patches.
     level : float, 1/m2
         The curvature K0; for 0 the polynomial is A itself, else A - K0 |S|**4.
-    delta : float, m
-        Each coordinate of a control point may be wrong by so much.
+    delta : float or (k,), m
+        Each coordinate of a control point may be wrong by so much, in all patches or in each.
 
     Returns
     -------
@@ -92,10 +94,11 @@ def gauss_function(patches: Patches, level: float, delta: float = 0.0) -> IsoFun
     s = cross(ru, rv)
     second = u_derivative(ru), v_derivative(ru), v_derivative(rv)
     a = _gauss(s, *second, subtract)
-    amount, normal = _amounts(ru, rv, 0.0)
+    none, off = np.zeros((1, 1, 1, 1)), np.reshape(delta, (-1, 1, 1, 1))
+    amount, normal = _amounts(ru, rv, none)
     err = 200.0 * _EPS * amount
-    if delta:
-        err = err + (_amounts(ru, rv, delta)[0] - amount)
+    if off.any():
+        err = err + (_amounts(ru, rv, off)[0] - amount)
     if level == 0.0:
         return IsoFunction(a, err)
     return _shifted(a, err, level, s, normal)
@@ -130,7 +133,7 @@ def _sums(a: FloatArray, axis: int) -> FloatArray:
     return np.asarray(degree * (low + high))
 
 
-def _amounts(ru: FloatArray, rv: FloatArray, delta: float) -> tuple[FloatArray, FloatArray]:
+def _amounts(ru: FloatArray, rv: FloatArray, delta: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give the amounts that A and the vector S are summed of, coefficient by coefficient."""
     m, n = ru.shape[-2], rv.shape[-1]
     du, dv = np.abs(ru) + 2 * m * delta, np.abs(rv) + 2 * n * delta
