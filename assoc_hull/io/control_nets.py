@@ -1,12 +1,13 @@
-"""Control nets as a table: a row a point, ``patch,i_u,j_v,x,y,z`` and ``w`` where there are weights.
+r"""Control nets as a table: a row a point, ``patch,i_u,j_v,x,y,z``, and ``w`` for weights.
 
-Each patch is a Bezier surface; its rows may come in any order. A row may begin with ``#``: a comment.
+Each patch is a Bezier surface; its rows may come in any order. Rows that begin with ``#`` are
+comments.
 
 Examples
 --------
 >>> from assoc_hull.io.control_nets import nets_of_table
 >>> rows = [f"deck,{i},{j},{2 * i},{j},0" for i in (0, 1) for j in (0, 1)]
->>> surfaces, _ = nets_of_table("\\n".join(["patch,i_u,j_v,x,y,z", *rows]), "deck.csv")
+>>> surfaces, _ = nets_of_table("\n".join(["patch,i_u,j_v,x,y,z", *rows]), "deck.csv")
 >>> surfaces[0].name, surfaces[0].degrees, surfaces[0].net[1, 1].tolist()
 ('deck', (1, 1), [2.0, 1.0, 0.0])
 """
@@ -45,12 +46,12 @@ class _Row:
 
 
 def looks_like_nets(text: str) -> bool:
-    """Tell whether a text begins with the header of such a table.
+    r"""Tell whether a text begins with the header of such a table.
 
     Examples
     --------
     >>> from assoc_hull.io.control_nets import looks_like_nets
-    >>> looks_like_nets("# plates\\npatch,i_u,j_v,x,y,z,w"), looks_like_nets("station,wl_0")
+    >>> looks_like_nets("# plates\npatch,i_u,j_v,x,y,z,w"), looks_like_nets("station,wl_0")
     (True, False)
     """
     head = next((line for line in text.splitlines() if not _is_comment(line)), "")
@@ -100,7 +101,7 @@ def _rows(text: str, source: str) -> Iterator[_Row]:
     head: list[str] | None = None
     try:
         for cells in reader:
-            if not cells or _is_comment(cells[0]) and not any(cells[1:]) or cells[0][:1] == "#":
+            if not any(cells) or cells[0].lstrip()[:1] == "#":
                 continue
             if head is None:
                 head = _header(cells, f"{source}, line {reader.line_num}")

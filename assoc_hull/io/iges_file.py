@@ -205,7 +205,7 @@ def _entry(number: int, first: str, second: str, source: str) -> Entry:
 
     def whole(place: int, what: str) -> int:
         text = fields[place].strip()
-        if not re.fullmatch(r"[-+]?[0-9]*", text) or text in "+-" and text:
+        if not re.fullmatch(r"[-+]?[0-9]*", text) or text in ("+", "-"):
             what = f"{what} is {fields[place]!r}"
             raise BadInputError(what, where, "export the file again")
         return int(text or 0)

@@ -117,7 +117,9 @@ def _require_known(file: IgesFile) -> None:
         if other and not entry.blanked:
             name = KINDS.get(entry.kind, "solid")
             what = f"this is a {name}, and only spline surfaces (128) are read"
-            raise BadInputError(what, file.where(entry), "convert it to a spline surface, or blank it")
+            raise BadInputError(
+                what, file.where(entry), "convert it to a spline surface, or blank it"
+            )
         if entry.kind in (308, 320):
             _require_no_surfaces(file, entry)
 

@@ -1,7 +1,7 @@
 """An IGES file as lines of five sections, and its free-format text as tokens.
 
-A line has 80 columns: 72 of content, the letter of its section, and its number in the section. Start
-(S) is for people, Global (G) holds units and delimiters, Directory (D) two lines an entity,
+A line has 80 columns: 72 of content, the letter of its section, and its number in the section.
+Start (S) is for people, Global (G) holds units and delimiters, Directory (D) two lines an entity,
 Parameter (P) what each entity is made of, Terminate (T) the number of lines of all.
 
 Source: IGES 5.3 (US PRO, 1996), sections 2.2.2 and 2.2.4.

@@ -2,8 +2,8 @@
 
 A border is given as curves in the parameters of the surface. The control points of a spline enclose
 it, so a piece between two knots whose control points lie on one side of the box of the parameters
-lies there as well; and a closed border on the sides of the box that meets its four corners is the
-box. Nothing is sampled.
+lies there as well; and a border on the sides of the box that covers all four of them is the box.
+Nothing is sampled.
 
 Source: IGES 5.3 (US PRO, 1996), sections 4.33 to 4.35 (141 to 144), 4.145 and 4.147 (508, 510).
 
@@ -51,16 +51,14 @@ def is_box(pieces: list[FloatArray], box: Box) -> bool:
         The least and greatest u, and v.
     """
     low, high = (np.array(ends) for ends in zip(*box, strict=True))
-    met = np.zeros((2, 2), dtype=bool)
+    covered = np.zeros((2, 2))
     for piece in pieces:
         place = (piece - low) / (high - low)
-        sides = np.abs(place[:, :, None] - [0.0, 1.0]) < _NEAR
-        inside = (place > -_NEAR).all() and (place < 1.0 + _NEAR).all()
-        if not (inside and sides.all(axis=0).any()):
+        on = (np.abs(place[:, :, None] - [0.0, 1.0]) < _NEAR).all(axis=0)
+        if not (on.any() and (np.abs(place - 0.5) < 0.5 + _NEAR).all()):
             return False
-        for end in (sides[0], sides[-1]):
-            met |= end[0][:, None] & end[1][None, :]
-    return bool(met.all())
+        covered += on * np.abs(place[-1] - place[0])[::-1, None]
+    return bool((covered > 1.0 - 10.0 * _NEAR).all())
 
 
 def parameter_curves(file: IgesFile, number: int, met: tuple[int, ...] = ()) -> list[FloatArray]:
