@@ -14,6 +14,7 @@ from __future__ import annotations
 import os
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.surface_file import read_surface_file
 
 __all__ = ["plates", "read_surfaces"]
 
@@ -21,8 +22,44 @@ __all__ = ["plates", "read_surfaces"]
 def read_surfaces(
     path: str | os.PathLike[str], unit: str | None = None
 ) -> tuple[SplineSurface, ...]:
-    """Read surfaces."""
-    raise NotImplementedError
+    r"""Read spline surfaces: control nets from a table or JSON, or untrimmed ones from IGES.
+
+    Which it is, the content of the file tells, not its name.
+
+    Parameters
+    ----------
+    path : path
+        A table with the columns ``patch,i_u,j_v,x,y,z`` (and ``w``), each patch a Bezier surface;
+        JSON with degrees, knots and nets; or IGES with spline surfaces (entity 128).
+    unit : {"m", "mm", "cm", "ft", "in"} or None
+        Of the lengths in the file. None: as the file says; a table that says nothing is in m.
+
+    Returns
+    -------
+    tuple of SplineSurface
+        In the order of the file, in m; besides it has `form`, `unit` and `notes`: what of the
+        file was left out or taken otherwise.
+
+    Raises
+    ------
+    BadInputError
+        The file cannot be read, is damaged, tells no unit, or holds surfaces of other kinds or
+        trimmed ones: nothing is left out unseen.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> rows = [f"deck,{i},{j},{2 * i},{j},0" for i in (0, 1) for j in (0, 1)]
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "deck.csv"
+    ...     _ = path.write_text("\n".join(["patch,i_u,j_v,x,y,z", *rows]))
+    ...     (deck,) = ah.read_surfaces(path)
+    >>> deck.name, deck.at(0.5, 0.5).tolist()
+    ('deck', [1.0, 0.5, 0.0])
+    """
+    return read_surface_file(path, unit)
 
 
 def plates(surfaces: object) -> object:
