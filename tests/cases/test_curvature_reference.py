@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.tensor_bernstein import basis
 from assoc_hull.surface.region_areas import RegionAreas
 from assoc_hull.surface.region_result import RegionResult
-from tests.curved_patches import nets, patch, references
+from tests.curved_patches import graph_plates, patch, random_nets, references
 
 NAMES = tuple(references())
 FLAT = ("P13_plane", "P14_cyl", "P15_cyl_rot", "P16_cone_rot")
@@ -92,7 +94,7 @@ def test_polylines_lie_on_the_lines() -> None:
     assert line.ends == 2
 
 
-def noisy_cylinder(noise: float) -> np.ndarray:
+def noisy_cylinder(noise: float) -> FloatArray:
     """A cylinder of 6 m x 2 m with control points that are off by up to so much, m."""
     net = patch("P14_cyl")
     return net + noise * np.random.default_rng(11).uniform(-1.0, 1.0, net.shape)
@@ -133,10 +135,10 @@ def test_the_convex_part_shrinks_as_the_level_rises() -> None:
         -0.03: 15.232, -0.01: 14.024, -0.003: 7.305, 0.0: 3.594, 0.0003: 3.290, 0.001: 2.565,
         0.003: 1.362,
     }  # fmt: skip
-    net, above = patch("P20_five_arcs"), {}
-    for width in sorted({abs(level) for level in known}):
-        mode = {"zero": "absolute", "k0": width} if width else {"zero": "exact", "delta": 0.0}
-        areas = ah.curvature_regions(net, **mode).areas
+    net = patch("P20_five_arcs")
+    above: dict[float, float] = {}
+    for width in sorted({abs(level) for level in known} - {0.0}):
+        areas = ah.curvature_regions(net, zero="absolute", k0=width).areas
         above |= {width: areas.positive, -width: areas.total - areas.negative}
     above[0.0] = ah.curvature_regions(net, zero="exact", delta=0.0).positive
     for level, area in known.items():
@@ -144,21 +146,14 @@ def test_the_convex_part_shrinks_as_the_level_rises() -> None:
     assert np.all(np.diff([above[level] for level in sorted(above)]) < 0.0)
 
 
-def saddle_with_a_convex_disc(radius: float) -> np.ndarray:
+def saddle_with_a_convex_disc(radius: float) -> FloatArray:
     """x**3 - 3 x y**2 + 3 radius (x**2 + y**2): K > 0 in a disc about (0.1, 0.07), m."""
-    place, shape = np.linspace(-1.0, 1.0, 4), (-0.1, -0.07)
-    basis = np.stack([_bernstein(i, (place + 1.0) / 2.0) for i in range(4)], axis=1)
-    x, y = place[:, None] + shape[0], place[None] + shape[1]
-    z = x**3 - 3.0 * x * y**2 + 3.0 * radius * (x**2 + y**2)
-    inverse = np.linalg.inv(basis)
-    heights = inverse @ z @ inverse.T
-    grid = np.broadcast_to(place[:, None], (4, 4)), np.broadcast_to(place[None], (4, 4))
-    return np.stack([*grid, heights], axis=-1)
-
-
-def _bernstein(i: int, t: np.ndarray) -> np.ndarray:
-    """A cubic polynomial of Bernstein."""
-    return np.array([1, 3, 3, 1])[i] * t**i * (1.0 - t) ** (3 - i)
+    at = np.linspace(-1.0, 1.0, 4)
+    x, y = np.meshgrid(at, at, indexing="ij")
+    a, b = x - 0.1, y - 0.07
+    heights = a**3 - 3.0 * a * b**2 + 3.0 * radius * (a**2 + b**2)
+    to_net = np.linalg.inv(basis(3, (at + 1.0) / 2.0))
+    return np.stack([x, y, to_net @ heights @ to_net.T], axis=-1)
 
 
 @pytest.mark.parametrize("radius", [1e-2, 1e-3, 1e-4])
@@ -186,8 +181,8 @@ def test_the_whole_is_the_sum_of_its_patches() -> None:
     draw = np.random.default_rng(5)
     net = np.stack(np.mgrid[0:8, 0:6], axis=-1) * [1.0, 0.6]
     net = np.concatenate([net, 0.2 * draw.standard_normal((8, 6, 1))], axis=-1)
-    knots = [np.concatenate([[0] * 3, np.arange(count - 2.0), [count - 3.0] * 3]) for count in (8, 6)]
-    surface = SplineSurface("spline", (3, 3), *knots, net)
+    along, across = ([0, 0, 0, *range(count - 2), *[count - 3] * 3] for count in (8, 6))
+    surface = SplineSurface("spline", (3, 3), np.array(along), np.array(across), net)
     whole = ah.curvature_regions(surface, zero="exact")
     apart = [SplineSurface.bezier(each) for each in surface.patches().net]
     single = [ah.curvature_regions(each, zero="exact").areas for each in apart]
@@ -197,12 +192,9 @@ def test_the_whole_is_the_sum_of_its_patches() -> None:
 
 def test_random_patches_have_no_dangling_ends() -> None:
     """Lines of 120 random plates and 60 random nets all end where lines may end."""
-    from tests.curved_patches import graph_plates, random_nets
-
     many = [*graph_plates(120, 1), *random_nets(60, 2)]
     result = ah.curvature_regions([SplineSurface.bezier(net) for net in many], zero="exact")
     assert len(result.components) > 180
     areas = result.areas
     parts = areas.positive + areas.negative + areas.zero + areas.unresolved
     assert parts == pytest.approx(areas.total, rel=1e-5)
-    assert nets()
