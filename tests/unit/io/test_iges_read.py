@@ -315,7 +315,7 @@ def instead(old: str, new: str) -> Change:
 
 DAMAGED: dict[str, tuple[Change, str]] = {
     "cut short": (lambda text: text[:-81], "section T, is missing"),
-    "cut short in a line": (lambda text: text[:700], "no letter of a section"),
+    "cut short in a line": (lambda text: text[:600], "no letter of a section"),
     "no directory": (without("D      "), "directory section is missing"),
     "a line is missing": (without("P      2"), "is numbered"),
     "another count": (instead("P      3   ", "P      4   "), "section T says 4"),
