@@ -4,7 +4,7 @@ Examples
 --------
 >>> import assoc_hull as ah
 >>> import numpy as np
->>> x, y = np.mgrid[-3:3:3j, -1:1:3j]
+>>> x, y = np.mgrid[0:6:3j, 0:2:3j]
 >>> (plate,) = ah.plates(np.stack([x, y, 0.1 * x * y], axis=-1))
 >>> plate.kind, plate.order, round(plate.roll_axis, 1)
 ('saddle', 3, 135.7)
@@ -13,7 +13,6 @@ Examples
 from __future__ import annotations
 
 import attrs
-import numpy as np
 
 from assoc_hull.arguments import integer
 from assoc_hull.geometry.curves import FloatArray, freeze

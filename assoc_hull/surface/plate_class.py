@@ -11,6 +11,8 @@ Examples
 from __future__ import annotations
 
 import attrs
+import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.surface.curvature_nodes import CurvatureNodes
@@ -99,7 +101,7 @@ def shares_of(areas: RegionAreas, nodes: CurvatureNodes, k0: float, flat_bend: f
     )  # fmt: skip
 
 
-def _part(area: FloatArray, these: FloatArray, those: FloatArray) -> float:
+def _part(area: FloatArray, these: NDArray[np.bool_], those: NDArray[np.bool_]) -> float:
     """Give the area of some nodes as a part of that of others, 0 of none."""
     whole = float((area * those).sum())
     return float((area * these).sum()) / whole if whole > 0.0 else 0.0

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.surface.curvature_nodes import CurvatureNodes
 from assoc_hull.surface.plate_class import Shares
@@ -83,8 +82,9 @@ def _breadth(name: str, breadth: float, band: ZeroBand) -> Iterator[str]:
     strain = band.k0 * breadth**2 / 8.0
     if strain > _WIDE * band.strain_tol:
         yield (
-            f"{name} is {breadth:.3g} m broad, the band is made for {band.breadth:g} m: what counts "
-            f"as developable may take a strain of {strain:.2g}; give breadth=None for its own."
+            f"{name} is {breadth:.3g} m broad, the band is made for {band.breadth:g} m: what "
+            f"counts as developable may take a strain of {strain:.2g}; give breadth=None for the "
+            "breadth of each plate."
         )
 
 
@@ -92,6 +92,6 @@ def _regions(name: str, areas: RegionAreas, shares: Shares, kind: str) -> Iterat
     """Tell convex and saddle regions side by side."""
     if kind == "mixed" and min(shares.convex, shares.saddle) > _SEEN:
         yield (
-            f"{name} has {areas.positive:.3g} m2 of convex beside {areas.negative:.3g} m2 of saddle "
-            "regions: heating patterns deviate where they meet."
+            f"{name} has {areas.positive:.3g} m2 of convex beside {areas.negative:.3g} m2 of "
+            "saddle regions: heating patterns deviate where they meet."
         )

@@ -18,12 +18,12 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.plate import Plate
-from assoc_hull.surface.plate_class import Shares, shares_of
+from assoc_hull.surface.plate_class import shares_of
 from assoc_hull.surface.plate_extents import plate_axes, plate_extents, seam_lengths
 from assoc_hull.surface.plate_notes import plate_notes
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.region_result import RegionResult
-from assoc_hull.surface.roll_axis import COHERENT, RollAxis, roll_axis
+from assoc_hull.surface.roll_axis import COHERENT, roll_axis
 from assoc_hull.surface.suggestions import suggestion_key
 
 __all__ = ["Draft", "draft", "plate_of", "radius"]
@@ -130,5 +130,7 @@ def plate_of(
             for each in regions.components
         ),
         suggestion=options.suggestions[suggestion_key(kind, rollable, single)],
-        notes=plate_notes(measured.name, nodes, measured.extents, areas, regions.band, shares, kind),
+        notes=plate_notes(
+            measured.name, nodes, measured.extents, areas, regions.band, shares, kind
+        ),
     )  # fmt: skip

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import attrs
 import numpy as np
@@ -34,6 +35,14 @@ def _parameters(value: object, name: str) -> tuple[float, ...]:
         remedy = "give parameters that rise, each once"
         raise BadInputError(f"{name} is {shown(value)}", "in Seams", remedy)
     return tuple(found.tolist())
+
+
+def _along_u(value: Any) -> tuple[float, ...]:
+    return _parameters(value, "u")
+
+
+def _along_v(value: Any) -> tuple[float, ...]:
+    return _parameters(value, "v")
 
 
 @attrs.frozen
@@ -57,8 +66,8 @@ class Seams:
     (0.5,)
     """
 
-    u: tuple[float, ...] = attrs.field(default=(), converter=lambda given: _parameters(given, "u"))
-    v: tuple[float, ...] = attrs.field(default=(), converter=lambda given: _parameters(given, "v"))
+    u: tuple[float, ...] = attrs.field(default=(), converter=_along_u)
+    v: tuple[float, ...] = attrs.field(default=(), converter=_along_v)
 
     def __bool__(self) -> bool:
         """Whether anything is cut."""

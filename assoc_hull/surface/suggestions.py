@@ -62,10 +62,10 @@ def suggestions_with(own: object, where: str = "in plates") -> dict[str, str]:
     if not isinstance(own, Mapping):
         remedy = f"give texts by {', '.join(SUGGESTIONS)}"
         raise WrongTypeError(f"suggestions is {shown(own)}", where, remedy)
-    given = {
-        choice(key, "a key of suggestions", SUGGESTIONS, where): text(value, f"the text of {key}", where)
-        for key, value in own.items()
-    }  # fmt: skip
+    given = {}
+    for key, value in own.items():
+        kind = choice(key, "a key of suggestions", SUGGESTIONS, where)
+        given[kind] = text(value, f"the text of {kind}", where)
     return SUGGESTIONS | given
 
 
