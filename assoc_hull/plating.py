@@ -15,6 +15,7 @@ import os
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.surface_file import read_surface_file
+from assoc_hull.surface.plates import plates
 
 __all__ = ["plates", "read_surfaces"]
 
@@ -60,8 +61,3 @@ def read_surfaces(
     ('deck', [1.0, 0.5, 0.0])
     """
     return read_surface_file(path, unit)
-
-
-def plates(surfaces: object) -> object:
-    """Classify plates."""
-    raise NotImplementedError
