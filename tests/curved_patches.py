@@ -67,3 +67,18 @@ def references() -> dict[str, Reference]:
             )
             for row in csv.DictReader(file)
         }  # fmt: skip
+
+
+def graph_plates(count: int, seed: int) -> FloatArray:
+    """Give bicubic plates z(x, y) of 4 m x 2 m with random heights, (count, 4, 4, 3), m."""
+    draw = np.random.default_rng(seed)
+    net = np.zeros((count, 4, 4, 3))
+    net[..., 0] = np.linspace(0.0, 4.0, 4)[:, None]
+    net[..., 1] = np.linspace(0.0, 2.0, 4)
+    net[..., 2] = 0.3 * draw.standard_normal((count, 4, 4))
+    return net
+
+
+def random_nets(count: int, seed: int) -> FloatArray:
+    """Give bicubic nets of points anywhere in space, folded and pierced, (count, 4, 4, 3), m."""
+    return np.random.default_rng(seed).standard_normal((count, 4, 4, 3))
