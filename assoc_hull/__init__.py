@@ -47,6 +47,7 @@ if TYPE_CHECKING:
         UnreachableError,
     )
     from assoc_hull.geometry.curves import PointKind
+    from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.geometry.plane import Plane
     from assoc_hull.hull import Hull
     from assoc_hull.model.family import BoundaryKind
@@ -54,11 +55,13 @@ if TYPE_CHECKING:
     from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
     from assoc_hull.model.source import LineSource
     from assoc_hull.model.state import Association, Ends, Particulars
+    from assoc_hull.plating import plates, read_surfaces
     from assoc_hull.production import production_arcs
     from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
+    from assoc_hull.surface.curvature_regions import curvature_regions
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
@@ -95,6 +98,7 @@ __all__ = [
     "RefusedEditError",
     "RingError",
     "Screw",
+    "SplineSurface",
     "StaleHullError",
     "Study",
     "Tolerances",
@@ -105,6 +109,7 @@ __all__ = [
     "course",
     "create",
     "cross_curves",
+    "curvature_regions",
     "curve_transform",
     "design_waterline",
     "equilibrium",
@@ -118,9 +123,11 @@ __all__ = [
     "measure",
     "open",
     "panels",
+    "plates",
     "production_arcs",
     "read",
     "read_classical",
+    "read_surfaces",
     "sample",
     "sectional_area",
     "sensitivities",
@@ -167,6 +174,7 @@ _HOMES = {
         "UnreachableError",
     ),
     "geometry.curves": ("PointKind",),
+    "geometry.patches.spline_surface": ("SplineSurface",),
     "geometry.plane": ("Plane",),
     "hull": ("Hull",),
     "model.family": ("BoundaryKind",),
@@ -174,11 +182,13 @@ _HOMES = {
     "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
     "model.source": ("LineSource",),
     "model.state": ("Association", "Ends", "Particulars"),
+    "plating": ("plates", "read_surfaces"),
     "production": ("production_arcs",),
     "shifts": ("shift_sections", "swing"),
     "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
+    "surface.curvature_regions": ("curvature_regions",),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),

@@ -23,7 +23,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"io"}),
     frozenset({"examples"}),
     frozenset({"hull"}),
-    frozenset({"sources", "studies", "variants", "shifts", "production"}),
+    frozenset({"sources", "studies", "variants", "shifts", "production", "plating"}),
     frozenset({"plot"}),
     frozenset({"page"}),
     frozenset({"cli"}),

@@ -1,0 +1,113 @@
+"""The surfaces that are handed in, and their patches in batches of one bidegree.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.surface.given_surfaces import given_surfaces
+>>> net = np.zeros((2, 2, 3))
+>>> net[1, :, 0] = net[:, 1, 1] = 1.0
+>>> [surface.degrees for surface in given_surfaces(net)]
+[(1, 1)]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import shown
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.patches.algebra import cross, u_derivative, v_derivative
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+
+__all__ = ["Batch", "batches_of", "diagonals", "given_surfaces", "name_of", "require_area"]
+
+_FLAT = 1e-12
+"""A patch whose |S| stays below this part of the square of its diagonal has no area: rounding."""
+
+
+@attrs.frozen(eq=False)
+class Batch:
+    """Patches of one bidegree, and their numbers through all surfaces."""
+
+    patches: Patches
+    number: IntArray
+
+
+def given_surfaces(
+    surfaces: object, where: str = "in curvature_regions"
+) -> tuple[SplineSurface, ...]:
+    """Take a surface, a sequence of surfaces, or one control net (m + 1, n + 1, 3), m.
+
+    Raises
+    ------
+    BadInputError, WrongTypeError
+        Anything else, no surface at all, a net that makes no surface.
+    """
+    if isinstance(surfaces, SplineSurface):
+        return (surfaces,)
+    if isinstance(surfaces, np.ndarray):
+        return (SplineSurface.bezier(surfaces),)
+    if not isinstance(surfaces, Sequence) or isinstance(surfaces, str | bytes):
+        remedy = "give a SplineSurface, a sequence of them, or a control net (m + 1, n + 1, 3)"
+        raise WrongTypeError(f"surfaces is {shown(surfaces)}", where, remedy)
+    if not surfaces:
+        raise BadInputError("surfaces is empty", where, "give at least one surface")
+    for number, surface in enumerate(surfaces):
+        if not isinstance(surface, SplineSurface):
+            what = f"surfaces[{number}] is {shown(surface)}"
+            raise WrongTypeError(what, where, "give SplineSurface objects")
+    return tuple(surfaces)
+
+
+def name_of(surfaces: Sequence[SplineSurface], number: int) -> str:
+    """Give what a surface is called in messages."""
+    name = surfaces[number].name
+    return f"surface {number} ({name!r})" if name else f"surface {number}"
+
+
+def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[Batch, ...]:
+    """Cut surfaces into Bezier patches, those of one bidegree together."""
+    cut = [surface.patches(number) for number, surface in enumerate(surfaces)]
+    first = np.cumsum([0, *(len(patches) for patches in cut)])
+    numbers = [np.arange(low, low + len(each)) for low, each in zip(first, cut, strict=False)]
+    found = []
+    for degrees in sorted({patches.degrees for patches in cut}):
+        own = [i for i, patches in enumerate(cut) if patches.degrees == degrees]
+        patches = Patches(
+            np.concatenate([cut[i].net for i in own]),
+            np.concatenate([cut[i].box for i in own]),
+            np.concatenate([cut[i].surface for i in own]),
+        )
+        found.append(Batch(patches, np.concatenate([numbers[i] for i in own])))
+    return tuple(found)
+
+
+def diagonals(patches: Patches) -> np.typing.NDArray[np.float64]:
+    """Give the diagonals of the boxes of control points, (k,), m."""
+    flat = patches.net.reshape(len(patches), -1, 3)
+    return np.asarray(np.linalg.norm(np.ptp(flat, axis=1), axis=1))
+
+
+def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[Batch]) -> None:
+    """Refuse patches without an area: a point, a line; curvature has no meaning on them.
+
+    Raises
+    ------
+    BadInputError
+        The first such patch.
+    """
+    for batch in batches:
+        r = batch.patches.components
+        normal = np.abs(cross(u_derivative(r), v_derivative(r))).max(axis=(1, 2, 3))
+        for row in np.flatnonzero(normal <= _FLAT * diagonals(batch.patches) ** 2)[:1]:
+            which = name_of(surfaces, int(batch.patches.surface[row]))
+            raise BadInputError(
+                f"patch {batch.number[row]} has no area: r_u x r_v is nil everywhere",
+                f"in {which}",
+                "leave it out, or move control points off the line they lie on",
+            )

@@ -1,0 +1,87 @@
+"""Patches taken from an earlier result, where their nets and the options are the same.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.surface.previous import keys_of
+>>> net = np.zeros((2, 2, 3))
+>>> keys_of(Patches.single(net)) == keys_of(Patches.single(net.copy()))
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.patches.curvature_functions import IsoFunction
+from assoc_hull.geometry.patches.gathering import gathered
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.surface.given_surfaces import Batch
+from assoc_hull.surface.region_options import RegionOptions
+from assoc_hull.surface.region_parts import RegionPart, Solution
+from assoc_hull.surface.region_result import RegionResult
+from assoc_hull.surface.solving import deltas, solved
+from assoc_hull.surface.zero_band import ZeroBand
+
+__all__ = ["keys_of", "part_of", "taken", "usable"]
+
+
+def keys_of(patches: Patches) -> list[bytes]:
+    """Give what the findings of each patch depend on: the bits of its control net."""
+    return [net.tobytes() for net in patches.net]
+
+
+def usable(
+    previous: RegionResult | None, band: ZeroBand, options: RegionOptions
+) -> dict[tuple[int, int], RegionPart]:
+    """Give the parts of an earlier result by bidegree; none if it was made with other options."""
+    if previous is None or previous.band != band or previous.options != options:
+        return {}
+    return {part.patches.degrees: part for part in previous.parts}
+
+
+def part_of(
+    batch: Batch, band: ZeroBand, options: RegionOptions, old: RegionPart | None
+) -> tuple[RegionPart, int]:
+    """Give a part, and how many patches had to be computed: each net once."""
+    held = len(old) if old is not None else 0
+    rows, fresh = _sources(keys_of(batch.patches), keys_of(old.patches) if old else [], held)
+    found = [(old.solutions, old.areas)] if old is not None else []
+    if len(fresh):
+        found.append(solved(taken(batch.patches, fresh), band, options))
+    solutions = tuple(
+        _gathered([solution_row[level] for solution_row, _ in found], rows)
+        for level in range(len(found[0][0]))
+    )
+    areas = np.concatenate([rows_of_areas for _, rows_of_areas in found])[rows]
+    delta = deltas(batch.patches, band)
+    return RegionPart(batch.patches, batch.number, solutions, areas, delta), len(fresh)
+
+
+def taken(patches: Patches, rows: IntArray) -> Patches:
+    """Give some patches of a batch."""
+    return Patches(patches.net[rows], patches.box[rows], patches.surface[rows])
+
+
+def _sources(keys: list[bytes], held: list[bytes], first: int) -> tuple[IntArray, IntArray]:
+    """Give for each patch its row among what is held and then computed, and what to compute."""
+    known = {key: row for row, key in reversed(list(enumerate(held)))}
+    rows, fresh = [], []
+    for place, key in enumerate(keys):
+        if key not in known:
+            known[key] = first + len(fresh)
+            fresh.append(place)
+        rows.append(known[key])
+    return np.array(rows, np.intp), np.array(fresh, np.intp)
+
+
+def _gathered(tables: Sequence[Solution], rows: IntArray) -> Solution:
+    """Give what is known of chosen patches for one level."""
+    cells, arcs = gathered([each.cells for each in tables], [each.arcs for each in tables], rows)
+    b = np.concatenate([each.function.b for each in tables])[rows]
+    err = np.concatenate([each.function.err for each in tables])[rows]
+    return Solution(tables[0].level, IsoFunction(b, err), cells, arcs)

@@ -1,0 +1,121 @@
+"""What is to be known of regions: searches that ended early, spots, knots, borders.
+
+Examples
+--------
+>>> from assoc_hull.surface.region_notes import listed
+>>> listed([1, 2, 3, 4, 5, 6, 7])
+'1, 2, 3, 4, 5 and 2 more'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.surface.given_surfaces import name_of
+from assoc_hull.surface.region_areas import RegionAreas
+from assoc_hull.surface.region_component import Component
+from assoc_hull.surface.region_options import RegionOptions
+from assoc_hull.surface.region_parts import RegionPart
+
+__all__ = ["listed", "region_notes"]
+
+_SHOWN = 5
+
+
+def region_notes(
+    surfaces: Sequence[SplineSurface],
+    parts: Sequence[RegionPart],
+    components: Sequence[Component],
+    options: RegionOptions,
+) -> tuple[str, ...]:
+    """Give what is to be known of a result, a sentence each, by surface."""
+    found = []
+    for number in range(len(surfaces)):
+        name = name_of(surfaces, number)
+        own = [part for part in parts if (part.patches.surface == number).any()][0]
+        pieces = [piece for piece in components if piece.surface == number]
+        found += _stops(own, number, name, options)
+        found += _unresolved(own, number, name, options)
+        found += _spots(pieces, name)
+        found += _jumps(pieces, name)
+        found += _borders(pieces, name)
+    return tuple(found)
+
+
+def listed(items: Sequence[object]) -> str:
+    """Give the first few items in words, and how many more there are."""
+    shown = ", ".join(str(item) for item in items[:_SHOWN])
+    more = len(items) - _SHOWN
+    return f"{shown} and {more} more" if more > 0 else shown
+
+
+def _plural(count: int, one: str, many: str) -> str:
+    return f"{count} {one if count == 1 else many}"
+
+
+def _stops(part: RegionPart, number: int, name: str, options: RegionOptions) -> Iterator[str]:
+    """Tell searches that the budget ended."""
+    own = part.patches.surface == number
+    for each in part.solutions:
+        patches = part.number[own & each.cells.stopped].tolist()
+        if patches:
+            yield (
+                f"In {name} the search for K = {each.level:.4g} 1/m2 ended at its budget of "
+                f"{options.budget} cells in {_plural(len(patches), 'patch', 'patches')} "
+                f"({listed(patches)}): what is left stays unresolved; a band, or a larger budget, "
+                "may resolve it."
+            )
+
+
+def _unresolved(part: RegionPart, number: int, name: str, options: RegionOptions) -> Iterator[str]:
+    """Tell areas that are unresolved beyond the tolerance."""
+    areas = RegionAreas.added(part.areas[part.patches.surface == number].tolist())
+    if areas.unresolved > options.area_tol * areas.total:
+        yield (
+            f"Of {name} {areas.unresolved:.3g} m2 ({100.0 * areas.unresolved_share:.2g} %) are "
+            f"unresolved, more than area_tol ({options.area_tol:g}) of its {areas.total:.6g} m2: "
+            "the estimates share them out by samples."
+        )
+
+
+def _spots(pieces: Sequence[Component], name: str) -> Iterator[str]:
+    """Tell spots where the surface has no tangent plane."""
+    spots = [piece for piece in pieces if piece.singular]
+    if spots:
+        places = [_place(piece) for piece in spots]
+        yield (
+            f"{name[0].upper()}{name[1:]} has no tangent plane at "
+            f"{_plural(len(spots), 'spot', 'spots')} ({listed(places)}): "
+            "the lines that end there are none of its shape."
+        )
+
+
+def _place(piece: Component) -> str:
+    """Give the place of a spot in space."""
+    x, y, z = np.mean(np.concatenate(piece.xyz), axis=0)
+    return f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
+
+
+def _jumps(pieces: Sequence[Component], name: str) -> Iterator[str]:
+    """Tell lines that end at knots, where curvature jumps."""
+    lines = [piece for piece in pieces if "knot-line" in piece.tags]
+    if lines:
+        yield (
+            f"In {name} {_plural(len(lines), 'line ends', 'lines end')} at knots where the surface "
+            "is not curvature-continuous: the curvature jumps there, and so do the regions."
+        )
+
+
+def _borders(pieces: Sequence[Component], name: str) -> Iterator[str]:
+    """Tell borders of patches along which the curvature has the level."""
+    for level in dict.fromkeys(piece.level for piece in pieces):
+        lines = [piece for piece in pieces if piece.kind == "edge_line" and piece.level == level]
+        if lines:
+            patches = sorted({patch for piece in lines for patch in piece.patches})
+            yield (
+                f"In {name} K = {level:.4g} 1/m2 along {_plural(len(lines), 'border', 'borders')} "
+                f"of patches ({listed(patches)}): regions end there without a line of their own."
+            )
