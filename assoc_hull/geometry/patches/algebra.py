@@ -50,17 +50,24 @@ def degrees(a: FloatArray) -> tuple[int, int]:
     return a.shape[-2] - 1, a.shape[-1] - 1
 
 
+def _batch_last(a: FloatArray) -> FloatArray:
+    """Give coefficients (..., m + 1, n + 1) times binomials, as (m + 1, n + 1, ...)."""
+    return np.ascontiguousarray(np.moveaxis(a * _weights(*degrees(a)), (-2, -1), (0, 1)))
+
+
 def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
     """Multiply polynomials: a convolution of coefficients times binomials."""
-    (m, n), (p, q) = degrees(a), degrees(b)
     if a.shape[-2] * a.shape[-1] > b.shape[-2] * b.shape[-1]:
         return multiply(b, a)
-    a, b = a * _weights(m, n), b * _weights(p, q)
-    batch = np.broadcast_shapes(a.shape[:-2], b.shape[:-2])
-    found = np.zeros((*batch, m + p + 1, n + q + 1))
+    (m, n), (p, q) = degrees(a), degrees(b)
+    axes = max(a.ndim, b.ndim)
+    a, b = (_batch_last(each.reshape((1,) * (axes - each.ndim) + each.shape)) for each in (a, b))
+    batch = np.broadcast_shapes(a.shape[2:], b.shape[2:])
+    found, part = np.zeros((m + p + 1, n + q + 1, *batch)), np.empty((*b.shape[:2], *batch))
     for i in range(m + 1):
         for j in range(n + 1):
-            found[..., i : i + p + 1, j : j + q + 1] += a[..., i, j, None, None] * b
+            found[i : i + p + 1, j : j + q + 1] += np.multiply(a[i, j], b, out=part)
+    found = np.moveaxis(found, (0, 1), (-2, -1))
     found /= _weights(m + p, n + q)
     return found
 
@@ -77,8 +84,12 @@ def _elevation(degree: int, by: int) -> FloatArray:
 
 
 def across(left: FloatArray, a: FloatArray, right: FloatArray) -> FloatArray:
-    """Apply one matrix to the rows (u) and another to the columns (v) of coefficients."""
-    found: FloatArray = left @ a @ right.T
+    """Apply one matrix to the rows (u) and another to the columns (v) of coefficients.
+
+    Coefficients are laid one behind the other first: only then has a matrix product the same bits
+    for one polynomial, alone or in a batch.
+    """
+    found: FloatArray = left @ np.ascontiguousarray(a) @ right.T
     return found
 
 
@@ -127,7 +138,8 @@ def v_derivative(a: FloatArray) -> FloatArray:
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
     """Give the scalar product of vectors (..., 3, m + 1, n + 1)."""
-    return np.asarray(multiply(a, b).sum(axis=-3))
+    found = multiply(a, b)
+    return np.asarray(found[..., 0, :, :] + found[..., 1, :, :] + found[..., 2, :, :])
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -1,15 +1,19 @@
-"""Polynomials that have the sign of Gaussian and mean curvature, and what rounding may do to them.
+"""Polynomials that have the sign of Gaussian or mean curvature less a level, with error bounds.
 
-With S = r_u x r_v and the unnormalised second form L = S.r_uu, M = S.r_uv, N = S.r_vv
+With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3), so the sign of
 
-    A = L N - M**2         K = A / |S|**4
-    B = E N - 2 F M + G L  H = B / (2 |S|**3)
+    K                is that of  A                                (6m - 4, 6n - 4)
+    K - K0           is that of  A - K0 |S|**4                    (8m - 4, 8n - 4)
+    H                is that of  B                                (5m - 3, 5n - 3)
+    |H| - |H0|       is that of  B**2 - 4 H0**2 |S|**6            (10m - 6 and 12m - 6 in u)
+    k1 - k2 (>= 0)   is that of  B**2 - 4 A |S|**2                (10m - 6, 10n - 6)
 
-so K has the sign of A. All are polynomials in Bernstein form; beside A stands a bound of the error
-of each of its coefficients, found by the same algebra on amounts with all signs positive.
+for patches of degrees (m, n), which stand at the right. The true degrees of A are one less each
+way; reducing them saves no work. Beside the coefficients stand bounds of what each may be off by:
+rounding, with the control points taken as exact, and their uncertainty `delta`.
 
 Source: the idea of iso-curves of curvature on the patches of a plate is that of "Curvature Region
-Analysis for Application of Plates Forming", J. SNAK; the degrees and bounds here are our own.
+Analysis for Application of Plates Forming", J. SNAK; degrees and bounds are our own.
 
 Examples
 --------
@@ -25,30 +29,35 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches.algebra import (
-    add,
-    cross,
-    degrees,
-    dot,
-    elevated,
-    multiply,
-    subtract,
-    u_derivative,
-    v_derivative,
+from assoc_hull.geometry.patches.algebra import degrees, elevated, multiply
+from assoc_hull.geometry.patches.curvature_terms import (
+    Delta,
+    Steps,
+    Terms,
+    amounts,
+    area_squared,
+    gauss_numerator,
+    mean_numerator,
+    values,
 )  # fmt: skip
 from assoc_hull.geometry.patches.patches import Patches
 
-__all__ = ["IsoFunction", "gauss_function"]
+__all__ = [
+    "IsoFunction", "gauss_function", "gauss_functions", "mean_function", "umbilic_function",
+]  # fmt: skip
 
 _EPS = 2.0**-53
+_CHUNK = 64
+"""So many patches at once keep all coefficients in the cache of a processor."""
 
-Operation = Callable[[FloatArray, FloatArray], FloatArray]
+_ELEVATION = 60.0
+"""Roundings of raising A to the degrees of |S|**4, and of the difference: for degree 7 about 50."""
 
 
 @attrs.frozen(eq=False)
@@ -70,7 +79,140 @@ class IsoFunction:
         freeze(self.b, self.err)
 
 
-def gauss_function(patches: Patches, level: float, delta: float = 0.0) -> IsoFunction:
+@attrs.frozen(eq=False)
+class _Bounded:
+    """Coefficients with their amounts: as the control points are, and as they may be.
+
+    Attributes
+    ----------
+    b : (k, M + 1, N + 1)
+        The coefficients.
+    amount, wide : (k, M + 1, N + 1)
+        The amounts for control points that are exact, and that are off by delta; the same array
+        if they are exact.
+    steps : float
+        The roundings, with a margin.
+    """
+
+    b: FloatArray
+    amount: FloatArray
+    wide: FloatArray
+    steps: float
+
+    @property
+    def err(self) -> FloatArray:
+        """What each coefficient may be off by; the amounts themselves are rounded too."""
+        if self.wide is self.amount:
+            return np.asarray(self.steps * _EPS * self.amount)
+        return np.asarray(self.wide - self.amount + 3.0 * self.steps * _EPS * self.wide)
+
+    def times(self, other: _Bounded, steps: float) -> _Bounded:
+        """Give the product, with the roundings it has."""
+        amount = multiply(self.amount, other.amount)
+        exact = self.wide is self.amount
+        wide = amount if exact else multiply(self.wide, other.wide)
+        return _Bounded(multiply(self.b, other.b), amount, wide, steps)
+
+
+def _margin(steps: Steps, least: float) -> float:
+    """Give the factor of the rounding bound: a little above the count, at least that given."""
+    return max(least, 1.15 * steps.count)
+
+
+class _Bases:
+    """The terms of some patches: values, amounts, and amounts of what may be wrong."""
+
+    def __init__(self, patches: Patches, delta: Delta) -> None:
+        self.values = values(patches)
+        self.amounts = amounts(self.values, 0.0)
+        self.wide = amounts(self.values, delta) if np.any(delta) else self.amounts
+        self.steps = Steps.of(*patches.degrees)
+
+    def bounded(self, rule: Callable[[Terms], FloatArray], name: str, least: float) -> _Bounded:
+        """Run a formula on values and amounts."""
+        b, amount = rule(self.values), rule(self.amounts)
+        wide = amount if self.wide is self.amounts else rule(self.wide)
+        return _Bounded(b, amount, wide, _margin(self.steps[name], least))
+
+    def gauss(self) -> _Bounded:
+        return self.bounded(gauss_numerator, "gauss", 200.0)
+
+    def area(self) -> _Bounded:
+        return self.bounded(area_squared, "area", 120.0)
+
+    def mean(self) -> _Bounded:
+        return self.bounded(mean_numerator, "mean", 200.0)
+
+    def quartic(self, area: _Bounded) -> _Bounded:
+        """Give |S|**4 of |S|**2."""
+        steps = self.steps["area"]
+        return area.times(area, _margin(steps.times(steps), 350.0))
+
+
+def _less(a: _Bounded, factor: float, b: _Bounded) -> tuple[FloatArray, FloatArray]:
+    """Give a - factor b, where b is of the higher degrees, and what it may be off by."""
+    m, n = degrees(b.b)
+    off = elevated(a.err, m, n) + _ELEVATION * _EPS * elevated(np.abs(a.b), m, n)
+    return elevated(a.b, m, n) - factor * b.b, off + abs(factor) * b.err
+
+
+def _chunks(
+    patches: Patches, delta: Delta, rule: Callable[[_Bases], list[tuple[FloatArray, FloatArray]]]
+) -> tuple[IsoFunction, ...]:
+    """Run a rule on so many patches at once as fit the cache, and put the results together."""
+    each = np.broadcast_to(np.asarray(delta, np.float64), len(patches))
+    parts = [slice(low, low + _CHUNK) for low in range(0, len(patches), _CHUNK)] or [slice(0)]
+    found = [rule(_Bases(patches[part], each[part])) for part in parts]
+    return tuple(
+        IsoFunction(*(np.concatenate([pair[i] for pair in column]) for i in (0, 1)))
+        for column in zip(*found, strict=True)
+    )
+
+
+def gauss_functions(
+    patches: Patches, levels: Sequence[float], delta: Delta = 0.0
+) -> tuple[IsoFunction, ...]:
+    """Give polynomials that are positive where the Gaussian curvature exceeds levels.
+
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    levels : sequence of float, 1/m2
+        The curvatures K0. A and |S|**4 are found once for all of them.
+    delta : float or (k,), m
+        Each coordinate of a control point may be wrong by so much: one for all or each patch.
+
+    Returns
+    -------
+    tuple of IsoFunction
+        One a level: A, of degrees (6m - 4, 6n - 4), for 0; else A - K0 |S|**4, of degrees
+        (8m - 4, 8n - 4). What is found for a patch does not depend on the others, to the last bit.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.curvature_functions import gauss_functions
+    >>> from assoc_hull.geometry.patches.patches import Patches
+    >>> net = np.zeros((2, 2, 3))
+    >>> net[1, :, 0] = net[:, 1, 1] = net[1, 1, 2] = 1.0
+    >>> zero, below = gauss_functions(Patches.single(net), (0.0, -2.0))
+    >>> zero.b.max().item(), below.b[0, 0, 0].item()
+    (-1.0, 1.0)
+    """
+
+    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
+        a = bases.gauss()
+        quartic = bases.quartic(bases.area()) if any(levels) else None
+        return [
+            (a.b, a.err) if quartic is None or level == 0.0 else _less(a, level, quartic)
+            for level in levels
+        ]
+
+    return _chunks(patches, delta, rule)
+
+
+def gauss_function(patches: Patches, level: float, delta: Delta = 0.0) -> IsoFunction:
     """Give the polynomial that is positive where the Gaussian curvature exceeds a level.
 
     Parameters
@@ -78,66 +220,92 @@ def gauss_function(patches: Patches, level: float, delta: float = 0.0) -> IsoFun
     patches : Patches
         The patches.
     level : float, 1/m2
-        The curvature K0; for 0 the polynomial is A itself, else A - K0 |S|**4.
-    delta : float, m
+        The curvature K0.
+    delta : float or (k,), m
         Each coordinate of a control point may be wrong by so much.
 
     Returns
     -------
     IsoFunction
-        Coefficients and their error bounds; degrees (6m - 4, 6n - 4) for 0, else (8m - 4, 8n - 4).
+        As `gauss_functions` gives for one level.
     """
-    r = patches.components
-    ru, rv = u_derivative(r), v_derivative(r)
-    s = cross(ru, rv)
-    second = u_derivative(ru), v_derivative(ru), v_derivative(rv)
-    a = _gauss(s, *second, subtract)
-    amount, normal = _amounts(ru, rv, 0.0)
-    err = 200.0 * _EPS * amount
-    if delta:
-        err = err + (_amounts(ru, rv, delta)[0] - amount)
-    if level == 0.0:
-        return IsoFunction(a, err)
-    return _shifted(a, err, level, s, normal)
+    return gauss_functions(patches, (level,), delta)[0]
 
 
-def _shifted(
-    a: FloatArray, err: FloatArray, level: float, s: FloatArray, normal: FloatArray
-) -> IsoFunction:
-    """Subtract the level times |S|**4, with the error of that."""
-    area, amount = dot(s, s), dot(normal, normal)
-    quartic, wide = multiply(area, area), multiply(amount, amount)
-    m, n = degrees(quartic)
-    raised = elevated(a, m, n)
-    off = elevated(err, m, n) + 60.0 * _EPS * elevated(np.abs(a), m, n)
-    return IsoFunction(raised - level * quartic, off + abs(level) * 350.0 * _EPS * wide)
+def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> IsoFunction:
+    """Give a polynomial with the zero set of the mean curvature less a level.
+
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    level : float, 1/m
+        The curvature H0, in the sense of r_u x r_v.
+    delta : float or (k,), m
+        Each coordinate of a control point may be wrong by so much.
+
+    Returns
+    -------
+    IsoFunction
+        For 0 it is B, positive where H is. Else it is B**2 - 4 H0**2 |S|**6, positive where
+        |H| > |H0|: of its zero set only the branch where B has the sign of H0 is wanted, the
+        other one is H = -H0.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.curvature_functions import mean_function
+    >>> from assoc_hull.geometry.patches.patches import Patches
+    >>> net = np.zeros((4, 4, 3))
+    >>> net[..., 0], net[..., 1] = np.mgrid[0:4, 0:4] / 3.0
+    >>> mean_function(Patches.single(net)).b.shape
+    (1, 13, 13)
+    """
+
+    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
+        b = bases.mean()
+        if level == 0.0:
+            return [(b.b, b.err)]
+        area, steps = bases.area(), bases.steps
+        square = b.times(b, _margin(steps["mean"].times(steps["mean"]), 500.0))
+        four = steps["area"].times(steps["area"])
+        sextic = bases.quartic(area).times(area, _margin(four.times(steps["area"]), 600.0))
+        return [_less(square, 4.0 * level**2, sextic)]
+
+    return _chunks(patches, delta, rule)[0]
 
 
-def _gauss(
-    s: FloatArray, ruu: FloatArray, ruv: FloatArray, rvv: FloatArray, minus: Operation
-) -> FloatArray:
-    """Give L N - M**2, or with amounts and `add` what bounds the sizes of its terms."""
-    l, m, n = dot(s, ruu), dot(s, ruv), dot(s, rvv)
-    return minus(multiply(l, n), multiply(m, m))
+def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
+    """Give B**2 - 4 A |S|**2, which is nil where both principal curvatures are equal.
 
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    delta : float or (k,), m
+        Each coordinate of a control point may be wrong by so much.
 
-def _sums(a: FloatArray, axis: int) -> FloatArray:
-    """Bound the derivative of what has coefficients of these amounts."""
-    degree = a.shape[axis] - 1
-    if degree == 0:
-        return np.zeros_like(a)
-    low, high = a.take(range(degree), axis), a.take(range(1, degree + 1), axis)
-    return np.asarray(degree * (low + high))
+    Returns
+    -------
+    IsoFunction
+        Of degrees (10m - 6, 10n - 6); 4 (H**2 - K) |S|**6, so never below nil but by `err`.
 
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.curvature_functions import umbilic_function
+    >>> from assoc_hull.geometry.patches.patches import Patches
+    >>> net = np.zeros((4, 4, 3))
+    >>> net[..., 0], net[..., 1] = np.mgrid[0:4, 0:4] / 3.0
+    >>> umbilic_function(Patches.single(net)).b.shape
+    (1, 25, 25)
+    """
 
-def _amounts(ru: FloatArray, rv: FloatArray, delta: float) -> tuple[FloatArray, FloatArray]:
-    """Give the amounts that A and the vector S are summed of, coefficient by coefficient."""
-    m, n = ru.shape[-2], rv.shape[-1]
-    du, dv = np.abs(ru) + 2 * m * delta, np.abs(rv) + 2 * n * delta
-    ruu = _sums(np.abs(ru), -2) + 4 * m * (m - 1) * delta
-    ruv = _sums(np.abs(ru), -1) + 4 * m * n * delta
-    rvv = _sums(np.abs(rv), -1) + 4 * n * (n - 1) * delta
-    after, last = [1, 2, 0], [2, 0, 1]
-    s = multiply(du[..., after, :, :], dv[..., last, :, :])
-    s += multiply(du[..., last, :, :], dv[..., after, :, :])
-    return _gauss(s, ruu, ruv, rvv, add), s
+    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
+        b, steps = bases.mean(), bases.steps
+        square = b.times(b, _margin(steps["mean"].times(steps["mean"]), 500.0))
+        both = steps["gauss"].times(steps["area"])
+        product = bases.gauss().times(bases.area(), _margin(both, 500.0))
+        return [_less(square, 4.0, product)]
+
+    return _chunks(patches, delta, rule)[0]

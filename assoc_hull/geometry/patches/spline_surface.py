@@ -235,7 +235,8 @@ class SplineSurface:
         Returns
         -------
         SplineSurface
-            The part, by knot insertion. Patches that it holds whole are those of the surface.
+            The part, by knot insertion. Patches that it holds whole are those of the
+            surface, to rounding.
 
         Raises
         ------
