@@ -73,7 +73,7 @@ def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 @cache
-def _elevation(degree: int, by: int) -> FloatArray:
+def elevation(degree: int, by: int) -> FloatArray:
     """Give the matrix (degree + by + 1, degree + 1) that raises a degree."""
     found = np.zeros((degree + by + 1, degree + 1))
     for i in range(degree + by + 1):
@@ -98,7 +98,7 @@ def elevated(a: FloatArray, m: int, n: int) -> FloatArray:
     p, q = degrees(a)
     if (p, q) == (m, n):
         return a
-    return across(_elevation(p, m - p), a, _elevation(q, n - q))
+    return across(elevation(p, m - p), a, elevation(q, n - q))
 
 
 def _alike(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:

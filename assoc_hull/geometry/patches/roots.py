@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.algebra import binomials
 
-__all__ = ["crossing"]
+__all__ = ["crossing", "powers"]
 
 # How far a bracket reaches over both ends: a root at an end may lie beyond by rounding.
 _BEYOND = 1e-9
@@ -91,8 +91,8 @@ def _summed(terms: FloatArray) -> FloatArray:
     return terms[..., 0, :]
 
 
-def _powers(s: FloatArray, count: int) -> FloatArray:
-    """Give s to the powers 0, 1, ..., count - 1: (count, r)."""
+def powers(s: FloatArray, count: int) -> FloatArray:
+    """Give s (r,) to the powers 0, 1, ..., count - 1, at least two: (count, r)."""
     table = np.empty((count, len(s)))
     table[0], table[1] = 1.0, s
     done = 2
@@ -127,7 +127,7 @@ class _Search:
         """Take a step; tell which rows are done."""
         x, degree = self.x, self.pair.shape[1] - 1
         ratio = 1.0 / (1.0 - x)
-        value, slope = _summed(self.pair * _powers(x * ratio, degree + 1))
+        value, slope = _summed(self.pair * powers(x * ratio, degree + 1))
         slope = (slope * ratio - degree * value) * ratio
         np.copyto(self.low, x, where=value < 0.0)
         np.copyto(self.high, x, where=value > 0.0)

@@ -1,0 +1,120 @@
+"""Signs of Bernstein coefficients that are known to some error, and what follows from them.
+
+A coefficient has a sign where it exceeds its error; else it lies in the *dead band* and has none.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.signs import changes, signs
+>>> s = signs(np.array([[2.0, 1e-9, -1.0, -2.0]]), np.array([[1e-6, 1e-6, 1e-6, 1e-6]]))
+>>> s.tolist(), changes(s).tolist()
+([[1, 0, -1, -1]], [1])
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.cells import CellKind
+
+__all__ = ["changes", "edge_lines", "first_and_last", "kinds", "signs"]
+
+Signs = NDArray[np.int8]
+
+
+def signs(b: FloatArray, err: FloatArray) -> Signs:
+    """Give 1 above the dead band, -1 below it, 0 within."""
+    return np.asarray((b > err).astype(np.int8) - (b < -err).astype(np.int8))
+
+
+def carried(s: Signs) -> Signs:
+    """Give each coefficient in the dead band the sign of the one before it, if any."""
+    place = np.where(s != 0, np.arange(s.shape[-1]), 0)
+    return np.take_along_axis(s, np.maximum.accumulate(place, axis=-1), axis=-1)
+
+
+def changes(s: Signs) -> NDArray[np.intp]:
+    """Count the changes of sign along the last axis; the dead band is passed over."""
+    full = carried(s)
+    return np.asarray(np.count_nonzero(full[..., 1:] * full[..., :-1] < 0, axis=-1))
+
+
+def first_and_last(s: Signs) -> tuple[Signs, Signs]:
+    """Give the first and the last sign along the last axis; 0 where there is none."""
+    full, back = carried(s), carried(s[..., ::-1])
+    return back[..., -1], full[..., -1]
+
+
+def edge_lines(b: FloatArray, err: FloatArray) -> NDArray[np.bool_]:
+    """Tell on which edges of its square a polynomial is nil.
+
+    Parameters
+    ----------
+    b, err : (k, M + 1, N + 1)
+        Coefficients and their errors.
+
+    Returns
+    -------
+    (k, 4) bool
+        Whether all coefficients on the edges u = 0, u = 1, v = 0, v = 1 lie in the dead band.
+    """
+    dead = signs(b, err) == 0
+    edges = dead[:, 0], dead[:, -1], dead[:, :, 0], dead[:, :, -1]
+    return np.stack([edge.all(axis=1) for edge in edges], axis=1)
+
+
+def kinds(b: FloatArray, err: FloatArray) -> NDArray[np.intp]:
+    """Tell what the coefficients prove of the signs in a cell.
+
+    Coefficients of one sign prove that the polynomial has it, in the open cell also where some
+    are nil. Where all differences in u have one sign, beyond their error, and each of the edges
+    u = 0 and u = 1 changes sign at most once, a line v = constant meets the zero set at most once,
+    no loop has room, and there is one arc at most; if the edges leave none, the sign is known.
+
+    Parameters
+    ----------
+    b, err : (c, M + 1, N + 1)
+        Coefficients and their errors.
+
+    Returns
+    -------
+    (c,) int
+        A `CellKind` each; UNRESOLVED where nothing is proved.
+    """
+    flat, wide = b.reshape(len(b), -1), err.reshape(len(b), -1)
+    above, below = (flat > wide).any(axis=1), (flat < -wide).any(axis=1)
+    found = np.where(above, 1, 0) - np.where(below, 1, 0)
+    open_ = np.flatnonzero(above & below)
+    found[open_] = _simple(b[open_], err[open_])
+    return found
+
+
+def _simple(b: FloatArray, err: FloatArray) -> NDArray[np.intp]:
+    """Tell what is proved where both signs occur."""
+    u, u_size = _along(b, err)
+    v, v_size = _along(b.swapaxes(1, 2), err.swapaxes(1, 2))
+    over = (v == CellKind.U_SIMPLE) & (u == CellKind.U_SIMPLE) & (v_size > u_size)
+    v = np.where(v == CellKind.U_SIMPLE, CellKind.V_SIMPLE, v)
+    return np.where((u == CellKind.UNRESOLVED) | over, v, u)
+
+
+def _along(b: FloatArray, err: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    """Tell what the differences along the first axis of a cell prove, and how large they are."""
+    found = np.full(len(b), int(CellKind.UNRESOLVED))
+    size = np.zeros(len(b))
+    step, wide = np.diff(b, axis=1), err[:, 1:] + err[:, :-1]
+    rising = np.asarray((step > wide).all(axis=(1, 2)))
+    rows = np.flatnonzero(rising | (step < -wide).all(axis=(1, 2)))
+    if not len(rows):
+        return found, size
+    ends = signs(b[rows][:, [0, -1]], err[rows][:, [0, -1]])
+    once = (changes(ends) <= 1).all(axis=1)
+    rows, ends = rows[once], ends[once]
+    ends = np.where(rising[rows, None, None], ends, ends[:, ::-1])
+    found[rows] = CellKind.U_SIMPLE
+    found[rows[(ends[:, 0] >= 0).all(axis=1)]] = CellKind.POSITIVE
+    found[rows[(ends[:, 1] <= 0).all(axis=1)]] = CellKind.NEGATIVE
+    size[rows] = np.abs(step[rows]).sum(axis=(1, 2))
+    return found, size
