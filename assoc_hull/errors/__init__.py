@@ -39,6 +39,7 @@ from assoc_hull.errors.family import (
     WrongTypeError,
 )
 from assoc_hull.errors.forms import DegenerateEndsError, NoMiddleVertexError
+from assoc_hull.errors.regions import DanglingArcError
 
 __all__ = [
     "AbsentParameterError",
@@ -46,6 +47,7 @@ __all__ = [
     "BadInputError",
     "CoincidentPointsError",
     "DamagedFileError",
+    "DanglingArcError",
     "DegenerateEndsError",
     "DependentTargetsError",
     "FileBusyError",

@@ -38,6 +38,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ValueError,
         ["curve 'ST 7'", "1.5000", "2.2500", "3.1250", "2e-08 m", "1e-06 m", "delete"],
     ),
+    (
+        errors.DanglingArcError(2, 0, 7, (0.125, 0.75), 3e-6),
+        ArithmeticError,
+        ["2 ends", "surface 0", "patch 7", "u = 0.125", "v = 0.75", "3e-06", "larger delta"],
+    ),
     (errors.NameTakenError("line", "WL 1"), ValueError, ["line", "'WL 1'", "choose"]),
     (
         errors.UnknownNameError("line", "WL 9", ("WL 1", "BL 2", "profile")),

@@ -22,7 +22,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import Arcs
 from assoc_hull.geometry.patches.touching import connected
 
-__all__ = ["Chains", "chained", "forward"]
+__all__ = ["Chains", "chained", "directed", "forward"]
 
 
 @attrs.frozen(eq=False)
@@ -49,6 +49,15 @@ class Chains:
     def __len__(self) -> int:
         """Count the chains."""
         return len(self.closed)
+
+    @property
+    def firsts(self) -> IntArray:
+        """The first arc of each chain."""
+        return np.asarray(self.arcs[self.start[:-1]])
+
+    def of(self, chain: int) -> IntArray:
+        """Give the arcs of one chain."""
+        return self.arcs[self.start[chain] : self.start[chain + 1]]
 
 
 def forward(arcs: Arcs) -> NDArray[np.bool_]:

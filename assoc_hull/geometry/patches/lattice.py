@@ -76,7 +76,7 @@ class Lattice:
 
 
 def _positions(surface: IntArray, span: FloatArray) -> IntArray:
-    """Number the spans (k, 2) of patches: those that meet by one more, others further apart."""
+    """Give numbers to spans (k, 2): those that meet differ by one, others by more."""
     keys = np.stack([surface.astype(np.float64), span[:, 0]])
     distinct, first, which = np.unique(keys, axis=1, return_index=True, return_inverse=True)
     last = span[first, 1]

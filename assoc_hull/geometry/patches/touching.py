@@ -59,7 +59,7 @@ def touching(low: FloatArray, high: FloatArray, tolerance: float) -> IntArray:
 
 
 def connected(count: int, pairs: IntArray) -> IntArray:
-    """Number the parts (count,) into which pairs (p, 2) connect what there is, by their first."""
+    """Give numbers (count,) to the parts into which pairs (p, 2) connect, by their first ones."""
     ones = np.ones(len(pairs), bool)
     graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     labels = connected_components(graph, directed=False)[1]
@@ -68,5 +68,5 @@ def connected(count: int, pairs: IntArray) -> IntArray:
 
 
 def clusters(low: FloatArray, high: FloatArray, tolerance: float) -> IntArray:
-    """Number the clusters of boxes (n, 2) that touch."""
+    """Give numbers to the clusters of boxes (n, 2) that touch."""
     return connected(len(low), touching(low, high, tolerance))

@@ -1,0 +1,165 @@
+"""Clusters: cells that touch in which the sign is undecided or nil, and what can be said of them.
+
+In a *regular* cluster one derivative has one sign for certain, in all its cells: the zero set is a
+graph there, without loop or crossing. It is undecided only because a border of cells touches the
+line. A *singular* cluster lies where the surface stretches its parameters to nothing: the
+polynomial is nil there whatever the curvature.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.cells import CellKind, Cells
+>>> from assoc_hull.geometry.patches.clusters import clusters_of
+>>> from assoc_hull.geometry.patches.lattice import Lattice
+>>> whole, none = np.array([[[0.0, 1.0]] * 2]), np.zeros((0, 2, 2))
+>>> zero = np.array([0])
+>>> cells = Cells(zero, whole, zero, np.array([CellKind.ZERO]), zero - 1, none, none, zero > 0)
+>>> len(clusters_of(cells, Lattice.apart(1)))
+1
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.patches.cells import CellKind, Cells
+from assoc_hull.geometry.patches.lattice import Lattice
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.points import stretch
+from assoc_hull.geometry.patches.touching import clusters
+
+__all__ = ["Clusters", "clusters_of", "singular"]
+
+TOUCHING = 1e-9
+
+# Where |r_u x r_v| is less than this part of its mean over the patch, the surface is singular.
+_SINGULAR = 1e-4
+
+
+@attrs.frozen(eq=False)
+class Clusters:
+    """Clusters of cells, and the points that touch them.
+
+    Attributes
+    ----------
+    cell : (c,) int
+        The cells that are in clusters.
+    cluster : (c,) int
+        The cluster of each.
+    at_point : (p,) int
+        The cluster that each of the given points touches, or -1.
+    unresolved : (n,) bool
+        Whether a cluster has a cell in which the sign is undecided.
+    flat : (n,) bool
+        Whether it has a cell in which the polynomial is nil.
+    regular : (n,) bool
+        Whether the zero set is a graph in the cluster.
+    """
+
+    cell: IntArray
+    cluster: IntArray
+    at_point: IntArray
+    unresolved: NDArray[np.bool_]
+    flat: NDArray[np.bool_]
+    regular: NDArray[np.bool_]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.cell, self.cluster, self.at_point, self.unresolved)
+        freeze(self.flat, self.regular)
+
+    def __len__(self) -> int:
+        """Count the clusters."""
+        return len(self.regular)
+
+
+def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None) -> Clusters:
+    """Merge undecided and nil cells that touch.
+
+    Parameters
+    ----------
+    cells : Cells
+        All cells.
+    lattice : Lattice
+        Where their patches lie.
+    points : (p, 2), optional
+        Places, in the lattice, of which to tell the cluster that they touch.
+
+    Returns
+    -------
+    Clusters
+        Numbered by their first cells.
+    """
+    rows = np.flatnonzero((cells.kind == CellKind.ZERO) | (cells.kind == CellKind.UNRESOLVED))
+    points = np.zeros((0, 2)) if points is None else points
+    corner = lattice.corner[cells.patch[rows]]
+    low, high = corner + cells.box[rows, :, 0], corner + cells.box[rows, :, 1]
+    found = clusters(np.concatenate([low, points]), np.concatenate([high, points]), TOUCHING)
+    cluster, at_point = np.split(found, [len(rows)])
+    count = int(cluster.max(initial=-1)) + 1
+    nil = cells.kind[rows] == CellKind.ZERO
+    return Clusters(
+        rows, cluster, np.where(at_point < count, at_point, -1),
+        np.bincount(cluster[~nil], minlength=count) > 0,
+        np.bincount(cluster[nil], minlength=count) > 0,
+        _regular(cells, rows, cluster, count),
+    )  # fmt: skip
+
+
+def _regular(cells: Cells, rows: IntArray, cluster: IntArray, count: int) -> NDArray[np.bool_]:
+    """Tell in which clusters one derivative has one sign in all cells."""
+    row, found = cells.row[rows], np.zeros(count, bool)
+    known, every = row >= 0, np.bincount(cluster, minlength=count)
+    for axis in (1, 2):
+        sign = _monotone(cells.b[row[known]], cells.err[row[known]], axis)
+        total = np.bincount(cluster[known], sign, minlength=count)
+        found |= np.abs(total) == every
+    return found
+
+
+def _monotone(b: FloatArray, err: FloatArray, axis: int) -> IntArray:
+    """Tell the certain sign of a derivative of polynomials (n, M + 1, N + 1), or 0."""
+    slope, off = np.diff(b, axis=axis), _sums(err, axis)
+    rises, falls = (slope > off).all(axis=(1, 2)), (slope < -off).all(axis=(1, 2))
+    return np.asarray(rises.astype(np.intp) - falls)
+
+
+def _sums(err: FloatArray, axis: int) -> FloatArray:
+    """Add neighbours along an axis."""
+    last = err.shape[axis] - 1
+    return np.asarray(err.take(range(1, last + 1), axis) + err.take(range(last), axis))
+
+
+def singular(patches: Patches, cells: Cells, found: Clusters) -> NDArray[np.bool_]:
+    """Tell at which clusters the surface has no tangent plane.
+
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    cells : Cells
+        Their cells.
+    found : Clusters
+        The clusters of these.
+
+    Returns
+    -------
+    (n,) bool
+        Whether ``|r_u x r_v|`` falls below 1e-4 of its mean over the patch.
+    """
+    patch = cells.patch[found.cell]
+    here = stretch(patches, patch, cells.box[found.cell].mean(axis=2))
+    concerned, which = np.unique(patch, return_inverse=True)
+    low = here < _SINGULAR * _means(patches, concerned)[which.reshape(-1)]
+    return np.asarray(np.bincount(found.cluster[low], minlength=len(found)) > 0)
+
+
+def _means(patches: Patches, concerned: IntArray) -> FloatArray:
+    """Give the mean stretch of some patches, over the midpoints of 6 x 6 parts."""
+    middles = (np.arange(6) + 0.5) / 6.0
+    uv = np.stack(np.meshgrid(middles, middles, indexing="ij"), axis=-1).reshape(-1, 2)
+    patch = np.repeat(concerned, len(uv))
+    values = stretch(patches, patch, np.tile(uv, (len(concerned), 1)))
+    return np.asarray(values.reshape(-1, len(uv)).mean(axis=1))
