@@ -18,7 +18,9 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 __all__ = ["plates", "read_surfaces"]
 
 
-def read_surfaces(path: str | os.PathLike[str], unit: str | None = None) -> tuple[SplineSurface, ...]:
+def read_surfaces(
+    path: str | os.PathLike[str], unit: str | None = None
+) -> tuple[SplineSurface, ...]:
     """Read surfaces."""
     raise NotImplementedError
 

@@ -1,12 +1,12 @@
 """Areas inside and outside a band, from the areas above and below each of its two limits.
 
-Of a search for K = K0 come P (K > K0), N (K < K0), Z (K = K0 to rounding) and U (unresolved), of one
-for K = -K0 likewise p, n, z, u. Then
+Of a search for K = K0 come P (K > K0), N (K < K0), Z (K = K0 to rounding) and U (unresolved), of
+one for K = -K0 likewise p, n, z, u. Then
 
     positive = P,  negative = n,  unresolved = U + u,  zero = N + Z - n - u
 
-so that the four add up to P + N + Z + U, which has to be the whole area, found by itself. A spot that
-is unresolved in both searches counts twice as such, never as zero.
+so that the four add up to P + N + Z + U, which has to be the whole area, found by itself. A spot
+that is unresolved in both searches counts twice as such, never as zero.
 
 Examples
 --------

@@ -89,7 +89,8 @@ def curvature_regions(
     Raises
     ------
     BadInputError, WrongTypeError
-        No surfaces, numbers that are none, numbers that the mode does not use; a patch without area.
+        No surfaces, numbers that are none, numbers that the mode does not use; a patch without
+        area.
     DanglingArcError
         A line that ends where none can: a fault of this program.
 
@@ -120,7 +121,7 @@ def curvature_regions(
     batches = batches_of(given)
     require_area(given, batches)
     old = usable(previous, band, options)
-    found = [part_of(batch, band, options, old.get(batch.patches.degrees)) for batch in batches]
+    found = [part_of(batch, band, options, old.get(batch.kind)) for batch in batches]
     parts = tuple(part for part, _ in found)
     components = components_of(given, parts, options)
     notes = region_notes(given, parts, components, options)

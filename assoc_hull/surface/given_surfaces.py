@@ -24,7 +24,12 @@ from assoc_hull.geometry.patches.algebra import cross, u_derivative, v_derivativ
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["Batch", "batches_of", "diagonals", "given_surfaces", "name_of", "require_area"]
+__all__ = [
+    "Batch", "Kind", "batches_of", "diagonals", "given_surfaces", "kind_of", "name_of",
+    "require_area",
+]  # fmt: skip
+
+Kind = tuple[int, int, bool]
 
 _FLAT = 1e-12
 """A patch whose |S| stays below this part of the square of its diagonal has no area: rounding."""
@@ -32,10 +37,15 @@ _FLAT = 1e-12
 
 @attrs.frozen(eq=False)
 class Batch:
-    """Patches of one bidegree, and their numbers through all surfaces."""
+    """Patches of one bidegree, all rational or none, and their numbers through all surfaces."""
 
     patches: Patches
     number: IntArray
+
+    @property
+    def kind(self) -> Kind:
+        """What the patches have in common."""
+        return kind_of(self.patches)
 
 
 def given_surfaces(
@@ -76,15 +86,16 @@ def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[Batch, ...]:
     first = np.cumsum([0, *(len(patches) for patches in cut)])
     numbers = [np.arange(low, low + len(each)) for low, each in zip(first, cut, strict=False)]
     found = []
-    for degrees in sorted({patches.degrees for patches in cut}):
-        own = [i for i, patches in enumerate(cut) if patches.degrees == degrees]
-        patches = Patches(
-            np.concatenate([cut[i].net for i in own]),
-            np.concatenate([cut[i].box for i in own]),
-            np.concatenate([cut[i].surface for i in own]),
-        )
+    for kind in sorted({kind_of(patches) for patches in cut}):
+        own = [i for i, patches in enumerate(cut) if kind_of(patches) == kind]
+        patches = Patches.joined([cut[i] for i in own])
         found.append(Batch(patches, np.concatenate([numbers[i] for i in own])))
     return tuple(found)
+
+
+def kind_of(patches: Patches) -> Kind:
+    """Give what patches of one batch have in common: bidegree, and whether they are rational."""
+    return (*patches.degrees, patches.weight is not None)
 
 
 def diagonals(patches: Patches) -> np.typing.NDArray[np.float64]:

@@ -20,28 +20,31 @@ from assoc_hull.geometry.curves import IntArray
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 from assoc_hull.geometry.patches.gathering import gathered
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.surface.given_surfaces import Batch
+from assoc_hull.surface.given_surfaces import Batch, Kind, kind_of
 from assoc_hull.surface.region_options import RegionOptions
 from assoc_hull.surface.region_parts import RegionPart, Solution
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.solving import deltas, solved
 from assoc_hull.surface.zero_band import ZeroBand
 
-__all__ = ["keys_of", "part_of", "taken", "usable"]
+__all__ = ["keys_of", "part_of", "usable"]
 
 
 def keys_of(patches: Patches) -> list[bytes]:
-    """Give what the findings of each patch depend on: the bits of its control net."""
-    return [net.tobytes() for net in patches.net]
+    """Give what the findings of each patch depend on: the bits of its net and weights."""
+    if patches.weight is None:
+        return [net.tobytes() for net in patches.net]
+    pairs = zip(patches.net, patches.weight, strict=True)
+    return [net.tobytes() + weight.tobytes() for net, weight in pairs]
 
 
 def usable(
     previous: RegionResult | None, band: ZeroBand, options: RegionOptions
-) -> dict[tuple[int, int], RegionPart]:
-    """Give the parts of an earlier result by bidegree; none if it was made with other options."""
+) -> dict[Kind, RegionPart]:
+    """Give the parts of an earlier result by their kind; none if it was made with other options."""
     if previous is None or previous.band != band or previous.options != options:
         return {}
-    return {part.patches.degrees: part for part in previous.parts}
+    return {kind_of(part.patches): part for part in previous.parts}
 
 
 def part_of(
@@ -52,7 +55,7 @@ def part_of(
     rows, fresh = _sources(keys_of(batch.patches), keys_of(old.patches) if old else [], held)
     found = [(old.solutions, old.areas)] if old is not None else []
     if len(fresh):
-        found.append(solved(taken(batch.patches, fresh), band, options))
+        found.append(solved(batch.patches[fresh], band, options))
     solutions = tuple(
         _gathered([solution_row[level] for solution_row, _ in found], rows)
         for level in range(len(found[0][0]))
@@ -62,15 +65,11 @@ def part_of(
     return RegionPart(batch.patches, batch.number, solutions, areas, delta), len(fresh)
 
 
-def taken(patches: Patches, rows: IntArray) -> Patches:
-    """Give some patches of a batch."""
-    return Patches(patches.net[rows], patches.box[rows], patches.surface[rows])
-
-
 def _sources(keys: list[bytes], held: list[bytes], first: int) -> tuple[IntArray, IntArray]:
     """Give for each patch its row among what is held and then computed, and what to compute."""
     known = {key: row for row, key in reversed(list(enumerate(held)))}
-    rows, fresh = [], []
+    rows: list[int] = []
+    fresh: list[int] = []
     for place, key in enumerate(keys):
         if key not in known:
             known[key] = first + len(fresh)

@@ -32,10 +32,10 @@ def region_notes(
     options: RegionOptions,
 ) -> tuple[str, ...]:
     """Give what is to be known of a result, a sentence each, by surface."""
-    found = []
+    found: list[str] = []
     for number in range(len(surfaces)):
         name = name_of(surfaces, number)
-        own = [part for part in parts if (part.patches.surface == number).any()][0]
+        own = next(part for part in parts if (part.patches.surface == number).any())
         pieces = [piece for piece in components if piece.surface == number]
         found += _stops(own, number, name, options)
         found += _unresolved(own, number, name, options)

@@ -54,9 +54,7 @@ def solved(
     return tuple(solutions), _areas(patches, solutions[: len(band.levels)], options)
 
 
-def _areas(
-    patches: Patches, solutions: list[Solution], options: RegionOptions
-) -> FloatArray:
+def _areas(patches: Patches, solutions: list[Solution], options: RegionOptions) -> FloatArray:
     """Give the areas of the regions, (k, 8), m2."""
     found = [
         np.column_stack([getattr(areas, name) for name in AREAS])

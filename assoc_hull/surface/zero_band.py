@@ -99,7 +99,7 @@ def zero_band(
         what = f"k0 is given beside zero={mode!r}, which does not use it"
         raise BadInputError(what, where, "leave k0 out, or give zero='absolute'")
     if mode == "strain":
-        level = positive(8.0 * strain / width**2, "8 strain_tol / breadth**2", where)
+        level = positive(8.0 * strain / width / width, "8 strain_tol / breadth**2", where)
         return ZeroBand(mode, level, strain, width, off or 0.0)
     _require_defaults(mode, strain, width, where)
     if mode == "exact":

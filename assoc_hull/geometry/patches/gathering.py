@@ -46,9 +46,7 @@ def rows_of(counts: IntArray, chosen: IntArray) -> tuple[IntArray, IntArray]:
     return start[chosen][owner] + within, owner
 
 
-def gathered(
-    cells: Sequence[Cells], arcs: Sequence[Arcs], chosen: IntArray
-) -> tuple[Cells, Arcs]:
+def gathered(cells: Sequence[Cells], arcs: Sequence[Arcs], chosen: IntArray) -> tuple[Cells, Arcs]:
     """Give cells and arcs of chosen patches.
 
     Parameters
