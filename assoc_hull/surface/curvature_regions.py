@@ -123,7 +123,7 @@ def curvature_regions(
     old = usable(previous, band, options)
     found = [part_of(batch, band, options, old.get(batch.kind)) for batch in batches]
     parts = tuple(part for part, _ in found)
-    components = components_of(given, parts, options)
+    components = components_of(parts, options)
     notes = region_notes(given, parts, components, options)
     computed = sum(count for _, count in found)
     return RegionResult(given, band, options, parts, components, computed, notes)

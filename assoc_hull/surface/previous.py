@@ -17,7 +17,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from assoc_hull.geometry.curves import IntArray
-from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 from assoc_hull.geometry.patches.gathering import gathered
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.surface.given_surfaces import Batch, Kind, kind_of
@@ -81,6 +80,5 @@ def _sources(keys: list[bytes], held: list[bytes], first: int) -> tuple[IntArray
 def _gathered(tables: Sequence[Solution], rows: IntArray) -> Solution:
     """Give what is known of chosen patches for one level."""
     cells, arcs = gathered([each.cells for each in tables], [each.arcs for each in tables], rows)
-    b = np.concatenate([each.function.b for each in tables])[rows]
-    err = np.concatenate([each.function.err for each in tables])[rows]
-    return Solution(tables[0].level, IsoFunction(b, err), cells, arcs)
+    edges = np.concatenate([each.edges for each in tables])[rows]
+    return Solution(tables[0].level, cells, arcs, edges)

@@ -5,7 +5,147 @@ Examples
 >>> import assoc_hull as ah
 >>> import numpy as np
 >>> u, v = np.mgrid[0:4, 0:4] / 3.0
->>> net = np.stack([u, v, np.array([0.0, 0.0, 0.0, 1.0])[:, None] + 0.1 * v**2], axis=-1)
->>> [piece.kind for piece in ah.curvature_regions(net, zero="exact").components]
-[]
+>>> wave = np.array([0.0, -0.5, -0.5, 0.8])[:, None]
+>>> net = np.stack([2 * u, v, wave + 0.1 * v * (v > 0.5)], axis=-1)
+>>> [(piece.kind, piece.level) for piece in ah.curvature_regions(net, zero="exact").components]
+[('open', 0.0)]
 """
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.patches.chains import forward
+from assoc_hull.geometry.patches.components import Component as Joined
+from assoc_hull.geometry.patches.components import ComponentKind
+from assoc_hull.geometry.patches.gathering import rows_of
+from assoc_hull.geometry.patches.joining import joined
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.points import points
+from assoc_hull.geometry.patches.sampling import sampled
+from assoc_hull.surface.edge_polylines import edge_polyline
+from assoc_hull.surface.region_component import Component
+from assoc_hull.surface.region_options import RegionOptions
+from assoc_hull.surface.region_parts import RegionPart, Solution
+
+__all__ = ["components_of"]
+
+_SAME = 1e-9
+"""In parameters of a patch: ends of arcs that are nearer are one point."""
+
+
+def components_of(parts: Sequence[RegionPart], options: RegionOptions) -> tuple[Component, ...]:
+    """Join the arcs of all parts, level by level, surface by surface.
+
+    Raises
+    ------
+    DanglingArcError
+        A line ends where none can.
+    """
+    found = [
+        (order, piece)
+        for part in parts
+        for order, solution in enumerate(part.solutions)
+        for piece in _pieces(part, solution, options.chord_tol)
+    ]
+    found.sort(key=lambda each: (each[0], each[1].surface))
+    return tuple(piece for _, piece in found)
+
+
+def _pieces(part: RegionPart, solution: Solution, chord_tol: float) -> list[Component]:
+    """Give the components of one level of one part."""
+    patches = part.patches
+    lines = joined(patches, solution.cells, solution.arcs, solution.edges)
+    if not lines:
+        return []
+    samples = _Samples.of(patches, solution, chord_tol)
+    return [_component(part, solution, samples, line, chord_tol) for line in lines]
+
+
+@attrs.frozen(eq=False)
+class _Samples:
+    """Points of all arcs, those of each in the direction of a walk with K above on the left.
+
+    Attributes
+    ----------
+    count : (a,) int
+        How many points each arc has.
+    place : (p, 2)
+        Parameters of the patch.
+    uv, xyz : (p, 2), (p, 3)
+        Parameters of the surface; points in space, m.
+    """
+
+    count: IntArray
+    place: FloatArray
+    uv: FloatArray
+    xyz: FloatArray
+
+    @classmethod
+    def of(cls, patches: Patches, solution: Solution, chord_tol: float) -> _Samples:
+        """Sample all arcs as finely as the tolerance wants."""
+        cells, arcs = solution.cells, solution.arcs
+        start, place = sampled(patches, cells, arcs, chord_tol)
+        count = np.diff(start)
+        rows, arc = rows_of(count, np.arange(len(arcs)))
+        last = start[arc] + start[arc + 1] - 1
+        place = place[np.where(forward(arcs)[arc], rows, last - rows)]
+        patch = cells.patch[arcs.cell][arc]
+        return cls(count, place, patches.parameters(patch, place), points(patches, patch, place))
+
+    def chain(self, arcs: IntArray, loop: bool) -> tuple[FloatArray, FloatArray]:
+        """Give the polyline along some arcs; points that two of them share once."""
+        rows, arc = rows_of(self.count, arcs)
+        uv, xyz = self.uv[rows], self.xyz[rows]
+        first = np.flatnonzero(np.diff(arc, prepend=arc[0]))
+        same = np.abs(uv[first] - uv[first - 1]).max(axis=1) <= _SAME
+        kept = np.ones(len(rows), np.bool_)
+        kept[first[same]] = False
+        uv, xyz = uv[kept], xyz[kept]
+        if not loop:
+            return uv, xyz
+        end = len(uv) - 1 if np.abs(uv[-1] - uv[0]).max() <= _SAME else len(uv)
+        return np.concatenate([uv[:end], uv[:1]]), np.concatenate([xyz[:end], xyz[:1]])
+
+
+def _component(
+    part: RegionPart, solution: Solution, samples: _Samples, line: Joined, chord_tol: float
+) -> Component:
+    """Give one component with its polylines."""
+    patches = part.patches
+    if line.kind is ComponentKind.ISOLATED:
+        drawn = [_spot(patches, solution, line.cells)]
+    elif line.kind is ComponentKind.EDGE_LINE:
+        drawn = [edge_polyline(patches, *edge, chord_tol) for edge in line.edges.tolist()]
+    else:
+        pairs = zip(line.chains, line.loops, strict=True)
+        drawn = [samples.chain(arcs, loop) for arcs, loop in pairs]
+    return Component(
+        line.kind.value,
+        solution.level,
+        int(patches.surface[line.patches[0]]),
+        tuple(part.number[line.patches].tolist()),
+        tuple(uv for uv, _ in drawn),
+        tuple(xyz for _, xyz in drawn),
+        _ends(line),
+        line.tags,
+    )
+
+
+def _ends(line: Joined) -> int:
+    """Count the ends of lines at a junction, or of an open line."""
+    return line.meetings if line.kind is ComponentKind.JUNCTION else len(line.end_kinds)
+
+
+def _spot(
+    patches: Patches, solution: Solution, rows: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give the middle of the cell that is most in the middle of some."""
+    patch, middle = solution.cells.patch[rows], solution.cells.box[rows].mean(axis=2)
+    uv = patches.parameters(patch, middle)
+    best = [int(np.argmin(np.linalg.norm(uv - uv.mean(axis=0), axis=1)))]
+    return uv[best], points(patches, patch[best], middle[best])

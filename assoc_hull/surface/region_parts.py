@@ -13,10 +13,11 @@ Examples
 from __future__ import annotations
 
 import attrs
+import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import Arcs, Cells
-from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.surface.region_areas import RegionAreas
 
@@ -34,18 +35,21 @@ class Solution:
     ----------
     level : float, 1/m2
         The Gaussian curvature.
-    function : IsoFunction
-        The polynomials; positive where K exceeds the level.
     cells : Cells
         Where K exceeds the level, where it is below, where neither is known.
     arcs : Arcs
         Where it has this value.
+    edges : (k, 4) bool
+        Along which sides of each patch (u = 0, u = 1, v = 0, v = 1) it has this value.
     """
 
     level: float
-    function: IsoFunction
     cells: Cells
     arcs: Arcs
+    edges: NDArray[np.bool_]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.edges)
 
 
 @attrs.frozen(eq=False)

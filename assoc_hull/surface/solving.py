@@ -9,12 +9,15 @@ Examples
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.arcs import arcs_of
-from assoc_hull.geometry.patches.areas import areas as areas_of
-from assoc_hull.geometry.patches.curvature_functions import gauss_functions
+from assoc_hull.geometry.patches.area_ground import AreaGround
+from assoc_hull.geometry.patches.areas import areas
+from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.surface.band_areas import band_areas
@@ -45,19 +48,25 @@ def solved(
     patches: Patches, band: ZeroBand, options: RegionOptions
 ) -> tuple[tuple[Solution, ...], FloatArray]:
     """Solve for all levels, and give the areas (k, 8) of the regions that the band parts."""
-    levels = levels_of(band, options)
     delta = deltas(patches, band)
-    solutions = []
-    for level, function in zip(levels, gauss_functions(patches, levels, delta), strict=True):
-        cells = solve(function, options.depth, options.budget)
-        solutions.append(Solution(level, function, cells, arcs_of(cells)))
-    return tuple(solutions), _areas(patches, solutions[: len(band.levels)], options)
+    levels = levels_of(band, options)
+    functions = gauss_functions(patches, levels, delta)
+    found = tuple(
+        _solution(level, function, options)
+        for level, function in zip(levels, functions, strict=True)
+    )
+    return found, _areas(patches, found[: len(band.levels)], options.area_tol)
 
 
-def _areas(patches: Patches, solutions: list[Solution], options: RegionOptions) -> FloatArray:
+def _solution(level: float, function: IsoFunction, options: RegionOptions) -> Solution:
+    """Solve for one level."""
+    cells = solve(function, options.depth, options.budget)
+    return Solution(level, cells, arcs_of(cells), edge_lines(function))
+
+
+def _areas(patches: Patches, solutions: Sequence[Solution], area_tol: float) -> FloatArray:
     """Give the areas of the regions, (k, 8), m2."""
-    found = [
-        np.column_stack([getattr(areas, name) for name in AREAS])
-        for areas in (areas_of(patches, each.cells, options.area_tol) for each in solutions)
-    ]
+    ground = AreaGround.of(patches, area_tol)
+    tables = [areas(patches, each.cells, each.arcs, area_tol, ground) for each in solutions]
+    found = [np.column_stack([getattr(table, name) for name in AREAS]) for table in tables]
     return found[0] if len(found) == 1 else band_areas(*found)
