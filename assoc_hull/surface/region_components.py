@@ -141,9 +141,7 @@ def _ends(line: Joined) -> int:
     return line.meetings if line.kind is ComponentKind.JUNCTION else len(line.end_kinds)
 
 
-def _spot(
-    patches: Patches, solution: Solution, rows: IntArray
-) -> tuple[FloatArray, FloatArray]:
+def _spot(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Give the middle of the cell that is most in the middle of some."""
     patch, middle = solution.cells.patch[rows], solution.cells.box[rows].mean(axis=2)
     uv = patches.parameters(patch, middle)

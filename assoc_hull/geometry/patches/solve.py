@@ -40,6 +40,9 @@ __all__ = ["FIRST_CUT", "solve"]
 
 FIRST_CUT = (0.4871, 0.5137)
 _EPS = 2.0**-53
+# From this level on, cells with no coefficient above so many errors are not cut: round a place
+# where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
+_FINE, _FAINT = 8, 8.0
 # Patches at a time, and cells cut at a time: their coefficients shall stay in the cache.
 _BATCH, _SLICE = 64, 128
 
@@ -49,6 +52,7 @@ def solve(
     depth: int = 16,
     budget: int = 6000,
     split: tuple[float, float] = FIRST_CUT,
+    nil: FloatArray | None = None,
 ) -> Cells:
     """Cover each patch with cells in which the sign is known, changes along one arc, or neither.
 
@@ -62,6 +66,10 @@ def solve(
         When more cells than this were looked at in a patch, none is cut any more.
     split : tuple of float
         Where u and v are cut first; later always in the middle.
+    nil : (k, M + 1, N + 1), optional
+        A polynomial whose coefficients are no larger than this counts as nil, in a cell and along
+        an edge: what they are known to, which may be more than rounding. Elsewhere the polynomial
+        is taken as it is, so that the arcs of neighbouring cells meet.
 
     Returns
     -------
@@ -72,7 +80,9 @@ def solve(
     parts = []
     for first in range(0, max(count, 1), _BATCH):
         rows = slice(first, first + _BATCH)
-        pair = np.stack([function.b[rows], function.err[rows]], axis=1)
+        layers = [function.b[rows], function.err[rows]]
+        layers += [] if nil is None else [np.maximum(nil[rows], function.err[rows])]
+        pair = np.stack(layers, axis=1)
         parts.append(_batch(without_edge_lines(pair), first, depth, budget, split))
     return _together(parts)
 
@@ -81,7 +91,8 @@ def solve(
 class _Part:
     """Cells of one level: what is proved of each, and the coefficients of those not pure.
 
-    `pair` holds coefficients and errors, (., 2, M + 1, N + 1).
+    `pair` holds coefficients, errors and, where it was given, what is nil: (., 2 or 3, M + 1,
+    N + 1).
     """
 
     patch: IntArray
@@ -97,7 +108,9 @@ class _Part:
 
 def _judged(patch: IntArray, box: FloatArray, pair: FloatArray) -> _Part:
     """Tell what is proved of cells, and let go of the coefficients of pure ones."""
-    kind = kinds(pair[:, 0], pair[:, 1])
+    kind = kinds(pair[:, 0], pair[:, 1], box == [0.0, 1.0])
+    if pair.shape[1] == 3:
+        kind[(np.abs(pair[:, 0]) <= pair[:, 2]).all(axis=(1, 2))] = CellKind.ZERO
     return _Part(patch, box, kind, pair[kind > CellKind.POSITIVE])
 
 
@@ -128,12 +141,20 @@ def _batch(
     for level in range(depth + 1):
         stopped |= seen > budget
         more = (cells.kind == CellKind.UNRESOLVED) & ~stopped[cells.patch] & (level < depth)
+        if level >= _FINE:
+            more[np.flatnonzero(cells.kind > CellKind.POSITIVE)[_faint(cells.pair)]] = False
         found.append(cells.at(~more))
         if not more.any():
             break
         seen += 4 * np.bincount(cells.patch[more], minlength=count)
         cells = _cut(cells.at(more), *(split if level == 0 else (0.5, 0.5)))
     return _sorted(found, first, stopped)
+
+
+def _faint(pair: FloatArray) -> NDArray[np.bool_]:
+    """Tell where no coefficient stands out of its errors."""
+    size = np.abs(pair).max(axis=(2, 3))
+    return np.asarray(size[:, 0] <= _FAINT * size[:, 1])
 
 
 @cache
@@ -145,16 +166,16 @@ def _both(degree: int, at: float) -> FloatArray:
 
 
 def _quartered(pair: FloatArray, u: float, v: float) -> FloatArray:
-    """Cut coefficients (c, 2, M + 1, N + 1) in four, in the order of `_quarters`.
+    """Cut coefficients (c, layers, M + 1, N + 1) in four, in the order of `_quarters`.
 
     One product per cell: what a cell gets does not depend on how many there are.
     """
-    count, _, rows, columns = pair.shape
+    count, layers, rows, columns = pair.shape
     pair = pair.copy()
-    pair[:, 1] += 16 * (rows + columns - 2) * _EPS * np.abs(pair[:, 0])
+    pair[:, 1:] += 16 * (rows + columns - 2) * _EPS * np.abs(pair[:, :1])
     found = _both(rows - 1, u) @ pair @ _both(columns - 1, v).T
-    parts = found.reshape(count, 2, 2, rows, 2, columns).transpose(0, 2, 4, 1, 3, 5)
-    return np.ascontiguousarray(parts).reshape(4 * count, 2, rows, columns)
+    parts = found.reshape(count, layers, 2, rows, 2, columns).transpose(0, 2, 4, 1, 3, 5)
+    return np.ascontiguousarray(parts).reshape(4 * count, layers, rows, columns)
 
 
 def _quarters(box: FloatArray, u: float, v: float) -> FloatArray:
