@@ -14,6 +14,7 @@ from __future__ import annotations
 import os
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.surface.plates import plates
 
 __all__ = ["plates", "read_surfaces"]
 
@@ -22,9 +23,4 @@ def read_surfaces(
     path: str | os.PathLike[str], unit: str | None = None
 ) -> tuple[SplineSurface, ...]:
     """Read surfaces."""
-    raise NotImplementedError
-
-
-def plates(surfaces: object) -> object:
-    """Classify plates."""
     raise NotImplementedError

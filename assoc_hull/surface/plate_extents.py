@@ -1,8 +1,9 @@
 """How long and how broad a plate is, and the axes that directions on it are told by.
 
 The axes are those of the second moments of area: e1 along the plate, e2 across, to the right of e1
-for who looks at the side that r_u x r_v points to, e3 = e1 x e2 away from him. Length and breadth are what the control points extend along e1 and e2, so
-never less than what the plate itself does; or the lengths of its seams where these are known.
+for who looks at the side that r_u x r_v points to, e3 = e1 x e2 away from him. Length and breadth
+are what the control points extend along e1 and e2, so never less than what the plate itself does;
+or the lengths of its seams where these are known.
 
 Examples
 --------

@@ -18,7 +18,7 @@ Examples
 >>> trough = np.stack([x, y, 0.2 * np.abs(y)], axis=-1)
 >>> found = roll_axis(curvature_nodes(Patches.single(trough)), np.eye(3))
 >>> round(found.angle_deg, 9), round(found.coherence, 9)
-(180.0, 1.0)
+(0.0, 1.0)
 """
 
 from __future__ import annotations
@@ -37,6 +37,9 @@ COHERENT = 0.8
 _STILL = 1e-9
 """A direction whose part in the plane of the plate is below this has no angle there."""
 
+_SAME_DEG = 1e-7
+"""So little below 180 degrees an axis is one of 0: what rounding makes of it."""
+
 
 @attrs.frozen(eq=False)
 class RollAxis:
@@ -45,7 +48,7 @@ class RollAxis:
     Attributes
     ----------
     angle_deg : float
-        From e1 towards e2, above 0 to 180 degrees; nan where nothing is bent.
+        From e1 towards e2, 0 to below 180 degrees; nan where nothing is bent.
     coherence : float
         How well the directions agree, 0 to 1; 0 where nothing is bent.
     direction : (3,)
@@ -69,7 +72,7 @@ class Rulings:
     station : (s,), m
         Distance of the middle of each stretch from the end of the plate, along e1.
     angle_deg : (s,)
-        Mean angle of the ruling there from e1 towards e2, above 0 to 180 degrees; nan where
+        Mean angle of the ruling there from e1 towards e2, 0 to below 180 degrees; nan where
         nothing is bent.
     radius : (s,), m
         One over the mean of the larger principal curvature; inf where nothing is bent.
@@ -150,6 +153,6 @@ def _turns(
 
 
 def _axis_deg(z: np.typing.NDArray[np.complex128]) -> FloatArray:
-    """Give the axis at right angles to a doubled direction, above 0 to 180 degrees."""
-    found = 0.5 * np.degrees(np.angle(z)) + 90.0
-    return np.where(found <= 0.0, found + 180.0, found)
+    """Give the axis at right angles to a doubled direction, 0 to below 180 degrees."""
+    found = np.mod(0.5 * np.degrees(np.angle(z)) + 90.0, 180.0)
+    return np.where(found > 180.0 - _SAME_DEG, 0.0, found)
