@@ -4,20 +4,69 @@ The face of what `surface` finds and `io` reads and writes.
 
 Examples
 --------
->>> from assoc_hull.plating import plates, read_surfaces
->>> plates.__name__, read_surfaces.__name__
-('plates', 'read_surfaces')
+>>> import assoc_hull as ah
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> with TemporaryDirectory() as folder:
+...     path = Path(folder) / "plates.csv"
+...     ah.plates(ah.examples.typical_plates()).save(path)
+...     len(path.read_text().splitlines())
+8
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec
+
+import attrs
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.plates_file import write_plates
 from assoc_hull.io.surface_file import read_surface_file
-from assoc_hull.surface.plates import plates
+from assoc_hull.surface.plate_table import Plates as FoundPlates
+from assoc_hull.surface.plates import plates as find_plates
 
-__all__ = ["plates", "read_surfaces"]
+__all__ = ["Plates", "plates", "read_surfaces"]
+
+Given = ParamSpec("Given")
+
+
+@attrs.frozen(eq=False)
+class Plates(FoundPlates):
+    """Plates that can be written; what they hold says `assoc_hull.surface.plate_table.Plates`."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the plates, as a table (``.csv``) or as a document (``.json``).
+
+        `assoc_hull.plot.plate_sheet.plate_sheet` draws them on a sheet, with the same table.
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+
+        Raises
+        ------
+        BadInputError
+            Another ending, or a file that cannot be written.
+        """
+        write_plates(self, path)
+
+
+def _that_can_be_written(find: Callable[Given, FoundPlates]) -> Callable[Given, Plates]:
+    """Give a function that finds plates as one of plates that can be written."""
+
+    @wraps(find)
+    def found(*args: Given.args, **kwargs: Given.kwargs) -> Plates:
+        return Plates(*attrs.astuple(find(*args, **kwargs), recurse=False))
+
+    return found
+
+
+plates = _that_can_be_written(find_plates)
 
 
 def read_surfaces(
