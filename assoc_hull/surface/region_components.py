@@ -120,7 +120,7 @@ def _component(
     if line.kind is ComponentKind.ISOLATED:
         drawn = [_spot(patches, solution, line.cells)]
     elif line.kind is ComponentKind.EDGE_LINE:
-        drawn = [edge_polyline(patches, *edge, chord_tol) for edge in line.edges.tolist()]
+        drawn = [edge_polyline(patches, *side, chord_tol) for side in _sides(line)]
     else:
         pairs = zip(line.chains, line.loops, strict=True)
         drawn = [samples.chain(arcs, loop) for arcs, loop in pairs]
@@ -134,6 +134,11 @@ def _component(
         _ends(line),
         line.tags,
     )
+
+
+def _sides(line: Joined) -> list[tuple[int, int]]:
+    """Give patch and side of the borders of an edge line."""
+    return [(patch, side) for patch, side in line.edges.tolist()]
 
 
 def _ends(line: Joined) -> int:

@@ -63,12 +63,20 @@ class Lattice:
     @classmethod
     def apart(cls, count: int) -> Self:
         """Lay out patches that have nothing to do with one another."""
-        numbers = np.arange(count)
-        return cls(np.stack([3 * numbers, 0 * numbers], axis=1), np.zeros((count, 4), bool))
+        return cls(3 * np.arange(count)[:, None] + [0, 0], np.zeros((count, 4), bool))
 
     def place(self, patch: IntArray, uv: FloatArray) -> FloatArray:
         """Give the places (n, 2) of points, by their patches (n,) and parameters (n, 2) there."""
         return np.asarray(self.corner[patch] + uv)
+
+    def on_surface(self, box: FloatArray, places: FloatArray) -> FloatArray:
+        """Give the parameters (n, 2) on their surfaces of places, by the boxes of all patches."""
+        found = np.empty_like(places)
+        for axis in range(2):
+            ends = self.corner[:, axis, None] + [0, 1]
+            at, first = np.unique(ends, return_index=True)
+            found[:, axis] = np.interp(places[:, axis], at, box[:, axis].reshape(-1)[first])
+        return found
 
     def sides(self, uv: FloatArray) -> NDArray[np.bool_]:
         """Tell which sides of their patch points (n, 2) lie on, to the last bit, (n, 4)."""

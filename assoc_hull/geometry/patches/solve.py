@@ -40,6 +40,9 @@ __all__ = ["FIRST_CUT", "solve"]
 
 FIRST_CUT = (0.4871, 0.5137)
 _EPS = 2.0**-53
+# From this level on, cells with no coefficient above so many errors are not cut: round a place
+# where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
+_FINE, _FAINT = 8, 8.0
 # Patches at a time, and cells cut at a time: their coefficients shall stay in the cache.
 _BATCH, _SLICE = 64, 128
 
@@ -105,7 +108,7 @@ class _Part:
 
 def _judged(patch: IntArray, box: FloatArray, pair: FloatArray) -> _Part:
     """Tell what is proved of cells, and let go of the coefficients of pure ones."""
-    kind = kinds(pair[:, 0], pair[:, 1])
+    kind = kinds(pair[:, 0], pair[:, 1], box == [0.0, 1.0])
     if pair.shape[1] == 3:
         kind[(np.abs(pair[:, 0]) <= pair[:, 2]).all(axis=(1, 2))] = CellKind.ZERO
     return _Part(patch, box, kind, pair[kind > CellKind.POSITIVE])
@@ -138,12 +141,20 @@ def _batch(
     for level in range(depth + 1):
         stopped |= seen > budget
         more = (cells.kind == CellKind.UNRESOLVED) & ~stopped[cells.patch] & (level < depth)
+        if level >= _FINE:
+            more[np.flatnonzero(cells.kind > CellKind.POSITIVE)[_faint(cells.pair)]] = False
         found.append(cells.at(~more))
         if not more.any():
             break
         seen += 4 * np.bincount(cells.patch[more], minlength=count)
         cells = _cut(cells.at(more), *(split if level == 0 else (0.5, 0.5)))
     return _sorted(found, first, stopped)
+
+
+def _faint(pair: FloatArray) -> NDArray[np.bool_]:
+    """Tell where no coefficient stands out of its errors."""
+    size = np.abs(pair).max(axis=(2, 3))
+    return np.asarray(size[:, 0] <= _FAINT * size[:, 1])
 
 
 @cache

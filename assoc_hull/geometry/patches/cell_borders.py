@@ -1,0 +1,157 @@
+"""The borders of regions that run along cells: along a patch's border, or around undecided cells.
+
+The border of each cell is walked with the cell on the left. Where it is cut by the arc in it, one
+part belongs to the positive side and the other to the negative. Pieces that two cells of one region
+walk in opposite directions cancel; what is left over bounds the region.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.cell_borders import leftover
+>>> one = np.array([[0.0, 0.0], [1.0, 0.0]])
+>>> other = np.array([[2.0, 0.0], [0.5, 0.0]])
+>>> leftover(np.array([one, other])).tolist()
+[[[0.0, 0.0], [0.5, 0.0]], [[2.0, 0.0], [1.0, 0.0]]]
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.patches.cells import CellKind, Cells
+from assoc_hull.geometry.patches.lattice import Lattice
+
+__all__ = ["leftover", "sides_of"]
+
+# The corners of a cell in the order of the walk: which end of the box in u and in v.
+_WALK = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+_SHORT = 1e-8
+
+
+def sides_of(
+    cells: Cells, lattice: Lattice, kind: CellKind, arc_of: IntArray, ends: FloatArray
+) -> FloatArray:
+    """Give the pieces of the borders of cells that belong to a region.
+
+    Parameters
+    ----------
+    cells, lattice : Cells, Lattice
+        The cells, and where their patches lie.
+    kind : CellKind
+        The region: positive, negative, zero or unresolved.
+    arc_of : (c,) int
+        The arc in each cell, or -1.
+    ends : (a, 2, 2)
+        Where arcs begin and end, in the lattice, walked with the positive side on the left.
+
+    Returns
+    -------
+    (p, 2, 2)
+        Where pieces begin and end, in the lattice, walked with the region on the left.
+    """
+    corner = lattice.corner[cells.patch][:, None, None, :]
+    whole = _whole(cells, kind, arc_of)
+    box = np.moveaxis(cells.box[:, [0, 1], :], 1, 2)  # (c, low or high, axis)
+    corners = np.stack([box[:, _WALK[:, axis], axis] for axis in range(2)], axis=-1)
+    corners = corners + corner[:, 0]
+    full = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2)[whole].reshape(-1, 2, 2)
+    if kind not in (CellKind.POSITIVE, CellKind.NEGATIVE):
+        return full
+    cut = np.flatnonzero(arc_of >= 0)
+    arc = ends[arc_of[cut]] if kind is CellKind.POSITIVE else ends[arc_of[cut], ::-1]
+    return np.concatenate([full, _cut(corners[cut], arc)])
+
+
+def _whole(cells: Cells, kind: CellKind, arc_of: IntArray) -> NDArray[np.bool_]:
+    """Tell which cells belong to a region as a whole."""
+    found = cells.kind == kind
+    plain = np.flatnonzero(
+        (arc_of < 0) & ((cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE))
+    )
+    if kind in (CellKind.POSITIVE, CellKind.NEGATIVE):
+        found[plain] = _sign(cells, plain) == kind
+    return found
+
+
+def _sign(cells: Cells, rows: IntArray) -> IntArray:
+    """Tell the sign in simple cells that no arc crosses: that of the surest corner."""
+    b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
+    corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
+    values = np.stack([b[at] for at in corners], axis=1)
+    sure = (np.abs(values) - np.stack([err[at] for at in corners], axis=1)).argmax(axis=1)
+    return np.asarray(np.sign(values[np.arange(len(rows)), sure]), np.intp)
+
+
+def _cut(corners: FloatArray, arc: FloatArray) -> FloatArray:
+    """Give the pieces of cells' borders on the left of an arc: from its end to its beginning.
+
+    A piece runs over up to five sides of a cell; sides that it does not reach have no length.
+    """
+    stop, start = (_position(corners, arc[:, i]) for i in (0, 1))
+    length = np.where(stop < start, stop - start + 4.0, stop - start)
+    side = np.floor(start)[:, None] + np.arange(6)
+    low = np.clip(side, start[:, None], (start + length)[:, None])
+    high = np.clip(side + 1.0, start[:, None], (start + length)[:, None])
+    which = side.astype(np.intp) % 4
+    begin = np.take_along_axis(corners, which[..., None], axis=1)
+    after = np.take_along_axis(corners, ((which + 1) % 4)[..., None], axis=1)
+    first = np.where((low > side)[..., None], arc[:, None, 1], begin)
+    last = np.where((high < side + 1.0)[..., None], arc[:, None, 0], after)
+    first, last = (_kept_on(point, begin, after) for point in (first, last))
+    return np.stack([first, last], axis=2)[high > low]
+
+
+def _position(corners: FloatArray, point: FloatArray) -> FloatArray:
+    """Tell where on the border of its cell each point lies: the side, and how far along it."""
+    after = np.roll(corners, -1, axis=1)
+    along = after - corners
+    axis = np.abs(along).argmax(axis=2)
+    to = point[:, None, :] - corners
+    off = np.abs(np.take_along_axis(to, (1 - axis)[..., None], axis=2)[..., 0])
+    part = np.take_along_axis(to, axis[..., None], axis=2)[..., 0]
+    part = np.clip(part / np.take_along_axis(along, axis[..., None], axis=2)[..., 0], 0.0, 1.0)
+    side = off.argmin(axis=1)
+    return np.asarray((side + part[np.arange(len(side)), side]) % 4.0)
+
+
+def _kept_on(point: FloatArray, begin: FloatArray, after: FloatArray) -> FloatArray:
+    """Put points on their sides, to the last bit."""
+    return np.clip(point, np.minimum(begin, after), np.maximum(begin, after))
+
+
+def leftover(pieces: FloatArray) -> FloatArray:
+    """Cancel what is walked in both directions.
+
+    Parameters
+    ----------
+    pieces : (p, 2, 2)
+        Where pieces begin and end, each along u or along v.
+
+    Returns
+    -------
+    (q, 2, 2)
+        What is left, each as long as it goes.
+    """
+    axis = (np.abs(pieces[:, 1] - pieces[:, 0])).argmax(axis=1)
+    rows = np.arange(len(pieces))
+    across, first, last = (
+        pieces[rows, 0, 1 - axis], pieces[rows, 0, axis], pieces[rows, 1, axis],
+    )  # fmt: skip
+    line = np.unique(np.stack([axis, across]), axis=1, return_inverse=True)[1].reshape(-1)
+    events = np.stack([np.concatenate([line, line]), np.concatenate([first, last])])
+    step = np.repeat([1, -1], len(pieces))
+    places, which = np.unique(events, axis=1, return_inverse=True)
+    change = np.bincount(which.reshape(-1), step, minlength=places.shape[1]).astype(np.intp)
+    places, change = places[:, change != 0], change[change != 0]
+    depth = np.cumsum(change)[:-1]
+    low, high = places[1, :-1], places[1, 1:]
+    kept = np.flatnonzero((depth != 0) & (high - low > _SHORT))
+    source = np.zeros(int(line.max(initial=-1)) + 1, np.intp)
+    source[line] = rows
+    one = source[places[0, kept].astype(np.intp)]
+    found = pieces[one].copy()
+    found[np.arange(len(kept)), 0, axis[one]] = np.where(depth[kept] > 0, low[kept], high[kept])
+    found[np.arange(len(kept)), 1, axis[one]] = np.where(depth[kept] > 0, high[kept], low[kept])
+    return found
