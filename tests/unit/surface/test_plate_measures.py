@@ -93,7 +93,7 @@ def test_a_pole_has_no_curvature() -> None:
     assert np.isfinite(nodes.gauss).all()
     assert (nodes.gauss[~there] == 0.0).all()
     assert (~there).sum() == 24
-    assert nodes.gauss[there] == pytest.approx(1.0, abs=0.03)
+    assert nodes.gauss[there] == pytest.approx(1.0, abs=0.07)  # a bicubic octant is near a sphere
 
 
 @pytest.mark.parametrize(
