@@ -235,7 +235,7 @@ def test_lines_are_counted_by_plate(shell: Plates) -> None:
 
 def test_plates_are_found_by_number_and_name(shell: Plates) -> None:
     """Unknown ones are refused in words."""
-    assert shell[1].name == shell["P09_bow_plate"].name == shell[np.int64(1)].name
+    assert shell[1].name == shell["P09_bow_plate"].name == shell[int(np.int64(1))].name
     with pytest.raises(UnknownNameError, match="P09_bow_plate"):
         shell["P09_bow"]
     with pytest.raises(BadInputError, match="no plate 9"):
