@@ -53,7 +53,9 @@ def bernstein_table(t: FloatArray, degree: int) -> FloatArray:
     return np.asarray(table * binomials(degree)[:, None])
 
 
-def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArray:
+def heights(
+    b: FloatArray, rising: NDArray[np.bool_], t: FloatArray, start: FloatArray | None = None
+) -> FloatArray:
     """Find the heights of arcs.
 
     Parameters
@@ -64,6 +66,8 @@ def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArr
         Whether they rise with the height.
     t : (c, q)
         Where: running parameters in [0, 1], from the start to the end of the cell.
+    start : (c, q), optional
+        The heights, if they are known roughly.
 
     Returns
     -------
@@ -74,4 +78,5 @@ def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArr
     table = bernstein_table(t.reshape(-1), b.shape[2] - 1)
     lines = b @ np.ascontiguousarray(table.reshape(-1, count, places).swapaxes(0, 1))
     rows = lines.swapaxes(1, 2).reshape(count * places, -1)
-    return crossing(rows, np.repeat(rising, places)).reshape(count, places)
+    rough = None if start is None else start.reshape(-1)
+    return crossing(rows, np.repeat(rising, places), rough).reshape(count, places)
