@@ -123,7 +123,7 @@ def test_rounding_of_mean_curvature_and_umbilics() -> None:
 
 @pytest.mark.parametrize("level", [0.0, 0.01])
 def test_uncertain_points_stay_within_their_bound(level: float) -> None:
-    """1200 nets, each coordinate off by delta up or down: changes reach the bound, never pass it."""
+    """1200 nets, each coordinate off by delta up or down: changes reach their bound, not more."""
     delta, rng, reached = 1e-5, np.random.default_rng(6), []
     for net in (nets()["P17_pole_sphere"], nets()["P12_bowl"], whole_net(1, 3)):
         moved = net + delta * rng.choice([-1.0, 1.0], (400, *net.shape))
