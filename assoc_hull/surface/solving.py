@@ -19,6 +19,7 @@ from assoc_hull.geometry.patches.area_ground import AreaGround
 from assoc_hull.geometry.patches.areas import areas
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.signs import edge_lines
 from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.surface.band_areas import band_areas
 from assoc_hull.surface.given_surfaces import diagonals
@@ -50,18 +51,22 @@ def solved(
     """Solve for all levels, and give the areas (k, 8) of the regions that the band parts."""
     delta = deltas(patches, band)
     levels = levels_of(band, options)
-    functions = gauss_functions(patches, levels, delta)
+    functions = gauss_functions(patches, levels)
+    nil = [each.err for each in gauss_functions(patches, levels, delta)] if delta.any() else None
     found = tuple(
-        _solution(level, function, options)
-        for level, function in zip(levels, functions, strict=True)
+        _solution(level, functions[row], None if nil is None else nil[row], options)
+        for row, level in enumerate(levels)
     )
     return found, _areas(patches, found[: len(band.levels)], options.area_tol)
 
 
-def _solution(level: float, function: IsoFunction, options: RegionOptions) -> Solution:
+def _solution(
+    level: float, function: IsoFunction, nil: FloatArray | None, options: RegionOptions
+) -> Solution:
     """Solve for one level."""
-    cells = solve(function, options.depth, options.budget)
-    return Solution(level, cells, arcs_of(cells), edge_lines(function))
+    cells = solve(function, options.depth, options.budget, nil=nil)
+    edges = edge_lines(function.b, function.err if nil is None else nil)
+    return Solution(level, cells, arcs_of(cells), edges)
 
 
 def _areas(patches: Patches, solutions: Sequence[Solution], area_tol: float) -> FloatArray:

@@ -91,20 +91,12 @@ class AreaGround:
         total, error = np.zeros((2, count))
         for index, series in enumerate(found):
             kind[series.patch], row[series.patch] = index, np.arange(len(series.patch))
-            total[series.patch] = _totals(taken(patches, series.patch), series.terms.shape[1])
+            total[series.patch] = _totals(taken(patches, series.patch), series.count)
             error[series.patch] = series.error
-        rest = np.nonzero(kind < 0)[0]
+        rest = np.flatnonzero(kind < 0)
         whole = np.broadcast_to([[0.0, 1.0]] * 2, (len(rest), 2, 2))
         total[rest], error[rest] = over_boxes(patches, rest, whole, allowed[rest])
         return cls(patches, found, kind, row, scale, total, error)
-
-    def swapped(self) -> Self:
-        """Exchange the parameters."""
-        return attrs.evolve(
-            self,
-            patches=swapped(self.patches),
-            series=tuple(series.swapped() for series in self.series),
-        )
 
     def over(
         self, patch: IntArray, box: FloatArray, tolerance: FloatArray
@@ -128,10 +120,10 @@ class AreaGround:
         value, error = np.zeros((2, len(patch)))
         kind = self.kind[patch]
         for index, series in enumerate(self.series):
-            rows = np.nonzero(kind == index)[0]
+            rows = np.flatnonzero(kind == index)
             if len(rows):
                 value[rows] = series.over(self.row[patch[rows]], box[rows])
-        rows = np.nonzero(kind < 0)[0]
+        rows = np.flatnonzero(kind < 0)
         if len(rows):
             value[rows], error[rows] = over_boxes(
                 self.patches, patch[rows], box[rows], tolerance[rows]
@@ -139,7 +131,7 @@ class AreaGround:
         return value, error
 
     def between(
-        self, patch: IntArray, start: FloatArray, u: FloatArray, v: FloatArray,
+        self, patch: IntArray, flip: IntArray, start: FloatArray, u: FloatArray, v: FloatArray,
         tolerance: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
         """Integrate along lines v = constant.
@@ -148,6 +140,8 @@ class AreaGround:
         ----------
         patch : (c,) int
             The patch of each row.
+        flip : (c,) int
+            1 where u and v are exchanged, else 0.
         start : (c,)
             Where its lines begin.
         u, v : (c, q)
@@ -163,16 +157,30 @@ class AreaGround:
         value, error = np.zeros((2, *u.shape))
         kind = self.kind[patch]
         for index, series in enumerate(self.series):
-            rows = np.nonzero(kind == index)[0]
+            rows = np.flatnonzero(kind == index)
             if len(rows):
-                value[rows] = series.between(self.row[patch[rows]], start[rows], u[rows], v[rows])
-        rows = np.nonzero(kind < 0)[0]
-        if len(rows):
-            each = rows.repeat(u.shape[1])
-            span = np.stack([start[each], u[rows].ravel()], axis=1)
-            found = along_lines(self.patches, patch[each], span, v[rows].ravel(), tolerance[each])
-            value[rows], error[rows] = (each.reshape(-1, u.shape[1]) for each in found)
+                value[rows] = series.between(
+                    self.row[patch[rows]], flip[rows], start[rows], u[rows], v[rows]
+                )
+        for way in (0, 1):
+            rows = np.flatnonzero((kind < 0) & (flip == way))
+            if len(rows):
+                patches = swapped(self.patches) if way else self.patches
+                value[rows], error[rows] = _directly(
+                    patches, *(a[rows] for a in (patch, start, u, v, tolerance))
+                )
         return value, error
+
+
+def _directly(
+    patches: Patches, patch: IntArray, start: FloatArray, u: FloatArray, v: FloatArray,
+    tolerance: FloatArray,
+) -> tuple[FloatArray, ...]:  # fmt: skip
+    count = u.shape[1]
+    each = np.arange(len(u)).repeat(count)
+    span = np.stack([start[each], u.reshape(-1)], axis=1)
+    found = along_lines(patches, patch[each], span, v.reshape(-1), tolerance[each])
+    return tuple(part.reshape(-1, count) for part in found)
 
 
 def _totals(patches: Patches, count: int) -> FloatArray:

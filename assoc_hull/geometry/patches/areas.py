@@ -26,7 +26,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.arc_areas import Heights, below
+from assoc_hull.geometry.patches.arc_areas import below
+from assoc_hull.geometry.patches.arc_curves import ArcCurves, arc_curves
 from assoc_hull.geometry.patches.area_ground import AreaGround
 from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
 from assoc_hull.geometry.patches.patches import Patches
@@ -151,28 +152,26 @@ def _low_parts(
     patch = cells.patch[arcs.cell]
     number = np.bincount(patch, minlength=len(allowed))
     share = whole[arcs.cell] / ground.scale[patch] + 1.0 / number[patch]
-    tolerance = np.maximum(0.125 * allowed, 1e-15 * ground.scale)[patch] * share
+    tolerance = np.maximum(0.3 * allowed, 1e-15 * ground.scale)[patch] * share
     value, error = np.zeros((2, len(arcs)))
-    for across in (0, 1):
-        heights, rows = Heights.of(cells, arcs, across)
-        if len(rows):
-            side = ground.swapped() if across else ground
-            value[rows], error[rows] = _low(side, heights, tolerance[rows])
+    for curves, rows in arc_curves(cells, arcs):
+        value[rows], error[rows] = _low(ground, curves, tolerance[rows])
     return value, error
 
 
 def _low(
-    ground: AreaGround, heights: Heights, tolerance: FloatArray
+    ground: AreaGround, curves: ArcCurves, tolerance: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Add what lies below the arcs, and beyond their ends where they leave a cell sideways."""
-    value, error = below(ground, heights, tolerance)
+    value, error = below(ground, curves, tolerance)
     beyond = np.empty((2, len(value), 2, 2))
-    beyond[:, :, 0, 0] = heights.box[:, 0, 0]
-    beyond[:, :, 0, 1] = heights.ends.T
-    beyond[0, :, 1], beyond[1, :, 1] = heights.box[:, 1], heights.box[:, 1]
-    beyond[0, :, 1, 1], beyond[1, :, 1, 0] = heights.span.T
+    beyond[:, :, 0, 0] = curves.box[:, 0, 0]
+    beyond[:, :, 0, 1] = curves.ends.T
+    beyond[0, :, 1], beyond[1, :, 1] = curves.box[:, 1], curves.box[:, 1]
+    beyond[0, :, 1, 1], beyond[1, :, 1, 0] = curves.span.T
+    beyond = np.where((curves.flip == 1)[:, None, None], beyond[:, :, ::-1], beyond)
     side, row = np.nonzero((beyond[..., 1] > beyond[..., 0]).all(axis=2))
-    part, off = ground.over(heights.patch[row], beyond[side, row], 0.25 * tolerance[row])
+    part, off = ground.over(curves.patch[row], beyond[side, row], 0.25 * tolerance[row])
     value += np.bincount(row, part, len(value))
     error += np.bincount(row, off, len(value))
     return value, error

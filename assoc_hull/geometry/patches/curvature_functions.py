@@ -89,29 +89,32 @@ class _Bounded:
         The coefficients.
     amount, wide : (k, M + 1, N + 1)
         The amounts for control points that are exact, and that are off by delta; the same array
-        if they are exact.
+        if all are exact.
     steps : float
         The roundings, with a margin.
+    share : (k, 1, 1)
+        What roundings count: 1 for exact control points, 3 for others, as then the difference of
+        both amounts is rounded too.
     """
 
     b: FloatArray
     amount: FloatArray
     wide: FloatArray
     steps: float
+    share: FloatArray
 
     @property
     def err(self) -> FloatArray:
-        """What each coefficient may be off by; the amounts themselves are rounded too."""
-        if self.wide is self.amount:
-            return np.asarray(self.steps * _EPS * self.amount)
-        return np.asarray(self.wide - self.amount + 3.0 * self.steps * _EPS * self.wide)
+        """What each coefficient may be off by."""
+        rounding = self.share * (self.steps * _EPS) * self.wide
+        return rounding if self.wide is self.amount else rounding + (self.wide - self.amount)
 
     def times(self, other: _Bounded, steps: float) -> _Bounded:
         """Give the product, with the roundings it has."""
         amount = multiply(self.amount, other.amount)
         exact = self.wide is self.amount
         wide = amount if exact else multiply(self.wide, other.wide)
-        return _Bounded(multiply(self.b, other.b), amount, wide, steps)
+        return _Bounded(multiply(self.b, other.b), amount, wide, steps, self.share)
 
 
 def _margin(steps: Steps, least: float) -> float:
@@ -127,12 +130,13 @@ class _Bases:
         self.amounts = amounts(self.values, 0.0)
         self.wide = amounts(self.values, delta) if np.any(delta) else self.amounts
         self.steps = Steps.of(*patches.degrees)
+        self.share = np.where(np.reshape(delta, (-1, 1, 1)) > 0.0, 3.0, 1.0)
 
     def bounded(self, rule: Callable[[Terms], FloatArray], name: str, least: float) -> _Bounded:
         """Run a formula on values and amounts."""
         b, amount = rule(self.values), rule(self.amounts)
         wide = amount if self.wide is self.amounts else rule(self.wide)
-        return _Bounded(b, amount, wide, _margin(self.steps[name], least))
+        return _Bounded(b, amount, wide, _margin(self.steps[name], least), self.share)
 
     def gauss(self) -> _Bounded:
         return self.bounded(gauss_numerator, "gauss", 200.0)

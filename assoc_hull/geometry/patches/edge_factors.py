@@ -55,12 +55,12 @@ def without_edge_lines(pair: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    pair : (c, 2, M + 1, N + 1)
-        Coefficients and their errors.
+    pair : (c, layers, M + 1, N + 1)
+        Coefficients and their errors, of which the last tells what is nil.
 
     Returns
     -------
-    (c, 2, M + 1, N + 1)
+    (c, layers, M + 1, N + 1)
         The same of the quotients; a polynomial that is nil everywhere stays as it is.
     """
     for axis in (2, 3):
@@ -71,7 +71,7 @@ def without_edge_lines(pair: FloatArray) -> FloatArray:
 
 def _divided(pair: FloatArray, axis: int, flipped: bool) -> FloatArray:
     """Divide by the factor of one edge."""
-    dead = signs(pair[:, 0], pair[:, 1]) == 0
+    dead = signs(pair[:, 0], pair[:, -1]) == 0
     lines = dead.all(axis=2 if axis == 2 else 1)
     order = _leading(lines[:, ::-1] if flipped else lines)
     rows = np.flatnonzero(order)
@@ -82,7 +82,7 @@ def _divided(pair: FloatArray, axis: int, flipped: bool) -> FloatArray:
         part = part[:, :, ::-1]
     part = part.copy()
     degree = part.shape[2] - 1
-    part[:, 1] += 16 * degree * _EPS * np.abs(part[:, 0])
+    part[:, 1:] += 16 * degree * _EPS * np.abs(part[:, :1])
     part = _quotients(degree)[order[rows], None] @ part
     if flipped:
         part = part[:, :, ::-1]

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.algebra import binomials
-from assoc_hull.geometry.patches.cells import CellKind, Cells
+from assoc_hull.geometry.patches.cells import Cells
 from assoc_hull.geometry.patches.roots import crossing, powers
 
 __all__ = ["bernstein_table", "heights", "polynomials_over"]
 
 
-def polynomials_over(cells: Cells, rows: NDArray[np.intp]) -> FloatArray:
-    """Give the polynomials of simple cells of one kind, the running parameter last.
+def polynomials_over(cells: Cells, rows: NDArray[np.intp], across: int) -> FloatArray:
+    """Give the polynomials of simple cells, the running parameter last.
 
     Parameters
     ----------
@@ -34,15 +34,16 @@ def polynomials_over(cells: Cells, rows: NDArray[np.intp]) -> FloatArray:
         The cells.
     rows : (c,) int
         Some of them, all u-simple or all v-simple.
+    across : int
+        0 where they are u-simple, 1 where u runs: the parameters are exchanged then.
 
     Returns
     -------
     (c, A + 1, T + 1)
-        Their coefficients; exchanged where u runs.
+        Their coefficients.
     """
     b = cells.b[cells.row[rows]]
-    exchanged = bool(len(rows)) and bool(cells.kind[rows[0]] == CellKind.V_SIMPLE)
-    return np.ascontiguousarray(b.swapaxes(1, 2)) if exchanged else b
+    return np.ascontiguousarray(b.swapaxes(1, 2)) if across else b
 
 
 def bernstein_table(t: FloatArray, degree: int) -> FloatArray:
@@ -53,7 +54,9 @@ def bernstein_table(t: FloatArray, degree: int) -> FloatArray:
     return np.asarray(table * binomials(degree)[:, None])
 
 
-def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArray:
+def heights(
+    b: FloatArray, rising: NDArray[np.bool_], t: FloatArray, start: FloatArray | None = None
+) -> FloatArray:
     """Find the heights of arcs.
 
     Parameters
@@ -64,6 +67,8 @@ def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArr
         Whether they rise with the height.
     t : (c, q)
         Where: running parameters in [0, 1], from the start to the end of the cell.
+    start : (c, q), optional
+        The heights, if they are known roughly.
 
     Returns
     -------
@@ -74,4 +79,5 @@ def heights(b: FloatArray, rising: NDArray[np.bool_], t: FloatArray) -> FloatArr
     table = bernstein_table(t.reshape(-1), b.shape[2] - 1)
     lines = b @ np.ascontiguousarray(table.reshape(-1, count, places).swapaxes(0, 1))
     rows = lines.swapaxes(1, 2).reshape(count * places, -1)
-    return crossing(rows, np.repeat(rising, places)).reshape(count, places)
+    rough = None if start is None else start.reshape(-1)
+    return crossing(rows, np.repeat(rising, places), rough).reshape(count, places)

@@ -37,7 +37,9 @@ _PROMISED = 1e-17
 _BLOCK = 1024
 
 
-def crossing(b: FloatArray, rising: NDArray[np.bool_]) -> FloatArray:
+def crossing(
+    b: FloatArray, rising: NDArray[np.bool_], start: FloatArray | None = None
+) -> FloatArray:
     """Find where each polynomial changes sign.
 
     Parameters
@@ -47,6 +49,8 @@ def crossing(b: FloatArray, rising: NDArray[np.bool_]) -> FloatArray:
         ends may be nil, or off by rounding.
     rising : (r,) bool
         Whether a polynomial goes from negative to positive.
+    start : (r,) float, optional
+        Where to begin, if the roots are known roughly; any number will do.
 
     Returns
     -------
@@ -56,11 +60,13 @@ def crossing(b: FloatArray, rising: NDArray[np.bool_]) -> FloatArray:
     found = np.empty(len(b))
     for first in range(0, len(b), _BLOCK):
         rows = slice(first, first + _BLOCK)
-        found[rows] = _block(b[rows], rising[rows])
+        found[rows] = _block(b[rows], rising[rows], None if start is None else start[rows])
     return found
 
 
-def _block(b: FloatArray, rising: NDArray[np.bool_]) -> FloatArray:
+def _block(
+    b: FloatArray, rising: NDArray[np.bool_], start: FloatArray | None
+) -> FloatArray:
     degree = b.shape[1] - 1
     if degree == 0 or len(b) == 0:
         return np.zeros(len(b))
@@ -69,8 +75,11 @@ def _block(b: FloatArray, rising: NDArray[np.bool_]) -> FloatArray:
     middle = _summed(scaled.copy()) * 0.5**degree
     far = middle < 0.0
     scaled = np.where(far, -scaled[::-1], scaled)
-    low, high = np.where(far, -signed[-1], signed[0]), np.abs(middle)
-    x = _roots(scaled, _start(low, high))
+    if start is None:
+        start = _start(np.where(far, -signed[-1], signed[0]), np.abs(middle))
+    else:
+        start = np.clip(np.where(far, 1.0 - start, start), 0.0, 0.5)
+    x = _roots(scaled, start)
     return np.where(far, 1.0 - x, x)
 
 

@@ -60,44 +60,75 @@ def edge_lines(b: FloatArray, err: FloatArray) -> NDArray[np.bool_]:
     (k, 4) bool
         Whether all coefficients on the edges u = 0, u = 1, v = 0, v = 1 lie in the dead band.
     """
-    dead = signs(b, err) == 0
-    edges = dead[:, 0], dead[:, -1], dead[:, :, 0], dead[:, :, -1]
-    return np.stack([edge.all(axis=1) for edge in edges], axis=1)
+    return np.stack([edge.all(axis=1) for edge in _edges(signs(b, err) == 0)], axis=1)
 
 
-def kinds(b: FloatArray, err: FloatArray) -> NDArray[np.intp]:
+def _edges(dead: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], ...]:
+    return dead[:, 0], dead[:, -1], dead[:, :, 0], dead[:, :, -1]
+
+
+def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Tell what the coefficients prove of the signs in a cell.
 
-    Coefficients of one sign prove that the polynomial has it, in the open cell also where some
-    are nil. Where all differences in u have one sign, beyond their error, and each of the edges
-    u = 0 and u = 1 changes sign at most once, a line v = constant meets the zero set at most once,
-    no loop has room, and there is one arc at most; if the edges leave none, the sign is known.
+    Coefficients of one sign prove that the polynomial has it. Where all differences in u have one
+    sign, beyond their error, and each of the edges u = 0 and u = 1 changes sign at most once, a
+    line v = constant meets the zero set at most once, no loop has room, and there is one arc at
+    most; if the edges leave none, the sign is known.
+
+    Coefficients in the dead band prove nothing on an edge that is shared with another cell: the
+    two might see an arc cross it in one and not in the other. Elsewhere they do no harm.
 
     Parameters
     ----------
     b, err : (c, M + 1, N + 1)
         Coefficients and their errors.
+    outer : (c, 2, 2) bool
+        Whether the edges u = 0, u = 1 and v = 0, v = 1 of a cell are shared with no other.
 
     Returns
     -------
     (c,) int
         A `CellKind` each; UNRESOLVED where nothing is proved.
     """
-    flat, wide = b.reshape(len(b), -1), err.reshape(len(b), -1)
-    above, below = (flat > wide).any(axis=1), (flat < -wide).any(axis=1)
+    flat = len(b), b.shape[1] * b.shape[2]
+    above = (b > err).reshape(flat).any(axis=1)
+    below = (b < -err).reshape(flat).any(axis=1)
     found = np.where(above, 1, 0) - np.where(below, 1, 0)
+    pure = np.flatnonzero(found)
+    found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED
     open_ = np.flatnonzero(above & below)
-    found[open_] = _simple(b[open_], err[open_])
+    found[open_] = _simple(b[open_], err[open_], outer[open_])
     return found
 
 
-def _simple(b: FloatArray, err: FloatArray) -> NDArray[np.intp]:
+def _doubtful_edges(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Tell where coefficients on a shared edge lie in the dead band."""
+    dead = _edges(np.abs(b) <= err)
+    lines = np.stack([edge.any(axis=1) for edge in dead], axis=1)
+    return np.asarray((lines & ~outer.reshape(-1, 4)).any(axis=1))
+
+
+def _doubtful_corners(
+    b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Tell where a corner at a shared edge lies in the dead band."""
+    ends = np.ix_([0, b.shape[1] - 1], [0, b.shape[2] - 1])
+    dead = np.abs(b[:, *ends]) <= err[:, *ends]
+    alone = outer[:, 0, :, None] & outer[:, 1, None, :]
+    return np.asarray((dead & ~alone).any(axis=(1, 2)))
+
+
+def _simple(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Tell what is proved where both signs occur."""
     u, u_size = _along(b, err)
     v, v_size = _along(b.swapaxes(1, 2), err.swapaxes(1, 2))
     over = (v == CellKind.U_SIMPLE) & (u == CellKind.U_SIMPLE) & (v_size > u_size)
     v = np.where(v == CellKind.U_SIMPLE, CellKind.V_SIMPLE, v)
-    return np.where((u == CellKind.UNRESOLVED) | over, v, u)
+    found = np.where((u == CellKind.UNRESOLVED) | over, v, u)
+    found[_doubtful_corners(b, err, outer)] = CellKind.UNRESOLVED
+    pure = np.flatnonzero(found <= CellKind.POSITIVE)
+    found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED
+    return found
 
 
 def _along(b: FloatArray, err: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:

@@ -1,0 +1,118 @@
+"""Rules of quadrature on [0, 1] that contain one another, with measures of their errors.
+
+Lobatto's rule of 4 points, its extension by 3 points, and the extension of that by 6; exact to the
+degrees 5, 9 and 19.
+
+Source: W. Gander and W. Gautschi, "Adaptive quadrature - revisited", BIT 40, 2000.
+
+Examples
+--------
+>>> from assoc_hull.geometry.patches.arc_rules import arc_rules
+>>> rules = arc_rules()
+>>> len(rules.first), len(rules.second)
+(7, 6)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["ArcRules", "arc_rules"]
+
+# How much the second measure of an error counts.
+_TWIN = 0.2
+
+
+@attrs.frozen(eq=False)
+class ArcRules:
+    """Nodes, weights, and how values at some nodes give those at others.
+
+    Attributes
+    ----------
+    first : (7,)
+        Nodes of the smaller rule, in rising order, both ends included.
+    second : (6,)
+        Nodes that the larger one adds.
+    few, many : (3, 7), (3, 13)
+        Weights of the two rules; of what the rule of 4, or 7, points gives beyond it; and of a twin
+        of that. The latter two measure errors: the one is nil for all odd functions, the twin for
+        all even ones, so that not both vanish by chance.
+    between : (6, 7)
+        The polynomial through values at the first nodes, at the second.
+    inside : (10, 13)
+        That through all, at the 5 inner nodes of the smaller rule on both halves.
+    """
+
+    first: FloatArray
+    second: FloatArray
+    few: FloatArray
+    many: FloatArray
+    between: FloatArray
+    inside: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(*(getattr(self, field.name) for field in attrs.fields(type(self))))
+
+
+@cache
+def arc_rules() -> ArcRules:
+    """Give the rules.
+
+    Returns
+    -------
+    ArcRules
+        Made once.
+
+    Examples
+    --------
+    >>> abs(arc_rules().few.sum(axis=1)).round(12)
+    array([1., 0., 0.])
+    """
+    inner, outer = 1.0 / np.sqrt(5.0), np.sqrt(2.0 / 3.0)
+    more = np.array([0.942882415695480, 0.641853342345781, 0.236383199662150])
+    first = np.array([-1.0, -outer, -inner, 0.0, inner, outer, 1.0])
+    second = np.concatenate([-more, more[::-1]])
+    every = np.concatenate([first, second])
+    few = _weights(first, range(7)), _weights(first, (0, 2, 4, 6))
+    many = _weights(every, range(13)), _weights(every, range(7))
+    halves = np.concatenate([0.5 * first[1:-1] - 0.5, 0.5 * first[1:-1] + 0.5])
+    return ArcRules(
+        0.5 + 0.5 * first, 0.5 + 0.5 * second, _judges(first, *few), _judges(every, *many),
+        _through(first, second), _through(every, halves),
+    )  # fmt: skip
+
+
+def _through(nodes: FloatArray, places: FloatArray) -> FloatArray:
+    """Give the matrix from values at nodes to values at places of the polynomial through them."""
+    degree = len(nodes) - 1
+    at = (np.polynomial.legendre.legvander(t, degree).T for t in (nodes, places))
+    return np.linalg.solve(*at).T.copy()
+
+
+def _judges(nodes: FloatArray, rule: FloatArray, coarse: FloatArray) -> FloatArray:
+    """Give the weights of a rule, of what the coarse one gives beyond it, and of the twin."""
+    even = coarse - rule
+    count = (np.count_nonzero(coarse) + 1) // 2
+    odd = np.polynomial.legendre.legvander(nodes, len(nodes))[:, 1::2]
+    known, next_one = odd[:, :count], odd[:, count]
+    gram = (known * rule[:, None]).T
+    twin = rule * (next_one - known @ np.linalg.solve(gram @ known, gram @ next_one))
+    twin *= _TWIN * np.linalg.norm(even) / np.linalg.norm(twin)
+    return np.array([rule, even, twin])
+
+
+def _weights(nodes: FloatArray, used: Sequence[int]) -> FloatArray:
+    """Give the weights, on [0, 1], of the rule that has only some of the nodes."""
+    chosen = list(used)
+    moments = np.zeros(len(chosen))
+    moments[0] = 1.0
+    found = np.zeros(len(nodes))
+    values = np.polynomial.legendre.legvander(nodes[chosen], len(chosen) - 1).T
+    found[chosen] = np.linalg.solve(values, moments)
+    return found
