@@ -1,0 +1,197 @@
+"""What is drawn of a plate, in metres: tiles, lines between regions, edges, unresolved cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.patches.cells import CellKind, Cells
+from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.plot.curvature_tiles import Tiles, tiles_of
+from assoc_hull.surface.region_component import Component
+from assoc_hull.surface.region_result import RegionResult
+
+__all__ = ["Chart", "Scene", "Shape", "ground", "points_of", "scene_of"]
+
+_STEPS, _FEWEST = 48, 6
+"""Tiles along a side of a whole surface, about, and of each of its patches at least."""
+
+_ALONG = 64  # points of an edge
+
+
+Chart = Callable[[FloatArray], FloatArray]
+"""From parameters (..., 2) of a surface to where they are drawn, (..., 3), m."""
+
+
+@attrs.frozen(eq=False)
+class Scene:
+    """A plate as tiles and lines in its parameters.
+
+    Attributes
+    ----------
+    surface : SplineSurface
+        The plate.
+    uv : (k, 4, 2)
+        Corners of the tiles, going round.
+    tint : (k,) int
+        1 convex, 0 developable, -1 saddle.
+    under : (k,) bool
+        Whether other tiles may lie on it.
+    unresolved : (m, 4, 2)
+        Corners of cells whose sign is not known.
+    lines : tuple of Component
+        Borders between regions, lines of further levels, spots.
+    """
+
+    surface: SplineSurface
+    uv: FloatArray
+    tint: IntArray
+    under: NDArray[np.bool_]
+    unresolved: FloatArray
+    lines: tuple[Component, ...]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.uv, self.tint, self.under, self.unresolved)
+
+    @property
+    def edges(self) -> tuple[FloatArray, ...]:
+        """The four sides of the surface, (n, 2) each."""
+        (u0, u1), (v0, v1) = self.surface.domain
+        along = np.linspace(0.0, 1.0, _ALONG)
+        u, v = u0 + (u1 - u0) * along, v0 + (v1 - v0) * along
+        sides = ((u, v0), (u1, v), (u[::-1], v1), (u0, v[::-1]))
+        return tuple(np.stack(np.broadcast_arrays(*side), axis=-1) for side in sides)
+
+    def drawn(self, chart: Chart | None = None) -> Shape:
+        """Give it in space, or on another chart."""
+        at = chart or (lambda uv: points_of(self.surface, uv))
+        return Shape(
+            at(self.uv), self.tint, self.under, at(self.unresolved),
+            tuple((each, tuple(at(line) for line in each.uv)) for each in self.lines),
+            tuple(at(edge) for edge in self.edges),
+        )  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class Shape:
+    """A scene in space: points, m, where the scene has parameters.
+
+    Attributes
+    ----------
+    corner : (k, 4, 3), m
+        Of the tiles.
+    tint, under : (k,)
+        As of the scene.
+    unresolved : (m, 4, 3), m
+        Cells whose sign is not known.
+    lines : tuple of (Component, tuple of (n, 3))
+        Lines, m, with what they are.
+    edges : tuple of (n, 3), m
+        Sides of the plate.
+    """
+
+    corner: FloatArray
+    tint: IntArray
+    under: NDArray[np.bool_]
+    unresolved: FloatArray
+    lines: tuple[tuple[Component, tuple[FloatArray, ...]], ...]
+    edges: tuple[FloatArray, ...]
+
+    @property
+    def normal(self) -> FloatArray:
+        """The normals of the tiles, as long as their areas, (k, 3), m2."""
+        first, second = (self.corner[:, k + 2] - self.corner[:, k] for k in (0, 1))
+        return np.asarray(0.5 * np.cross(first, second))
+
+
+def ground(surface: SplineSurface, steps: int) -> FloatArray:
+    """Give tiles of a regular grid on a surface, between its knots: corners (k, 4, 2)."""
+    (u0, u1), (v0, v1) = surface.domain
+    sides = [
+        np.unique(np.concatenate([np.linspace(a, b, steps + 1), knots[(knots > a) & (knots < b)]]))
+        for a, b, knots in ((u0, u1, surface.knots_u), (v0, v1, surface.knots_v))
+    ]
+    grid = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1)
+    corner = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2)
+    return corner.reshape(-1, 4, 2)
+
+
+def scene_of(result: RegionResult, number: int) -> Scene:
+    """Give what is drawn of one surface of a result.
+
+    Regions are drawn of the cells that were proven to have one sign, and of both sides of the
+    arcs in the others: their borders are those of the result, not of a grid.
+    """
+    surface = result.surfaces[number]
+    banded = result.k0 > 0.0
+    uv, tint, open_ = [], [], []
+    if banded:
+        base = ground(surface, _STEPS)
+        uv, tint = [base], [np.zeros(len(base), np.intp)]
+    first = len(uv[0]) if uv else 0
+    for patches, cells, side in _searches(result, number):
+        tiles = tiles_of(cells, _steps(patches))
+        shown = (tiles.sign == side) | (side == 0)
+        uv.append(_on_surface(patches, tiles)[shown])
+        tint.append(tiles.sign[shown])
+        open_.append(_unresolved(patches, cells))
+    every, signs = np.concatenate(uv), np.concatenate(tint)
+    under = np.arange(len(every)) < first
+    lines = tuple(each for each in result.components if each.surface == number)
+    return Scene(surface, every, signs, under, np.concatenate(open_), lines)
+
+
+def points_of(surface: SplineSurface, uv: FloatArray) -> FloatArray:
+    """Give points (..., 3), m, at parameters (..., 2), which rounding may put outside."""
+    if not uv.size:
+        return np.zeros((*uv.shape[:-1], 3))
+    (u0, u1), (v0, v1) = surface.domain
+    return surface.at(np.clip(uv[..., 0], u0, u1), np.clip(uv[..., 1], v0, v1))
+
+
+def _steps(patches: Patches) -> int:
+    """Give how many tiles lie along a side of a patch."""
+    return max(_FEWEST, round(_STEPS / float(np.sqrt(max(len(patches), 1)))))
+
+
+def _searches(result: RegionResult, number: int) -> Iterator[tuple[Patches, Cells, int]]:
+    """Give the searches of a surface by level: 1 above the band, -1 below it, 0 without one."""
+    for part in result.parts:
+        chosen = np.flatnonzero(part.patches.surface == number)
+        if not len(chosen):
+            continue
+        patches = Patches(part.patches.net[chosen], part.patches.box[chosen], chosen)
+        for solution in part.solutions:
+            if solution.level in result.band.levels:
+                yield patches, _of_patches(solution.cells, chosen), int(np.sign(solution.level))
+
+
+def _of_patches(cells: Cells, chosen: IntArray) -> Cells:
+    """Keep the cells of some patches, and number these anew."""
+    place = np.full(len(cells.stopped), -1)
+    place[chosen] = np.arange(len(chosen))
+    kept = place[cells.patch] >= 0
+    return attrs.evolve(
+        cells, patch=place[cells.patch][kept], box=cells.box[kept], level=cells.level[kept],
+        kind=cells.kind[kept], row=cells.row[kept], stopped=cells.stopped[chosen],
+    )  # fmt: skip
+
+
+def _on_surface(patches: Patches, tiles: Tiles) -> FloatArray:
+    """Take corners from parameters of patches to those of the surface."""
+    box = patches.box[tiles.patch][:, None]
+    return np.asarray(box[..., 0] + (box[..., 1] - box[..., 0]) * tiles.uv)
+
+
+def _unresolved(patches: Patches, cells: Cells) -> FloatArray:
+    """Give the corners of unresolved cells in parameters of the surface, (m, 4, 2)."""
+    rows = np.flatnonzero(cells.kind == CellKind.UNRESOLVED)
+    (u0, u1), (v0, v1) = np.moveaxis(cells.box[rows], 0, -1)
+    ring = ((u0, v0), (u1, v0), (u1, v1), (u0, v1))
+    uv = np.stack([np.stack(corner, axis=-1) for corner in ring], axis=1)
+    return _on_surface(patches, Tiles(cells.patch[rows], uv, cells.kind[rows]))
