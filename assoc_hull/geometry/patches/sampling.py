@@ -127,7 +127,7 @@ def _places(cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray) -> FloatArra
 def _places_over(cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray, across: int) -> FloatArray:
     """Find points of arcs that run the same way."""
     cell = arcs.cell[arc]
-    height = heights(polynomials_over(cells, cell), arcs.rising[arc], t[:, None])[:, 0]
+    height = heights(polynomials_over(cells, cell, across), arcs.rising[arc], t[:, None])[:, 0]
     found = np.empty((len(arc), 2))
     found[:, 1 - across] = placed(cells.box[cell, 1 - across], t)
     found[:, across] = placed(cells.box[cell, across], height)
