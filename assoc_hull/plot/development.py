@@ -11,9 +11,10 @@ from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.block import frame, scale_bar, title_block
 from assoc_hull.plot.colour_bar import STRAIN, colour_bar, shades
-from assoc_hull.plot.curvature_words import BLOCK, area_words
+from assoc_hull.plot.curvature_words import BLOCK
 from assoc_hull.plot.form_flow import wrapped
 from assoc_hull.plot.paper import MARGIN, PaperName, Pen
+from assoc_hull.plot.plate_entries import area_words
 from assoc_hull.plot.plate_grid import Field
 from assoc_hull.plot.plate_paint import fill
 from assoc_hull.plot.sheet import Path_, Sheet, save
