@@ -37,6 +37,9 @@ __all__ = ["components_of"]
 _SAME = 1e-9
 """In parameters of a patch: ends of arcs that are nearer are one point."""
 
+_MIDDLE = 0.8
+"""Of the tolerance: chords are judged by a point near their middle, not by the farthest one."""
+
 
 def components_of(parts: Sequence[RegionPart], options: RegionOptions) -> tuple[Component, ...]:
     """Join the arcs of all parts, level by level, surface by surface.
@@ -89,7 +92,7 @@ class _Samples:
     def of(cls, patches: Patches, solution: Solution, chord_tol: float) -> _Samples:
         """Sample all arcs as finely as the tolerance wants."""
         cells, arcs = solution.cells, solution.arcs
-        start, place = sampled(patches, cells, arcs, chord_tol)
+        start, place = sampled(patches, cells, arcs, _MIDDLE * chord_tol)
         count = np.diff(start)
         rows, arc = rows_of(count, np.arange(len(arcs)))
         last = start[arc] + start[arc + 1] - 1
@@ -120,7 +123,7 @@ def _component(
     if line.kind is ComponentKind.ISOLATED:
         drawn = [_spot(patches, solution, line.cells)]
     elif line.kind is ComponentKind.EDGE_LINE:
-        drawn = [edge_polyline(patches, *edge, chord_tol) for edge in line.edges.tolist()]
+        drawn = [edge_polyline(patches, *side, chord_tol) for side in _sides(line)]
     else:
         pairs = zip(line.chains, line.loops, strict=True)
         drawn = [samples.chain(arcs, loop) for arcs, loop in pairs]
@@ -134,6 +137,11 @@ def _component(
         _ends(line),
         line.tags,
     )
+
+
+def _sides(line: Joined) -> list[tuple[int, int]]:
+    """Give patch and side of the borders of an edge line."""
+    return [(patch, side) for patch, side in line.edges.tolist()]
 
 
 def _ends(line: Joined) -> int:

@@ -1,8 +1,17 @@
 """Polynomials of two parameters in Bernstein form: sums, products, derivatives, parts.
 
-Coefficients are arrays (..., m + 1, n + 1) on the unit square; the first of the last two axes is u.
-Leading axes are a batch and broadcast, as in numpy. A degree is always a length less one. Vectors
-have their components as the third axis from the end: (..., 3, m + 1, n + 1).
+A polynomial of degrees (m, n) on the unit square is
+
+    p(u, v) = sum over i, j of  a[i, j] C(m, i) u**i (1 - u)**(m - i) C(n, j) v**j (1 - v)**(n - j)
+
+It lies between its least and its greatest coefficient. Coefficients are arrays (..., m + 1, n + 1);
+the first of the last two axes is u. Leading axes are a batch and broadcast, as in numpy. A degree
+is always a length less one. Vectors have their components as the third axis from the end:
+(..., 3, m + 1, n + 1). What is found for one polynomial does not depend on the rest of the batch,
+to the last bit.
+
+Products are convolutions of coefficients times binomials, summed term by term: a fast Fourier
+transform would spread the rounding of the largest coefficients over the small ones.
 
 Examples
 --------
@@ -24,14 +33,21 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = [
-    "across", "add", "cross", "degrees", "dot", "elevated", "halves", "integral", "multiply",
-    "split", "subtract", "u_derivative", "v_derivative",
+    "across", "add", "binomials", "cross", "degrees", "dot", "elevated", "elevation", "halves",
+    "integral", "lowered", "multiply", "split", "subtract", "u_derivative", "v_derivative",
 ]  # fmt: skip
 
 
 @cache
 def binomials(degree: int) -> FloatArray:
-    """Give the binomial coefficients of a degree, (degree + 1,)."""
+    """Give the binomial coefficients of a degree, (degree + 1,).
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.patches.algebra import binomials
+    >>> binomials(3)
+    array([1., 3., 3., 1.])
+    """
     found = np.array([math.comb(degree, i) for i in range(degree + 1)], np.float64)
     freeze(found)
     return found
@@ -56,7 +72,19 @@ def _batch_last(a: FloatArray) -> FloatArray:
 
 
 def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Multiply polynomials: a convolution of coefficients times binomials."""
+    """Multiply polynomials.
+
+    Parameters
+    ----------
+    a, b : (..., m + 1, n + 1) and (..., p + 1, q + 1)
+        Coefficients; vectors times scalars and the like broadcast.
+
+    Returns
+    -------
+    (..., m + p + 1, n + q + 1)
+        Coefficients of the product, each a sum of at most as many terms as the smaller factor has
+        coefficients.
+    """
     if a.shape[-2] * a.shape[-1] > b.shape[-2] * b.shape[-1]:
         return multiply(b, a)
     (m, n), (p, q) = degrees(a), degrees(b)
@@ -74,7 +102,16 @@ def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
 
 @cache
 def elevation(degree: int, by: int) -> FloatArray:
-    """Give the matrix (degree + by + 1, degree + 1) that raises a degree."""
+    """Give the matrix (degree + by + 1, degree + 1) that raises a degree.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.patches.algebra import elevation
+    >>> elevation(1, 1)
+    array([[1. , 0. ],
+           [0.5, 0.5],
+           [0. , 1. ]])
+    """
     found = np.zeros((degree + by + 1, degree + 1))
     for i in range(degree + by + 1):
         for j in range(max(0, i - by), min(degree, i) + 1):
@@ -86,15 +123,33 @@ def elevation(degree: int, by: int) -> FloatArray:
 def across(left: FloatArray, a: FloatArray, right: FloatArray) -> FloatArray:
     """Apply one matrix to the rows (u) and another to the columns (v) of coefficients.
 
-    Coefficients are laid one behind the other first: only then has a matrix product the same bits
-    for one polynomial, alone or in a batch.
+    Parameters
+    ----------
+    left, right : (p, m + 1) and (q, n + 1)
+        The matrices.
+    a : (..., m + 1, n + 1)
+        Coefficients.
+
+    Returns
+    -------
+    (..., p, q)
+        ``left @ a @ right.T``. Coefficients are laid one behind the other first: only then has a
+        matrix product the same bits for one polynomial, alone or in a batch.
     """
     found: FloatArray = left @ np.ascontiguousarray(a) @ right.T
     return found
 
 
 def elevated(a: FloatArray, m: int, n: int) -> FloatArray:
-    """Write polynomials with degrees m and n, none below their own."""
+    """Write polynomials with degrees m and n, none below their own.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.algebra import elevated
+    >>> elevated(np.array([[0.0, 2.0]]), 0, 2)
+    array([[0., 1., 2.]])
+    """
     p, q = degrees(a)
     if (p, q) == (m, n):
         return a
@@ -150,13 +205,65 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def integral(a: FloatArray) -> FloatArray:
-    """Integrate over the unit square: the mean of the coefficients."""
-    return np.asarray(a.mean(axis=(-2, -1)))
+    """Integrate over the unit square: the mean of the coefficients.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.algebra import integral
+    >>> integral(np.array([[0.0, 1.0], [2.0, 3.0]])).item()
+    1.5
+    """
+    rows = np.ascontiguousarray(a).reshape(*a.shape[:-2], -1)
+    return np.asarray(rows.sum(axis=-1) / rows.shape[-1])
+
+
+def lowered(a: FloatArray, axis: int) -> FloatArray:
+    """Write polynomials with a degree less, whose highest power is known to have no share.
+
+    Parameters
+    ----------
+    a : (..., m + 1, n + 1)
+        Coefficients of degree 1 or more along the axis.
+    axis : int
+        -2 for u, -1 for v.
+
+    Returns
+    -------
+    (..., m, n + 1) or (..., m + 1, n)
+        Coefficients. Those of the lower half are found from the start, the others from the end,
+        so that rounding does not grow.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.algebra import lowered
+    >>> lowered(np.array([[0.0, 1.0, 2.0]]), -1)
+    array([[0., 2.]])
+    """
+    a = np.moveaxis(a, axis, 0)
+    n = len(a) - 1
+    found, middle = np.empty((n, *a.shape[1:])), (n + 1) // 2
+    for i in range(middle):
+        found[i] = n * a[i] - i * found[i - 1] if i else n * a[0]
+        found[i] /= n - i
+    for i in range(n - 1, middle - 1, -1):
+        found[i] = n * a[i + 1] - (n - 1 - i) * found[i + 1] if i < n - 1 else n * a[n]
+        found[i] /= i + 1
+    return np.moveaxis(found, 0, axis)
 
 
 @cache
 def split(degree: int, at: float) -> tuple[FloatArray, FloatArray]:
-    """Give the matrices that restrict coefficients to [0, at] and to [at, 1]."""
+    """Give the matrices that restrict coefficients to [0, at] and to [at, 1].
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.patches.algebra import split
+    >>> split(1, 0.25)[0]
+    array([[1.  , 0.  ],
+           [0.75, 0.25]])
+    """
     lower = np.zeros((degree + 1, degree + 1))
     upper = np.zeros((degree + 1, degree + 1))
     for i in range(degree + 1):

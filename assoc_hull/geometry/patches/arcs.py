@@ -49,8 +49,8 @@ def arcs_of(cells: Cells) -> Arcs:
     Arcs
         In the order of their cells; each cell has one at most.
     """
-    kinds = CellKind.U_SIMPLE, CellKind.V_SIMPLE
-    parts = [_arcs(cells, np.flatnonzero(cells.kind == kind), k) for k, kind in enumerate(kinds)]
+    kinds = enumerate((CellKind.U_SIMPLE, CellKind.V_SIMPLE))
+    parts = [_arcs(cells, np.flatnonzero(cells.kind == kind), across) for across, kind in kinds]
     order = np.argsort(np.concatenate([part.cell for part in parts]), kind="stable")
     names = "cell", "across", "span", "ends", "rising"
     return Arcs(*(np.concatenate([getattr(part, name) for part in parts])[order] for name in names))
@@ -85,9 +85,9 @@ def _edge(b: FloatArray, err: FloatArray, negative: bool) -> _Edge:
 
 def _arcs(cells: Cells, rows: NDArray[np.intp], across: int) -> Arcs:
     """Find the arcs of cells of one kind."""
-    b = polynomials_over(cells, rows)
+    b = polynomials_over(cells, rows, across)
     err = cells.err[cells.row[rows]]
-    err = err.swapaxes(1, 2) if across else err
+    err = err.swapaxes(1, 2) if across and len(rows) else err
     rising = b[:, -1, 0] > b[:, 0, 0]
     low, high = np.where(rising, 0, -1), np.where(rising, -1, 0)
     each = np.arange(len(rows))

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.algebra import binomials
-from assoc_hull.geometry.patches.cells import CellKind, Cells
+from assoc_hull.geometry.patches.cells import Cells
 from assoc_hull.geometry.patches.roots import crossing, powers
 
 __all__ = ["bernstein_table", "heights", "polynomials_over"]
 
 
-def polynomials_over(cells: Cells, rows: NDArray[np.intp]) -> FloatArray:
-    """Give the polynomials of simple cells of one kind, the running parameter last.
+def polynomials_over(cells: Cells, rows: NDArray[np.intp], across: int) -> FloatArray:
+    """Give the polynomials of simple cells, the running parameter last.
 
     Parameters
     ----------
@@ -34,15 +34,16 @@ def polynomials_over(cells: Cells, rows: NDArray[np.intp]) -> FloatArray:
         The cells.
     rows : (c,) int
         Some of them, all u-simple or all v-simple.
+    across : int
+        0 where they are u-simple, 1 where u runs: the parameters are exchanged then.
 
     Returns
     -------
     (c, A + 1, T + 1)
-        Their coefficients; exchanged where u runs.
+        Their coefficients.
     """
     b = cells.b[cells.row[rows]]
-    exchanged = bool(len(rows)) and bool(cells.kind[rows[0]] == CellKind.V_SIMPLE)
-    return np.ascontiguousarray(b.swapaxes(1, 2)) if exchanged else b
+    return np.ascontiguousarray(b.swapaxes(1, 2)) if across else b
 
 
 def bernstein_table(t: FloatArray, degree: int) -> FloatArray:

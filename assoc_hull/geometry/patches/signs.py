@@ -90,8 +90,9 @@ def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[n
     (c,) int
         A `CellKind` each; UNRESOLVED where nothing is proved.
     """
-    flat, wide = b.reshape(len(b), -1), err.reshape(len(b), -1)
-    above, below = (flat > wide).any(axis=1), (flat < -wide).any(axis=1)
+    flat = len(b), b.shape[1] * b.shape[2]
+    above = (b > err).reshape(flat).any(axis=1)
+    below = (b < -err).reshape(flat).any(axis=1)
     found = np.where(above, 1, 0) - np.where(below, 1, 0)
     pure = np.flatnonzero(found)
     found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED

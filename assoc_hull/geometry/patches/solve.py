@@ -5,7 +5,8 @@ level of many patches at a time. What is left at the last level, or when a patch
 cells, is *unresolved*: all that the search does not know lies there, and is told.
 
 The first cut is not in the middle: zero sets of shapes with symmetry lie on lines like u = 1/2,
-where each side of a cut would see coefficients of one sign only, and no arc.
+where each side of a cut would see coefficients of one sign only, and no arc. A cell in which a
+cut meets such a line all the same is cut elsewhere.
 
 A cut multiplies by matrices; the error of the result is that of the coefficients multiplied by
 the same matrices (their entries are positive), and the rounding of the products.
@@ -29,6 +30,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.algebra import split as split_matrices
 from assoc_hull.geometry.patches.cells import CellKind, Cells
@@ -36,9 +38,10 @@ from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 from assoc_hull.geometry.patches.edge_factors import without_edge_lines
 from assoc_hull.geometry.patches.signs import kinds
 
-__all__ = ["FIRST_CUT", "solve"]
+__all__ = ["FIRST_CUT", "OTHER_CUT", "solve"]
 
 FIRST_CUT = (0.4871, 0.5137)
+OTHER_CUT = (0.4583, 0.5391)
 _EPS = 2.0**-53
 # From this level on, cells with no coefficient above so many errors are not cut: round a place
 # where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
@@ -75,7 +78,13 @@ def solve(
     -------
     Cells
         They tile each patch, and depend on the polynomial of that patch only, to the last bit.
+
+    Raises
+    ------
+    BadInputError
+        A coefficient is not finite.
     """
+    _check(function)
     count = len(function.b)
     parts = []
     for first in range(0, max(count, 1), _BATCH):
@@ -85,6 +94,18 @@ def solve(
         pair = np.stack(layers, axis=1)
         parts.append(_batch(without_edge_lines(pair), first, depth, budget, split))
     return _together(parts)
+
+
+def _check(function: IsoFunction) -> None:
+    """Refuse what would be taken for a polynomial that is nil."""
+    finite = np.isfinite(function.b) & np.isfinite(function.err)
+    if not finite.all():
+        patch, i, j = np.argwhere(~finite)[0].tolist()
+        raise BadInputError(
+            f"coefficient {i}, {j} of the curvature polynomial is not a finite number",
+            f"patch {patch}",
+            "give a patch of finite control points, in m",
+        )
 
 
 @attrs.define(eq=False)
@@ -115,18 +136,34 @@ def _judged(patch: IntArray, box: FloatArray, pair: FloatArray) -> _Part:
 
 
 def _joined(parts: list[_Part]) -> _Part:
-    names = "patch", "box", "kind", "pair"
-    return _Part(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+    """Put parts behind one another."""
+    return _Part(
+        np.concatenate([part.patch for part in parts]),
+        np.concatenate([part.box for part in parts]),
+        np.concatenate([part.kind for part in parts]),
+        np.concatenate([part.pair for part in parts]),
+    )  # fmt: skip
 
 
 def _cut(cells: _Part, u: float, v: float) -> _Part:
-    """Cut each cell, none of which is pure, in four."""
+    """Cut each cell, none of which is pure, in four; elsewhere where a cut lies on the zero set."""
     parts = []
     for first in range(0, len(cells.patch), _SLICE):
         rows = slice(first, first + _SLICE)
-        patch, box = np.repeat(cells.patch[rows], 4), _quarters(cells.box[rows], u, v)
-        parts.append(_judged(patch, box, _quartered(cells.pair[rows], u, v)))
+        some = _Part(cells.patch[rows], cells.box[rows], cells.kind[rows], cells.pair[rows])
+        grown = _grown(some.pair, u, v)
+        vain = _on_zero_set(grown)
+        if vain.any():
+            again = some.at(vain)
+            parts.append(_parted(again, _grown(again.pair, *OTHER_CUT), *OTHER_CUT))
+            some, grown = some.at(~vain), grown[~vain]
+        parts.append(_parted(some, grown, u, v))
     return _joined(parts)
+
+
+def _parted(cells: _Part, grown: FloatArray, u: float, v: float) -> _Part:
+    """Judge the four parts of each cell."""
+    return _judged(np.repeat(cells.patch, 4), _quarters(cells.box, u, v), _quartered(grown))
 
 
 def _batch(
@@ -165,8 +202,8 @@ def _both(degree: int, at: float) -> FloatArray:
     return found
 
 
-def _quartered(pair: FloatArray, u: float, v: float) -> FloatArray:
-    """Cut coefficients (c, layers, M + 1, N + 1) in four, in the order of `_quarters`.
+def _grown(pair: FloatArray, u: float, v: float) -> FloatArray:
+    """Cut coefficients at u and v: (c, layers, 2, M + 1, 2, N + 1).
 
     One product per cell: what a cell gets does not depend on how many there are.
     """
@@ -174,7 +211,19 @@ def _quartered(pair: FloatArray, u: float, v: float) -> FloatArray:
     pair = pair.copy()
     pair[:, 1:] += 16 * (rows + columns - 2) * _EPS * np.abs(pair[:, :1])
     found = _both(rows - 1, u) @ pair @ _both(columns - 1, v).T
-    parts = found.reshape(count, layers, 2, rows, 2, columns).transpose(0, 2, 4, 1, 3, 5)
+    return found.reshape(count, layers, 2, rows, 2, columns)
+
+
+def _on_zero_set(grown: FloatArray) -> NDArray[np.bool_]:
+    """Tell where the polynomial is nil along a cut: each part would see one sign, and no arc."""
+    dead = [np.abs(line[:, 0]) <= line[:, 1] for line in (grown[:, :, 0, -1], grown[..., 0, -1])]
+    return np.asarray(dead[0].all(axis=(1, 2)) | dead[1].all(axis=(1, 2)))
+
+
+def _quartered(grown: FloatArray) -> FloatArray:
+    """Put the parts behind one another, in the order of `_quarters`."""
+    count, layers, _, rows, _, columns = grown.shape
+    parts = grown.transpose(0, 2, 4, 1, 3, 5)
     return np.ascontiguousarray(parts).reshape(4 * count, layers, rows, columns)
 
 
