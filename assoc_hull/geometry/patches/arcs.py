@@ -87,7 +87,7 @@ def _arcs(cells: Cells, rows: NDArray[np.intp], across: int) -> Arcs:
     """Find the arcs of cells of one kind."""
     b = polynomials_over(cells, rows, across)
     err = cells.err[cells.row[rows]]
-    err = err.swapaxes(1, 2) if across and len(rows) else err
+    err = err.swapaxes(1, 2) if across else err
     rising = b[:, -1, 0] > b[:, 0, 0]
     low, high = np.where(rising, 0, -1), np.where(rising, -1, 0)
     each = np.arange(len(rows))
