@@ -113,7 +113,7 @@ def curvature_nodes(patches: Patches, count: int = COUNT) -> CurvatureNodes:
     bending = np.cos(angle)[..., None] * ahead
     bending = bending + np.sin(angle)[..., None] * np.cross(normal, ahead)
     _, weight = lobatto(count)
-    area = size * weight[:, None] * weight
+    area = np.where(there, size, 0.0) * weight[:, None] * weight
     return CurvatureNodes(
         place, normal * area[..., None], area, h11 * h22 - h12**2,
         np.abs(mean) + half, np.abs(np.abs(mean) - half), bending,

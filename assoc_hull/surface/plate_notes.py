@@ -67,7 +67,7 @@ def _size(name: str, extents: FloatArray) -> Iterator[str]:
 
 def _poles(name: str, nodes: CurvatureNodes) -> Iterator[str]:
     """Tell nodes without a normal."""
-    count = int((nodes.area.max(axis=(1, 2), keepdims=True) * 1e-9 > nodes.area).sum())
+    count = int((nodes.area == 0.0).sum())
     if count:
         yield (
             f"{name} has {count} nodes without a normal, at a border or spot of no length: its "

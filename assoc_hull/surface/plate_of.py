@@ -31,6 +31,9 @@ __all__ = ["Draft", "draft", "plate_of", "radius"]
 _STRAIGHT = 1e6
 """m: a radius above this is none."""
 
+_POINT = 1e-9
+"""m: a line that is no longer lies at a pole, and is none of the shape."""
+
 _LINES = ("closed", "open", "junction", "edge_line")
 """Components that are lines."""
 
@@ -126,7 +129,7 @@ def plate_of(
         largest_strain=strain * float(amount.max()),
         heating=areas.positive + areas.negative > regions.options.area_tol * areas.total,
         lines=sum(
-            each.surface == number and each.kind in _LINES and not each.singular
+            each.surface == number and each.kind in _LINES and each.length > _POINT
             for each in regions.components
         ),
         suggestion=options.suggestions[suggestion_key(kind, rollable, single)],

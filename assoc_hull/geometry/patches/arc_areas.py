@@ -37,7 +37,6 @@ from typing import Self
 
 import attrs
 import numpy as np
-from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.arc_curves import ArcCurves

@@ -92,7 +92,7 @@ def _through(nodes: FloatArray, places: FloatArray) -> FloatArray:
     """Give the matrix from values at nodes to values at places of the polynomial through them."""
     degree = len(nodes) - 1
     at = (np.polynomial.legendre.legvander(t, degree).T for t in (nodes, places))
-    return np.linalg.solve(*at).T.copy()
+    return np.array(np.linalg.solve(*at).T, np.float64)
 
 
 def _judges(nodes: FloatArray, rule: FloatArray, coarse: FloatArray) -> FloatArray:

@@ -72,7 +72,8 @@ def bernstein_values(degree: int, t: FloatArray) -> FloatArray:
     >>> bernstein_values(2, np.array([0.5])).ravel()
     array([0.25, 0.5 , 0.25])
     """
-    found, falling = np.empty((2, degree + 1, *t.shape))
+    found = np.empty((degree + 1, *t.shape))
+    falling = np.empty_like(found)
     rest = 1.0 - t
     found[0], falling[degree] = 1.0, 1.0
     for i in range(degree):

@@ -65,7 +65,7 @@ class AreaSeries:
     @property
     def count(self) -> int:
         """The number of terms in each parameter."""
-        return self.terms.shape[2]
+        return int(self.terms.shape[2])
 
     def over(self, row: IntArray, box: FloatArray) -> FloatArray:
         """Integrate over boxes.

@@ -170,7 +170,8 @@ def checked_parameters(
 
 def _between(value: object, limits: Limits, axis: str, where: str) -> Limits:
     """Take two rising parameters; those within rounding of an end are the end."""
-    if not isinstance(value, tuple | list | np.ndarray) or len(np.atleast_1d(value)) != 2:
+    listed = isinstance(value, tuple | list) or (isinstance(value, np.ndarray) and value.ndim == 1)
+    if not listed or len(value) != 2:  # type: ignore[arg-type]
         raise WrongTypeError(f"{axis} is {shown(value)}", where, "give (low, high)")
     room = _SAME * max(abs(limits[0]), abs(limits[1]))
     ends = [number(each, axis, where) for each in value]
