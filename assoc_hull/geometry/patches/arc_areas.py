@@ -25,7 +25,7 @@ Examples
 >>> net[1, :, 0], net[:, 1, 1] = 2.0, 3.0
 >>> b = np.array([[[-1.0, -1.0], [3.0, 3.0]]])
 >>> cells = solve(IsoFunction(b, 1e-15 + 0.0 * b))
->>> [(curves, rows)] = arc_curves(cells, arcs_of(cells))
+>>> [(curves, rows)] = arc_curves(cells, arcs_of(cells), np.array([0]))
 >>> area, error = below(AreaGround.of(Patches.single(net), 1e-6), curves, np.array([1e-6]))
 >>> area.round(12)
 array([1.5])

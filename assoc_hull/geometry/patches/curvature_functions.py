@@ -1,7 +1,7 @@
 """Polynomials that have the sign of Gaussian or mean curvature less a level, with error bounds.
 
-With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3) on polynomial patches, so
-the sign of
+With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3) on polynomial patches,
+so the sign of
 
     K                is that of  A                                (6m - 4, 6n - 4)
     K - K0           is that of  A - K0 |S|**4                    (8m - 4, 8n - 4)

@@ -71,6 +71,18 @@ class Lattice:
         """Give the places (n, 2) of points, by their patches (n,) and parameters (n, 2) there."""
         return np.asarray(self.corner[patch] + uv)
 
+    def patch_at(self, places: FloatArray) -> IntArray:
+        """Give a patch that has each of some places (n, 2) in it or on its border."""
+        codes = _codes(self.corner, self.corner)
+        order = np.argsort(codes)
+        floor = np.floor(places)
+        beside = floor[:, None, :] - _CORNERS * (places == floor)[:, None, :]
+        wanted = _codes(self.corner, beside)
+        at = np.minimum(np.searchsorted(codes[order], wanted), max(len(order) - 1, 0))
+        found = order[at]
+        hit = (codes[found] == wanted).argmax(axis=1)
+        return np.asarray(found[np.arange(len(places)), hit])
+
     def on_surface(self, box: FloatArray, places: FloatArray) -> FloatArray:
         """Give the parameters (n, 2) on their surfaces of places, by the boxes of all patches."""
         found = np.empty_like(places)

@@ -10,21 +10,19 @@ Examples
 >>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 >>> from assoc_hull.geometry.patches.refining import refined
 >>> from assoc_hull.geometry.patches.solve import FIRST_CUT, solve
->>> first, power = FIRST_CUT[0], np.array([0.0, 0.0, 1.0])
->>> in_v = np.array([0.25, -0.25, 0.25])  # (v - 1/2)**2, nil at v = 1/2
->>> in_u = first - np.array([0.0, 0.5, 1.0])
->>> b = in_v + 4.0 * in_u[:, None]  # touches u = 0.4871
+>>> in_u, in_v = ([c * c, c * c - c, (1 - c) ** 2] for c in (FIRST_CUT[0] + 0.2, 0.53))
+>>> b = 0.2**2 - np.array(in_u)[:, None] - in_v  # a circle that touches the cut
 >>> function = IsoFunction(b[None], np.full((1, 3, 3), 1e-15))
 >>> cells = solve(function)
->>> (cells.kind == 4).any(), (refined(function, cells).kind == 4).any()
-(np.True_, np.False_)
+>>> [int((each.kind == 4).sum()) for each in (cells, refined(function, cells))]
+[2, 0]
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.geometry.curves import IntArray
+from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.clusters import clusters_of
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
@@ -38,7 +36,13 @@ __all__ = ["refined"]
 _CUTS = ((0.4583, 0.5391), (0.5227, 0.4673))
 
 
-def refined(function: IsoFunction, cells: Cells, depth: int = 16, budget: int = 6000) -> Cells:
+def refined(
+    function: IsoFunction,
+    cells: Cells,
+    depth: int = 16,
+    budget: int = 6000,
+    nil: FloatArray | None = None,
+) -> Cells:
     """Solve patches again, with other cuts, that have undecided cells in which the line is a graph.
 
     Parameters
@@ -47,7 +51,7 @@ def refined(function: IsoFunction, cells: Cells, depth: int = 16, budget: int = 
         The polynomials.
     cells : Cells
         What `solve` has found for them.
-    depth, budget : int
+    depth, budget, nil : int, int, (k, M + 1, N + 1)
         As for `solve`.
 
     Returns
@@ -61,7 +65,8 @@ def refined(function: IsoFunction, cells: Cells, depth: int = 16, budget: int = 
         rows = np.flatnonzero(touched)
         if not len(rows):
             break
-        again = solve(IsoFunction(function.b[rows], function.err[rows]), depth, budget, cut)
+        part = IsoFunction(function.b[rows], function.err[rows])
+        again = solve(part, depth, budget, cut, None if nil is None else nil[rows])
         left = _touched(again)
         better = left < touched[rows]
         cells = _replaced(cells, again, rows, better)
