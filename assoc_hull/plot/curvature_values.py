@@ -22,8 +22,8 @@ from assoc_hull.surface.zero_band import zero_band
 
 __all__ = ["valued"]
 
-_FINER = 2
-"""So many times as many tiles lie along a patch as in a picture of regions."""
+_STEPS, _STEPS_OF_MANY = 96, 40
+"""Tiles along a side of a plate, if it is the only one, and if it is one of several."""
 
 
 @attrs.frozen(eq=False)
@@ -41,7 +41,8 @@ def valued(sheet: Sheet, entries: Sequence[Entry], top: float) -> Look:
     reach equally far.
     """
     k0 = max(entry.result.k0 for entry in entries) or zero_band().k0
-    found = {id(entry): _values(entry) for entry in entries}
+    steps = _STEPS if len(entries) == 1 else _STEPS_OF_MANY
+    found = {id(entry): _values(entry, steps) for entry in entries}
     largest = max(float(np.nanmax(np.abs(each.gauss))) for each in found.values())
     most = max(largest, 2.0 * k0)
     reach = float(map_value(np.array(most), k0))
@@ -70,13 +71,13 @@ def _marks(k0: float, most: float, reach: float) -> list[tuple[float, str]]:
     return marks
 
 
-def _values(entry: Entry) -> _Values:
+def _values(entry: Entry, steps: int) -> _Values:
     """Give the curvature in the middles of tiles; nan where there is no tangent plane."""
     uv, gauss = [], []
     for part in entry.result.parts:
         patches = part.patches[np.flatnonzero(part.patches.surface == entry.number)]
         if len(patches):
-            row, corner = ground(len(patches), _FINER * steps_of(patches))
+            row, corner = ground(len(patches), steps_of(patches, steps))
             gauss.append(curvatures(patches, row, corner.mean(axis=1)).gauss)
             flat = corner.reshape(-1, 2)
             uv.append(patches.parameters(np.repeat(row, 4), flat).reshape(-1, 4, 2))

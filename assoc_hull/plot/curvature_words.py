@@ -13,7 +13,7 @@ from assoc_hull.plot.plate_entries import REGIONS, Picture, area_words
 from assoc_hull.plot.plate_paint import BORDER, SIGNS, TINTS, hatched
 from assoc_hull.plot.sheet import Sheet
 
-__all__ = ["BLOCK", "legend", "region_block"]
+__all__ = ["BLOCK", "legend", "region_block", "strip"]
 
 BLOCK = 84.0
 """Width of the block, mm at A3."""
@@ -86,3 +86,21 @@ def _row(sheet: Sheet, left: float, y: float, words: str, area: float, total: fl
     sheet.text((right - 15.0 * factor, y), area_words(area), size=1.1, across="right",
                name="label/legend/area")  # fmt: skip
     sheet.text((right, y), f"{share:.2f} %", size=1.1, across="right", name="label/legend/share")
+
+
+def strip(sheet: Sheet, picture: Picture, place: tuple[float, float], colour: str) -> None:
+    """Explain the colours in a line from a place to the right, without areas."""
+    factor, (x, y) = sheet.paper.factor, place
+    where = _BANDED if picture.banded else _SHARP
+    for sign in (1, 0, -1):
+        _swatch(sheet, x, y, sign, True)
+        words = f"{REGIONS[sign]}, {where[sign]}"
+        sheet.text((x + 9.0 * factor, y), words, across="left", name="label/legend")
+        x += 15.0 * factor + sheet.width(words)
+    hatched(sheet, _rectangle(x, y, factor), "legend/unresolved")
+    words = "unresolved"
+    sheet.text((x + 9.0 * factor, y), words, across="left", name="label/legend")
+    x += 15.0 * factor + sheet.width(words)
+    if any(entry.axis is not None for entry in picture.entries):
+        sheet.text((x, y), "dash-dotted: roll axis", across="left", colour=colour,
+                   name="label/legend")  # fmt: skip

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.plot.plate_scene import Scene, scene_of
+from assoc_hull.plot.plate_scene import STEPS, Scene, scene_of
 from assoc_hull.surface.plate import Plate
 from assoc_hull.surface.plate_table import Plates
 from assoc_hull.surface.region_areas import RegionAreas
@@ -19,6 +19,9 @@ __all__ = ["REGIONS", "Entry", "Picture", "area_words", "picture_of", "shares_of
 
 REGIONS = {1: "convex", 0: "developable", -1: "saddle"}
 """The regions by their sign."""
+
+_STEPS_OF_MANY = 20
+"""Tiles along a side of a plate that is one of several: it is drawn small."""
 
 
 @attrs.frozen(eq=False)
@@ -76,28 +79,30 @@ class Picture:
 
 def picture_of(found: RegionResult | Plates) -> Picture:
     """Take a result, or plates, apart into what is drawn."""
+    count = len(found) if isinstance(found, Plates) else len(found.surfaces)
+    steps = STEPS if count == 1 else _STEPS_OF_MANY
     if isinstance(found, Plates):
-        entries = tuple(_of_plate(found, number) for number in range(len(found)))
+        entries = tuple(_of_plate(found, number, steps) for number in range(count))
         results, notes = found.results, found.notes
         axes = any(entry.axis is not None for entry in entries)
         notes = (*notes, *(("Dash-dotted: the axis a plate is rolled about.",) if axes else ()))
     else:
-        entries = tuple(_of_surface(found, k) for k in range(len(found.surfaces)))
+        entries = tuple(_of_surface(found, number, steps) for number in range(count))
         results, notes = (found,), found.notes
     areas = RegionAreas.added(attrs.astuple(each.areas) for each in results)
     facts = tuple(_facts(results, areas, len(entries)))
     return Picture(entries, areas, results[0].k0 > 0.0, facts, notes)
 
 
-def _of_surface(result: RegionResult, number: int) -> Entry:
+def _of_surface(result: RegionResult, number: int, steps: int) -> Entry:
     name = result.surfaces[number].name or (f"{number + 1}" if len(result.surfaces) > 1 else "")
     words = shares_of(result.of_surface(number))
-    return Entry(name, scene_of(result, number), words, None, result, number)
+    return Entry(name, scene_of(result, number, steps), words, None, result, number)
 
 
-def _of_plate(plates: Plates, number: int) -> Entry:
+def _of_plate(plates: Plates, number: int, steps: int) -> Entry:
     plate, result = plates[number], plates.result_of(number)
-    scene = scene_of(result, plate.number)
+    scene = scene_of(result, plate.number, steps)
     return Entry(plate.name, scene, _told(plate), plate.roll_direction, result, plate.number)
 
 

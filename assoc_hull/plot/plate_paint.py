@@ -124,8 +124,17 @@ def _hiding(place: Place, shape: Shape) -> Callable[[FloatArray], FloatArray]:
 def _order(place: Place, shape: Shape) -> IntArray:
     """Give the tiles from the farthest to the nearest, the ground before what lies on it."""
     near = place.toward(shape.corner)
+    if _spread_out(place.on_paper(shape.corner)):
+        return np.lexsort((near.max(axis=1), ~shape.under))
     key = np.where(shape.under, near.min(axis=1), near.max(axis=1))
     return np.argsort(key, kind="stable")
+
+
+def _spread_out(corner: FloatArray) -> bool:
+    """Tell whether all tiles show the same side, so that none lies before another."""
+    first, second = (corner[:, k + 2] - corner[:, k] for k in (0, 1))
+    turn = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    return bool((turn >= 0.0).all() or (turn <= 0.0).all())
 
 
 def _unresolved(

@@ -16,10 +16,23 @@ from assoc_hull.plot.curvature_tiles import tiles_of
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_result import RegionResult
 
-__all__ = ["Chart", "Line", "Scene", "Shape", "ground", "points_of", "scene_of", "steps_of"]
+__all__ = [
+    "STEPS",
+    "Chart",
+    "Line",
+    "Scene",
+    "Shape",
+    "ground",
+    "points_of",
+    "scene_of",
+    "steps_of",
+]
 
-_STEPS, _FEWEST = 48, 6
-"""Tiles along a side of a whole surface, about, and of each of its patches at least."""
+STEPS = 40
+"""Tiles along a side of a whole surface, about, where it is the only one of a picture."""
+
+_FEWEST = 4
+"""Tiles along a side of a patch at least."""
 
 _ALONG = 64  # points of an edge
 
@@ -142,36 +155,38 @@ def ground(count: int, steps: int) -> tuple[IntArray, FloatArray]:
     )
 
 
-def scene_of(result: RegionResult, number: int) -> Scene:
+def scene_of(result: RegionResult, number: int, steps: int = STEPS) -> Scene:
     """Give what is drawn of one surface of a result.
 
     Regions are drawn of the cells that were proven to have one sign, and of both sides of the
-    arcs in the others: their borders are those of the result, not of a grid.
+    arcs in the others: their borders are those of the result, not of a grid. About so many
+    tiles (`steps`) lie along a side of the surface.
     """
     surface = result.surfaces[number]
-    parts = [_tiles(*search) for search in _searches(result, number)]
+    parts = [_tiles(*search, steps) for search in _searches(result, number)]
     uv, tint, under, unresolved = (np.concatenate(each) for each in zip(*parts, strict=True))
     lines = tuple(each for each in result.components if each.surface == number)
     return Scene(surface, uv, tint, under, unresolved, lines, result.band.levels)
 
 
 def _tiles(
-    patches: Patches, cells: Cells, side: int
+    patches: Patches, cells: Cells, side: int, steps: int
 ) -> tuple[FloatArray, IntArray, NDArray[np.bool_], FloatArray]:
     """Give tiles of one search: corners on the surface, tints, which lie below; unresolved cells.
 
     Above the band (side 1) they lie on ground that is developable all over.
     """
-    tiles = tiles_of(cells, steps_of(patches))
+    each = steps_of(patches, steps)
+    tiles = tiles_of(cells, each)
     shown = (tiles.sign == side) | (side == 0)
     uv, tint = _on_surface(patches, tiles.patch, tiles.uv)[shown], tiles.sign[shown]
     under = np.zeros(len(uv), np.bool_)
     if side > 0:
-        base = _on_surface(patches, *ground(len(patches), steps_of(patches)))
+        base = _on_surface(patches, *ground(len(patches), each))
         uv = np.concatenate([base, uv])
         tint, under = (
-            np.concatenate([np.full(len(base), first, each.dtype), each])
-            for first, each in ((0, tint), (1, under))
+            np.concatenate([np.full(len(base), first, rest.dtype), rest])
+            for first, rest in ((0, tint), (1, under))
         )
     return uv, tint, under, _unresolved(patches, cells)
 
@@ -184,9 +199,9 @@ def points_of(surface: SplineSurface, uv: FloatArray) -> FloatArray:
     return surface.at(np.clip(uv[..., 0], u0, u1), np.clip(uv[..., 1], v0, v1))
 
 
-def steps_of(patches: Patches) -> int:
-    """Give how many tiles lie along a side of a patch."""
-    return max(_FEWEST, round(_STEPS / float(np.sqrt(max(len(patches), 1)))))
+def steps_of(patches: Patches, steps: int) -> int:
+    """Give how many tiles lie along a side of a patch, of so many for a whole surface."""
+    return max(_FEWEST, round(steps / float(np.sqrt(max(len(patches), 1)))))
 
 
 def _searches(result: RegionResult, number: int) -> Iterator[tuple[Patches, Cells, int]]:
