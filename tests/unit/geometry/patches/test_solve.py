@@ -107,6 +107,19 @@ def claimed(cells: Cells, arcs: Arcs) -> FloatArray:
     return found
 
 
+def thinned(cells: Cells, arcs: Arcs, count: int) -> tuple[Cells, Arcs]:
+    """About so many of the cells, with their arcs."""
+    kept = np.arange(len(cells)) % (len(cells) // count + 1) == 0
+    number, own = np.cumsum(kept) - 1, kept[arcs.cell]
+    thin = Cells(
+        cells.patch[kept], cells.box[kept], cells.level[kept], cells.kind[kept], cells.row[kept],
+        cells.b, cells.err, cells.stopped,
+    )  # fmt: skip
+    return thin, Arcs(
+        number[arcs.cell[own]], arcs.across[own], arcs.span[own], arcs.ends[own], arcs.rising[own]
+    )
+
+
 def bound(function: IsoFunction, cells: Cells, place: FloatArray) -> FloatArray:
     """What rounding may do to the polynomial at points (c, p, 2)."""
     m, n = (size - 1 for size in function.err.shape[1:])
@@ -120,10 +133,12 @@ def bound(function: IsoFunction, cells: Cells, place: FloatArray) -> FloatArray:
 def test_every_claim_on_random_patches_is_true(draw: object) -> None:
     """Signs found point by point, without the polynomial, are those that cells and arcs claim."""
     assert callable(draw)
-    net = draw(*((120, 5) if draw is graph_plates else (15, 5)))
+    net = draw(120 if draw is graph_plates else 60, 5)
     f = gauss_function(batch(net), 0.0)
     cells = solve(f)
     arcs = arcs_of(cells)
+    assert sorted(arcs.cell) == np.flatnonzero((cells.kind == 2) | (cells.kind == 3)).tolist()
+    cells, arcs = thinned(cells, arcs, 5000)
     _, place = checked_points(cells)
     place = place.reshape(len(cells), -1, 2)
     value = pointwise(net, cells.patch, place)
@@ -133,7 +148,6 @@ def test_every_claim_on_random_patches_is_true(draw: object) -> None:
     assert (np.abs(value) <= wide)[cells.kind == CellKind.ZERO].all()
     assert np.isnan(sign).mean() < 0.25
     assert_one_sign_beside_arcs(cells, sign, value, wide)
-    assert sorted(arcs.cell) == np.flatnonzero((cells.kind == 2) | (cells.kind == 3)).tolist()
 
 
 def assert_one_sign_beside_arcs(
