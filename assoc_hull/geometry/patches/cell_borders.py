@@ -23,7 +23,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.lattice import Lattice
 
-__all__ = ["SHORT", "between", "leftover", "sides_of"]
+__all__ = ["SHORT", "between", "leftover", "of_both_signs", "plain", "sides_of"]
 
 # The corners of a cell in the order of the walk: which end of the box in u and in v.
 _WALK = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
@@ -65,24 +65,41 @@ def sides_of(
     return np.concatenate([full, _cut(corners[cut], arc)])
 
 
+def plain(cells: Cells, arc_of: IntArray) -> IntArray:
+    """Give the simple cells without an arc."""
+    simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
+    return np.flatnonzero(simple & (arc_of < 0))
+
+
 def _whole(cells: Cells, kind: CellKind, arc_of: IntArray) -> NDArray[np.bool_]:
     """Tell which cells belong to a region as a whole."""
     found = cells.kind == kind
-    plain = np.flatnonzero(
-        (arc_of < 0) & ((cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE))
-    )
     if kind in (CellKind.POSITIVE, CellKind.NEGATIVE):
-        found[plain] = _sign(cells, plain) == kind
+        rows = plain(cells, arc_of)
+        found[rows] = _sign(cells, rows) == kind
     return np.asarray(found)
+
+
+def _corner_values(cells: Cells, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give polynomials and their errors at the corners of cells, (n, 4)."""
+    b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
+    corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
+    return np.stack([b[at] for at in corners], axis=1), np.stack(
+        [err[at] for at in corners], axis=1
+    )
 
 
 def _sign(cells: Cells, rows: IntArray) -> IntArray:
     """Tell the sign in simple cells that no arc crosses: that of the surest corner."""
-    b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
-    corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
-    values = np.stack([b[at] for at in corners], axis=1)
-    sure = (np.abs(values) - np.stack([err[at] for at in corners], axis=1)).argmax(axis=1)
+    values, err = _corner_values(cells, rows)
+    sure = (np.abs(values) - err).argmax(axis=1)
     return np.asarray(np.sign(values[np.arange(len(rows)), sure]), np.intp)
+
+
+def of_both_signs(cells: Cells, rows: IntArray) -> NDArray[np.bool_]:
+    """Tell which simple cells have corners of both signs for certain, so that an arc is there."""
+    values, err = _corner_values(cells, rows)
+    return np.asarray((values > err).any(axis=1) & (values < -err).any(axis=1))
 
 
 def _cut(corners: FloatArray, arc: FloatArray) -> FloatArray:

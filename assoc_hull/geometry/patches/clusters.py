@@ -103,7 +103,7 @@ class Clusters:
             np.bincount(number[marks], minlength=count) > 0
             for marks in (self.unresolved, self.flat, ~self.regular)
         )
-        at_point = np.where(self.at_point >= 0, number[self.at_point], -1)
+        at_point = np.append(number, -1)[self.at_point]
         size = np.bincount(number, self.size, minlength=count).astype(np.float64)
         return Clusters(
             self.cell, number[self.cluster], at_point, unresolved, flat, ~winding, size

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.patches.cell_borders import SHORT, between, sides_of
+from assoc_hull.geometry.patches.cell_borders import SHORT, between, of_both_signs, plain, sides_of
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.chains import chained
 from assoc_hull.geometry.patches.clusters import Clusters
@@ -38,6 +38,8 @@ __all__ = ["Gaps", "gaps_of", "unseen"]
 
 def unseen(cells: Cells, lattice: Lattice, arc_of: IntArray, ends: FloatArray) -> FloatArray:
     """Give the borders of positive and negative cells that no arc runs along.
+
+    Cells that lack an arc which must be there are left out: that is no gap, but an error.
 
     Parameters
     ----------
@@ -53,6 +55,9 @@ def unseen(cells: Cells, lattice: Lattice, arc_of: IntArray, ends: FloatArray) -
     (p, 2, 2)
         Where pieces begin and end, walked likewise.
     """
+    kept, rows = np.ones(len(cells), bool), plain(cells, arc_of)
+    kept[rows] = ~of_both_signs(cells, rows)
+    cells, arc_of = _some(cells, np.flatnonzero(kept)), arc_of[kept]
     positive = sides_of(cells, lattice, CellKind.POSITIVE, arc_of, ends)
     return between(positive, sides_of(cells, lattice, CellKind.NEGATIVE, arc_of, ends))
 
@@ -105,7 +110,8 @@ def gaps_of(
         What they lead to.
     """
     troubled = np.unique(arc_patch[lost.any(axis=1)])
-    pieces = unseen(_within(cells, troubled), lattice, arc_of[_rows(cells, troubled)], ends)
+    rows = np.flatnonzero(np.isin(cells.patch, troubled))
+    pieces = unseen(_some(cells, rows), lattice, arc_of[rows], ends)
     arcs = np.flatnonzero(np.isin(arc_patch, troubled))
     before, after, chain_ends, pairs = _followed(ends[arcs], pieces)
     end = np.full(lost.shape, -1)
@@ -135,14 +141,8 @@ def _of(values: IntArray, rows: IntArray) -> IntArray:
     return np.append(values, -1)[rows]
 
 
-def _rows(cells: Cells, patches: IntArray) -> IntArray:
-    """Give the cells of some patches."""
-    return np.flatnonzero(np.isin(cells.patch, patches))
-
-
-def _within(cells: Cells, patches: IntArray) -> Cells:
-    """Give the cells of some patches, with the polynomials of all."""
-    rows = _rows(cells, patches)
+def _some(cells: Cells, rows: IntArray) -> Cells:
+    """Give some cells, with the polynomials of all."""
     names = "patch", "box", "level", "kind", "row"
     return attrs.evolve(cells, **{name: getattr(cells, name)[rows] for name in names})
 

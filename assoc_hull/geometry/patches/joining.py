@@ -83,6 +83,7 @@ def _components(patches: Patches, cells: Cells, arcs: Arcs, links: Links) -> tup
 
 def _labels(links: Links) -> tuple[IntArray, IntArray, int]:
     """Give numbers of components to arcs and to clusters; -1 to those that are of none."""
+    clusters = links.landings.clusters
     joints, arcs, count = links.joints, len(links.following), len(links.joints)
     numbers, on = np.arange(arcs), links.following >= 0
     meets = (links.landings.kind == JUNCTION)[joints.joint] & ~joints.short[:, None]
@@ -95,7 +96,7 @@ def _labels(links: Links) -> tuple[IntArray, IntArray, int]:
     wanted = np.concatenate(
         [
             mine[~joints.short],
-            theirs[: len(links.landings.clusters)][links.landings.clusters.unresolved],
+            theirs[: len(clusters)][clusters.unresolved | clusters.narrow],
         ]
     )
     kept = np.unique(wanted)

@@ -101,7 +101,7 @@ class Landings:
         ends, patch = points.place[joints.joint], cells.patch[arcs.cell]
         gaps = gaps_of(lattice, cells, self.clusters, patch, arc_of, ends, lost_ends)
         at = joints.joint[lost_ends]
-        cluster = np.where(self.cluster >= 0, gaps.number[self.cluster], -1)
+        cluster = np.append(gaps.number, -1)[self.cluster]
         cluster[at] = gaps.cluster
         kind = self.kind.copy()
         kind[at] = np.where(gaps.border >= 0, gaps.border, NOWHERE)
