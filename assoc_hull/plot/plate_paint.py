@@ -29,7 +29,7 @@ _DARKEST = 0.72
 _CLEAR, _APART, _MOST = 2.2, 32.0, 5
 """mm at A3: a sign from the border of its region, and from the next one; so many at most."""
 
-_BEHIND = 0.02
+_BEHIND = 0.06
 """Of the depth of a plate: a line so far behind a tile is hidden by it."""
 
 _LOWER = 1e-3
