@@ -7,6 +7,8 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.arcs import arcs_of
+from assoc_hull.geometry.patches.areas import areas
 from assoc_hull.geometry.patches.curvature_functions import (
     IsoFunction,
     gauss_function,
@@ -17,6 +19,7 @@ from assoc_hull.geometry.patches.curvature_functions import (
 from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.pointwise import jets
+from assoc_hull.geometry.patches.solve import solve
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
 from tests.rational_surfaces import arc, revolved
 
@@ -148,6 +151,31 @@ def test_a_patch_does_not_depend_on_its_batch() -> None:
         for a, b in zip(batch, alone, strict=True):
             assert a.b[row].tobytes() == b.b.tobytes()
             assert a.err[row].tobytes() == b.err.tobytes()
+
+
+@pytest.mark.parametrize("level", [0.0, 0.1, -0.1])
+def test_areas_on_a_torus_are_exact(level: float) -> None:
+    """Where K = level the angle of the tube has cos(a) = R r K / (1 - r**2 K): known areas."""
+    found = gauss_function(torus(), level, 1e-12)
+    cells = solve(found)
+    area = areas(torus(), cells, arcs_of(cells), 1e-10)
+    border = np.arccos(3.0 * level / (1.0 - level))
+    low, middle, high = (
+        np.pi / 4 * (3.0 * a + np.sin(a)) for a in (np.pi / 6, border, 5 * np.pi / 6)
+    )
+    assert area.positive[0] == pytest.approx(middle - low, rel=1e-14)
+    assert area.negative[0] == pytest.approx(high - middle, rel=1e-14)
+    assert area.error_estimate[0] <= 1e-10 * area.total[0]
+
+
+def test_area_of_an_octant_of_a_sphere() -> None:
+    """With a pole: all of it is positive, and pi / 2."""
+    points, weights = arc(0.0, np.pi / 2)
+    octant = Patches.single(*revolved(points, weights, 0.0, np.pi / 2))
+    cells = solve(gauss_function(octant, 0.5, 1e-12))
+    area = areas(octant, cells, arcs_of(cells), 1e-10)
+    assert area.positive[0] == pytest.approx(np.pi / 2, rel=1e-14)
+    assert area.unresolved[0] == area.zero[0] == area.negative[0] == 0.0
 
 
 def test_mean_curvature_of_rational_patches_is_refused() -> None:
