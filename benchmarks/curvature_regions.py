@@ -164,7 +164,9 @@ def figures(quick: bool = False) -> list[Figure]:
     result = [
         Figure(f"{COUNT} cut plates in a batch, one of them", 1e3 * found["batch"] / COUNT, "ms"),
         Figure("one by one / in a batch", found["single"] / found["batch"], "x", 2.0),
-        Figure("100 x 100 nodes by NdBSpline / batch", found["NdBSpline"] / found["batch"], "x", 1.0),
+        Figure(
+            "100 x 100 nodes by NdBSpline / batch", found["NdBSpline"] / found["batch"], "x", 1.0
+        ),
         Figure("100 x 100 nodes by FITPACK / batch", found["FITPACK"] / found["batch"], "x", 1.0),
         Figure("100 x 100 nodes by basis matrices / batch", found["matrices"] / found["batch"]),
         Figure("tolerance 1e-10 / 1e-6", found["fine"] / found["batch"]),
