@@ -28,7 +28,7 @@ __all__ = ["development_figure", "development_sheet"]
 
 _OUTLINE = Pen(0.3, over=2.6)
 _CAPTION, _BAR = 7.0, 20.0  # room above a map, and below both, mm at A3
-_ROUND = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 _LEAST = 1e-6
 """The bar reaches at least to this strain: less is rounding, and shows as none."""
 

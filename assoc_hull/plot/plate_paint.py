@@ -29,8 +29,11 @@ _DARKEST = 0.72
 _CLEAR, _APART, _MOST = 2.2, 32.0, 5
 """mm at A3: a sign from the border of its region, and from the next one; so many at most."""
 
-_BEHIND = 0.02
+_BEHIND = 0.06
 """Of the depth of a plate: a line so far behind a tile is hidden by it."""
+
+_LOWER = 1e-3
+"""Of the depth of a plate: ground lies so much lower than what is on it."""
 
 _RINGS = 8
 """More spots than these are a line or an area, which is seen without rings."""
@@ -126,7 +129,8 @@ def _order(place: Place, shape: Shape) -> IntArray:
     near = place.toward(shape.corner)
     if _spread_out(place.on_paper(shape.corner)):
         return np.lexsort((near.max(axis=1), ~shape.under))
-    key = np.where(shape.under, near.min(axis=1), near.max(axis=1))
+    low = near.min(axis=1) - _LOWER * np.ptp(near)
+    key = np.where(shape.under, low, near.max(axis=1))
     return np.argsort(key, kind="stable")
 
 
