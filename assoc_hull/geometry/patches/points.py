@@ -20,6 +20,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.tensor_bernstein import basis
 
 __all__ = ["points", "stretch"]
@@ -27,11 +28,15 @@ __all__ = ["points", "stretch"]
 
 def points(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
     """Give the points (n, 3), m, at parameters (n, 2) of some patches (n,)."""
+    if patches.weight is not None:
+        return jets(patches, patch, uv).r
     return _value(patches.net[patch], uv)
 
 
 def stretch(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
     """Give the area per area of parameters, ``|r_u x r_v|``, m2, at parameters of some patches."""
+    if patches.weight is not None:
+        return jets(patches, patch, uv).element
     net = patches.net[patch]
     m, n = patches.degrees
     along_u = _value(m * np.diff(net, axis=1), uv) if m else np.zeros((len(net), 3))
