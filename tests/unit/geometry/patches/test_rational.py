@@ -18,8 +18,8 @@ from assoc_hull.geometry.patches.curvature_functions import (
 )
 from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.patches.points import points, stretch
+from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.patches.solve import solve
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
 from tests.rational_surfaces import arc, revolved
