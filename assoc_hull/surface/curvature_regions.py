@@ -107,7 +107,7 @@ def curvature_regions(
     >>> x, y = np.mgrid[0:4, 0:4] / 3.0
     >>> net = np.stack([6 * x, 2 * y, 0.02 * (6 * x) * (2 * y)], axis=-1)
     >>> found = ah.curvature_regions(net, zero="absolute", k0=1e-4)
-    >>> round(found.negative_share, 6), len(found.components), found.computed
+    >>> round(found.areas.negative_share, 6), len(found.components), found.computed
     (1.0, 0, 1)
     >>> ah.curvature_regions(net, zero="absolute", k0=1e-4, previous=found).computed
     0

@@ -1,7 +1,7 @@
 """What counts as no Gaussian curvature: a band by strain, a band as such, or nil itself.
 
 The sign of a curvature that is nil but for rounding means nothing: of a cylinder with control
-points 1e-9 m off, a third comes out convex and two thirds as a saddle. So curvatures up to some K0
+points 1e-9 m off, three quarters come out convex and one as a saddle. So curvatures up to some K0
 count as none. A strip of breadth b with the constant curvature K needs a range of longitudinal
 strain of |K| b**2 / 8 to be made flat; so the strain that may be neglected gives
 
