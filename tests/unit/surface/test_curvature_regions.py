@@ -164,6 +164,25 @@ def test_notes_tell_borders_without_curvature() -> None:
     assert np.array_equal(line[:, 0], np.zeros(len(line)))
 
 
+@pytest.mark.parametrize("zero", ["strain", "exact"])
+def test_a_pole_is_no_line(zero: str) -> None:
+    """Where a side is drawn together in a point, no border and no line of the curvature is told."""
+    result = ah.curvature_regions(patch("P17_pole_sphere"), zero=zero)
+    assert (result.components, result.notes, result.unresolved) == ((), (), 0.0)
+    assert result.positive == pytest.approx(result.total, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["P14_cyl", "P18_inflect_edge"])
+def test_coordinates_are_known_to_their_rounding(name: str) -> None:
+    """With a delta of 0, what is nil but for the rounding of the net is nil."""
+    result = ah.curvature_regions(patch(name), zero="exact", delta=0.0)
+    assert result.delta == 2.0**-52 * np.abs(patch(name)).max()
+    assert (result.negative, {piece.kind for piece in result.components} - {"edge_line"}) == (
+        0,
+        set(),
+    )
+
+
 def test_a_line_that_breaks_off_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """If an arc were lost, the result would be refused, not given with a gap."""
 
