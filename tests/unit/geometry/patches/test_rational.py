@@ -18,6 +18,7 @@ from assoc_hull.geometry.patches.curvature_functions import (
 )
 from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.points import points, stretch
 from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.patches.solve import solve
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
@@ -55,14 +56,14 @@ def test_rounding_stays_far_below_its_bound(degrees: tuple[int, int]) -> None:
 
 def sphere(radius: float, up_to: float = 1.2) -> Patches:
     """A patch of a sphere about the origin, from its equator up, exact but for rounding."""
-    points, weights = arc(0.0, up_to)
-    return Patches.single(*revolved(radius * points, weights, 0.1, 1.5))
+    curve, weights = arc(0.0, up_to)
+    return Patches.single(*revolved(radius * curve, weights, 0.1, 1.5))
 
 
 def torus() -> Patches:
     """A patch of a torus, R = 3 and r = 1, with the top of the tube: K = 0 there."""
-    points, weights = arc(np.pi / 6, 5 * np.pi / 6)
-    return Patches.single(*revolved(points + np.array([3.0, 0.0]), weights, 0.0, np.pi / 4))
+    curve, weights = arc(np.pi / 6, 5 * np.pi / 6)
+    return Patches.single(*revolved(curve + np.array([3.0, 0.0]), weights, 0.0, np.pi / 4))
 
 
 def test_a_sphere_has_one_curvature() -> None:
@@ -101,11 +102,19 @@ def test_curvatures_on_a_torus() -> None:
     assert band.b[0, 0, -1] < -band.err[0, 0, -1]
 
 
+def test_points_and_stretch_of_polylines() -> None:
+    """What polylines are made of lies on the sphere too, and is as long as it."""
+    uv, row = np.random.default_rng(8).uniform(size=(20, 2)), np.zeros(20, np.intp)
+    found = points(sphere(2.0), row, uv)
+    assert np.sqrt((found**2).sum(axis=1)) == pytest.approx(2.0, rel=4e-16)
+    assert stretch(sphere(2.0), row, uv) == pytest.approx(jets(sphere(2.0), row, uv).element)
+
+
 def test_a_cylinder_is_nil_to_its_bound() -> None:
     """A rational arc along a straight line, 100 m before the origin, has no curvature K."""
-    points, weights = arc(0.3, 1.3)
+    curve, weights = arc(0.3, 1.3)
     net = np.zeros((3, 2, 3))
-    net[..., 1:] = points[:, None]
+    net[..., 1:] = curve[:, None]
     net[:, 1, 0] = 8.0
     found = gauss_function(Patches.single(net + 100.0, np.stack([weights] * 2, axis=1)), 0.0)
     assert (np.abs(found.b) <= found.err).all()
@@ -170,8 +179,8 @@ def test_areas_on_a_torus_are_exact(level: float) -> None:
 
 def test_area_of_an_octant_of_a_sphere() -> None:
     """With a pole: all of it is positive, and pi / 2."""
-    points, weights = arc(0.0, np.pi / 2)
-    octant = Patches.single(*revolved(points, weights, 0.0, np.pi / 2))
+    curve, weights = arc(0.0, np.pi / 2)
+    octant = Patches.single(*revolved(curve, weights, 0.0, np.pi / 2))
     cells = solve(gauss_function(octant, 0.5, 1e-12))
     area = areas(octant, cells, arcs_of(cells), 1e-10)
     assert area.positive[0] == pytest.approx(np.pi / 2, rel=1e-14)
