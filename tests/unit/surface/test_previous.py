@@ -141,7 +141,7 @@ def test_surfaces_of_other_degrees_are_kept_apart() -> None:
 def test_weights_are_part_of_what_a_patch_is() -> None:
     """A quarter of a cylinder by weights is developable; with other weights it is another patch."""
     corner = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    net = np.stack([corner, corner + [0.0, 0.0, 3.0]], axis=1)
+    net = np.stack([corner, corner + np.array([0.0, 0.0, 3.0])], axis=1)
     weights = np.repeat([[1.0], [np.sqrt(0.5)], [1.0]], 2, axis=1)
     round_one = SplineSurface.bezier(net, weights=weights)
     result = ah.curvature_regions(round_one)
