@@ -19,6 +19,7 @@ from assoc_hull.geometry.patches.area_ground import AreaGround
 from assoc_hull.geometry.patches.areas import areas
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_functions
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.refining import refined
 from assoc_hull.geometry.patches.signs import edge_lines
 from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.surface.band_areas import band_areas
@@ -65,6 +66,7 @@ def _solution(
 ) -> Solution:
     """Solve for one level."""
     cells = solve(function, options.depth, options.budget, nil=nil)
+    cells = refined(function, cells, options.depth, options.budget, nil)
     edges = edge_lines(function.b, function.err if nil is None else nil)
     return Solution(level, cells, arcs_of(cells), edges)
 

@@ -113,7 +113,9 @@ def areas(
     number = np.bincount(cells.patch, minlength=count)
     cell_tol = (0.25 * allowed / np.maximum(number, 1))[cells.patch]
     whole, off = ground.over(cells.patch, cells.box, cell_tol)
+    whole = np.maximum(whole, 0.0)
     low, low_off = _low_parts(ground, cells, arcs, allowed, whole)
+    low = np.clip(low, 0.0, whole[arcs.cell])
     sign = _signs(cells)
     parted = np.zeros(len(cells), np.bool_)
     parted[arcs.cell] = True
