@@ -19,7 +19,7 @@ from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.curvature_regions import curvature_regions
-from assoc_hull.surface.given_surfaces import given_surfaces
+from assoc_hull.surface.given_surfaces import batches_of, given_surfaces, require_area
 from assoc_hull.surface.plate_of import Draft, draft, plate_of
 from assoc_hull.surface.plate_options import SAGITTA_TOL, SHARE, PlateOptions, plate_options
 from assoc_hull.surface.plate_table import Plates
@@ -134,6 +134,8 @@ def _drafts(surfaces: tuple[SplineSurface, ...], seams: tuple[Seams, ...]) -> li
         for surface, own in zip(surfaces, seams, strict=True)
         for plate in cut_at(surface, own)
     ]
+    surfaces = tuple(surface for surface, _ in cut)
+    require_area(surfaces, batches_of(surfaces))
     return [
         draft(surface, surface.name or f"plate {number}", between)
         for number, (surface, between) in enumerate(cut, start=1)

@@ -18,7 +18,7 @@ from assoc_hull.geometry.patches.curvature_functions import (
 )
 from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import points, stretch
+from assoc_hull.geometry.patches.points import normals, points
 from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import nets
@@ -103,12 +103,12 @@ def test_curvatures_on_a_torus() -> None:
     assert band.b[0, 0, -1] < -band.err[0, 0, -1]
 
 
-def test_points_and_stretch_of_polylines() -> None:
-    """What polylines are made of lies on the sphere too, and is as long as it."""
+def test_points_and_normals_of_polylines() -> None:
+    """What polylines are made of lies on the sphere too, and its normals are as long as it."""
     uv, row = np.random.default_rng(8).uniform(size=(20, 2)), np.zeros(20, np.intp)
     found = points(sphere(2.0), row, uv)
     assert np.sqrt((found**2).sum(axis=1)) == pytest.approx(2.0, rel=4e-16)
-    assert stretch(sphere(2.0), row, uv) == pytest.approx(jets(sphere(2.0), row, uv).element)
+    assert normals(sphere(2.0), row, uv) == pytest.approx(jets(sphere(2.0), row, uv).s, abs=1e-13)
 
 
 def test_a_cylinder_is_nil_to_its_bound() -> None:
