@@ -72,8 +72,7 @@ def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[n
 
     Coefficients of one sign prove that the polynomial has it. Where all differences in u have one
     sign, beyond their error, and each of the edges u = 0 and u = 1 changes sign at most once, a
-    line v = constant meets the zero set at most once, no loop has room, and there is one arc at
-    most; if the edges leave none, the sign is known.
+    line v = constant meets the zero set at most once, no loop has room, and there is one arc.
 
     Coefficients in the dead band prove nothing on an edge that is shared with another cell: the
     two might see an arc cross it in one and not in the other. Elsewhere they do no harm.
@@ -126,8 +125,6 @@ def _simple(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray
     v = np.where(v == CellKind.U_SIMPLE, CellKind.V_SIMPLE, v)
     found = np.where((u == CellKind.UNRESOLVED) | over, v, u)
     found[_doubtful_corners(b, err, outer)] = CellKind.UNRESOLVED
-    pure = np.flatnonzero(found <= CellKind.POSITIVE)
-    found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED
     return found
 
 
@@ -136,16 +133,10 @@ def _along(b: FloatArray, err: FloatArray) -> tuple[NDArray[np.intp], FloatArray
     found = np.full(len(b), int(CellKind.UNRESOLVED))
     size = np.zeros(len(b))
     step, wide = np.diff(b, axis=1), err[:, 1:] + err[:, :-1]
-    rising = np.asarray((step > wide).all(axis=(1, 2)))
-    rows = np.flatnonzero(rising | (step < -wide).all(axis=(1, 2)))
-    if not len(rows):
-        return found, size
+    monotone = (step > wide).all(axis=(1, 2)) | (step < -wide).all(axis=(1, 2))
+    rows = np.flatnonzero(monotone)
     ends = signs(b[rows][:, [0, -1]], err[rows][:, [0, -1]])
-    once = (changes(ends) <= 1).all(axis=1)
-    rows, ends = rows[once], ends[once]
-    ends = np.where(rising[rows, None, None], ends, ends[:, ::-1])
+    rows = rows[(changes(ends) <= 1).all(axis=1)]
     found[rows] = CellKind.U_SIMPLE
-    found[rows[(ends[:, 0] >= 0).all(axis=1)]] = CellKind.POSITIVE
-    found[rows[(ends[:, 1] <= 0).all(axis=1)]] = CellKind.NEGATIVE
     size[rows] = np.abs(step[rows]).sum(axis=(1, 2))
     return found, size
