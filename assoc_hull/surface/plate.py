@@ -181,7 +181,8 @@ class Plate:
             axis = "no roll axis"
         else:
             axis = f"roll axis {self.roll_axis:.1f} deg"
+        strain = self.mean_strain if self.mean_strain > 1e-12 else 0.0  # rounding of nil
         return (
             f"{self.name}: {self.length:.2f} x {self.breadth:.2f} m, {self.area:.3f} m2, "
-            f"{self.kind}, order {self.order}, {axis}, mean strain {self.mean_strain:.1e}"
+            f"{self.kind}, order {self.order}, {axis}, mean strain {strain:.1e}"
         )

@@ -24,6 +24,9 @@ from assoc_hull.surface.suggestions import CAVEAT
 
 __all__ = ["COLUMNS", "Column", "Plates"]
 
+_NIL = 1e-12
+"""Below this a number is printed as 0."""
+
 
 @attrs.frozen
 class Column:
@@ -206,6 +209,8 @@ class Plates:
 
 
 def _cell(column: Column, plate: Plate) -> str:
-    """Write a value; a dash where there is none."""
+    """Write a value; a dash where there is none, 0 for what rounding leaves of nil."""
     value = column.value(plate)
+    if isinstance(value, float) and abs(value) < _NIL:
+        value = 0.0
     return "-" if value is None else format(value, column.style)
