@@ -21,13 +21,14 @@ from assoc_hull.hull import Hull
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.net import ClassicalDefinition
     from assoc_hull.creation.design import Design
+    from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.io.slice_places import Places
 
 __all__ = ["Examples", "create", "examples", "open", "read", "read_classical"]
 
 
 class Examples:
-    """Hulls that come with the package, one method each."""
+    """Hulls that come with the package, one method each, and some shell plates."""
 
     def wigley(
         self,
@@ -93,6 +94,12 @@ class Examples:
     def prelikon_ship(self) -> Hull:
         """Make a supply ship of sections of lines and arcs, with a deck; see `docs/prelikon.md`."""
         return _classical("prelikon_ship")
+
+    def typical_plates(self) -> tuple[SplineSurface, ...]:
+        """Give six shell plates; see `assoc_hull.examples.typical_plates`."""
+        from assoc_hull.examples.typical_plates import typical_plates
+
+        return typical_plates()
 
 
 def _classical(name: str) -> Hull:

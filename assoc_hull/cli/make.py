@@ -1,4 +1,4 @@
-"""Commands that make a hull: one that ships, or one from a table of offsets."""
+"""Commands that make a hull: one that ships (or plates that do), or one from a table of offsets."""
 
 from __future__ import annotations
 
@@ -39,6 +39,8 @@ _EXAMPLES = {
     "sfolds-ship": lambda: examples.sfolds_ship(),
     "prelikon-ship": lambda: examples.prelikon_ship(),
 }
+_SURFACES = {"typical-plates": lambda: examples.typical_plates()}
+_SURFACE_ENDINGS = (".csv", ".json", ".igs", ".iges")
 
 
 def add(commands: Commands) -> None:
@@ -49,10 +51,12 @@ def add(commands: Commands) -> None:
 
 def _add_example(commands: Commands) -> None:
     parser = add_command(
-        commands, "example", "write a hull that ships with the program", _example,
-        "assoc-hull example series60-070 -o ship.hull",
+        commands, "example", "write a hull, or shell plates, that ship with the program", _example,
+        """assoc-hull example series60-070 -o ship.hull
+        assoc-hull example typical-plates -o plates.csv""",
     )  # fmt: skip
-    parser.add_argument("name", metavar="NAME", choices=tuple(_EXAMPLES), help=", ".join(_EXAMPLES))
+    names = (*_EXAMPLES, *_SURFACES)
+    parser.add_argument("name", metavar="NAME", choices=names, help=", ".join(names))
     _add_target(parser)
     add_json(parser)
 
@@ -123,11 +127,26 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
 
 
 def _example(arguments: argparse.Namespace) -> int:
+    if arguments.name in _SURFACES:
+        return _example_surfaces(arguments)
     check_hull_target(arguments.out, replace=arguments.replace)
     with progress(f"making {arguments.name}"):
         hull = _EXAMPLES[arguments.name]()
     hull.save(arguments.out, replace=arguments.replace)
     _tell(arguments, hull, {}, "")
+    return 0
+
+
+def _example_surfaces(arguments: argparse.Namespace) -> int:
+    """Write surfaces: control nets as a table or JSON, or IGES."""
+    from assoc_hull.io.surface_file import write_surfaces
+
+    check_target(arguments.out, _SURFACE_ENDINGS)
+    surfaces = _SURFACES[arguments.name]()
+    write_surfaces(surfaces, arguments.out)
+    names = [each.name for each in surfaces]
+    words = f"{len(names)} surfaces: {', '.join(names)}\nwritten: {arguments.out}"
+    emit(arguments, {"surfaces": names, "saved": [str(arguments.out)]}, words)
     return 0
 
 

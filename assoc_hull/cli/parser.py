@@ -22,6 +22,7 @@ from assoc_hull.cli import (
     make,
     panels,
     parameters,
+    plates,
     plot,
     replay,
     sensitivities,
@@ -78,7 +79,7 @@ def make_parser() -> argparse.ArgumentParser:
     modules = (
         demo, make, create, classical, curve, look, edit, history, replay, why, graph, hydrostatics,
         parameters, stability, transform, panels, vary, shift, study, compare, sensitivities,
-        fairness, plot, export, shell,
+        fairness, plates, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

@@ -13,7 +13,9 @@ from assoc_hull.cli.problems import check_target
 __all__ = ["add"]
 
 _SHELLS = ("bash", "zsh", "fish")
-_DOCUMENTS = ("hull", "form-catalogue", "form-parameters", "comparison", "design")
+_DOCUMENTS = (
+    "hull", "form-catalogue", "form-parameters", "comparison", "design", "surfaces", "plates",
+)  # fmt: skip
 
 
 def add(commands: Commands) -> None:
@@ -91,6 +93,14 @@ def _schema_of(document: str) -> dict[str, Any]:
         from assoc_hull.creation.design_json import design_schema
 
         return design_schema()
+    if document == "surfaces":
+        from assoc_hull.io.surface_json import surfaces_schema
+
+        return surfaces_schema()
+    if document == "plates":
+        from assoc_hull.io.plates_schema import plates_schema
+
+        return plates_schema()
     from assoc_hull.io.form_schema import catalogue_schema, form_schema
 
     return catalogue_schema() if document == "form-catalogue" else form_schema()

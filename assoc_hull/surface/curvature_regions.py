@@ -64,8 +64,8 @@ def curvature_regions(
     k0 : float, 1/m2
         Half the width of the band of the mode "absolute", which alone uses it.
     delta : float, m
-        What each coordinate of a control point may be off by. In the mode "exact" 1e-9 of the
-        diagonal of each Bezier patch's own box by default, with a band 0.
+        What each coordinate of a control point may be off by; its rounding at least. In the mode
+        "exact" 1e-9 of the diagonal of each Bezier patch's own box by default, with a band 0.
     area_tol : float
         Tolerance of areas, relative to that of each patch (quadrature), 1e-13 to 0.1.
     depth : int
@@ -107,7 +107,7 @@ def curvature_regions(
     >>> x, y = np.mgrid[0:4, 0:4] / 3.0
     >>> net = np.stack([6 * x, 2 * y, 0.02 * (6 * x) * (2 * y)], axis=-1)
     >>> found = ah.curvature_regions(net, zero="absolute", k0=1e-4)
-    >>> round(found.negative_share, 6), len(found.components), found.computed
+    >>> round(found.areas.negative_share, 6), len(found.components), found.computed
     (1.0, 0, 1)
     >>> ah.curvature_regions(net, zero="absolute", k0=1e-4, previous=found).computed
     0

@@ -1,7 +1,7 @@
 """What counts as no Gaussian curvature: a band by strain, a band as such, or nil itself.
 
 The sign of a curvature that is nil but for rounding means nothing: of a cylinder with control
-points 1e-9 m off, a third comes out convex and two thirds as a saddle. So curvatures up to some K0
+points 1e-9 m off, three quarters come out convex and one as a saddle. So curvatures up to some K0
 count as none. A strip of breadth b with the constant curvature K needs a range of longitudinal
 strain of |K| b**2 / 8 to be made flat; so the strain that may be neglected gives
 
@@ -50,8 +50,9 @@ class ZeroBand:
     breadth : float or None, m
         The breadth of the strip that has this strain; None in other modes.
     delta : float or None, m
-        What a coordinate of a control point may be off by; None where it is 1e-9 of the diagonal
-        of each patch's own box, which is so in the mode "exact" if it is not given.
+        What a coordinate of a control point may be off by, besides its rounding; None where it is
+        1e-9 of the diagonal of each patch's own box, which is so in the mode "exact" if it is not
+        given.
     """
 
     mode: str

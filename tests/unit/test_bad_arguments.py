@@ -149,6 +149,8 @@ HALVES: Given = {
     "run_start_angle_deg": 40.0, "entrance_end_angle_deg": -45.0,
 }  # fmt: skip
 ANGLES: Given = {"use": "keel_angle", "nodes": {"AP": (0.0, 45.0), "FP": (100.0, 30.0)}}
+SADDLE = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]])
+PLATE = ah.SplineSurface.bezier(SADDLE)
 MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     "open": (ah.open, {"path": "a"}),
     "sample": (
@@ -212,6 +214,30 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "Design.from_json": (ah.Design.from_json, {"source": "{}"}),
     "create": (ah.create, {"design": None}),
+    "SplineSurface": (
+        ah.SplineSurface,
+        {
+            "name": "a", "degrees": (1, 1), "knots_u": [0, 0, 1, 1], "knots_v": [0, 0, 1, 1],
+            "net": SADDLE, "weights": None,
+        },
+    ),
+    "SplineSurface.bezier": (
+        ah.SplineSurface.bezier, {"net": SADDLE, "name": "a", "weights": np.ones((2, 2))}
+    ),
+    "SplineSurface.at": (PLATE.at, {"u": 0.5, "v": [0.0, 1.0]}),
+    "SplineSurface.patches": (PLATE.patches, {"number": 0}),
+    "SplineSurface.restricted": (
+        PLATE.restricted, {"u": (0.0, 0.5), "v": (0.0, 1.0), "name": "a"}
+    ),
+    "curvature_regions": (
+        ah.curvature_regions,
+        {
+            "surfaces": SADDLE, "zero": "absolute", "strain_tol": 1e-3, "breadth": 2.5, "k0": 1e-3,
+            "delta": 1e-9, "area_tol": 1e-3, "depth": 8, "budget": 600, "chord_tol": 0.1,
+            "levels": (-0.2,), "previous": None,
+        },
+    ),
+    "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
     "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
     "sectional_area": (
@@ -786,5 +812,5 @@ def test_every_public_name_is_tried() -> None:
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
-    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship"}
+    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship", "typical_plates"}
     assert made == {"wigley", "series60"} | takes_nothing

@@ -1,7 +1,7 @@
 """Areas under a patch point by point: Gauss's rules of 5 and 8 points on boxes and on lines.
 
-The difference of the two rules is the estimate of the error; a box or a piece of a line for which it
-is too large is split. This needs many more points than a series (`area_series`), and gets along
+The difference of the two rules is the estimate of the error; a box or a piece of a line for which
+it is too large is split. This needs many more points than a series (`area_series`), and gets along
 where there is none: at points where the normal vector vanishes, or almost does.
 
 Examples

@@ -28,6 +28,9 @@ from assoc_hull.geometry.quadrature import gauss
 __all__ = ["AreaGround"]
 
 _ROUGH = 8
+# Patches without a series are cut into so many parts in each parameter before all else: a rule
+# judges well what is nearly smooth only.
+_PARTS = 4
 # What of the tolerance the series may take, and its least: what rounding leaves of an area.
 _SHARE, _LEAST = 0.25, 2e-14
 
@@ -94,8 +97,8 @@ class AreaGround:
             total[series.patch] = _totals(taken(patches, series.patch), series.count)
             error[series.patch] = series.error
         rest = np.flatnonzero(kind < 0)
-        whole = np.broadcast_to([[0.0, 1.0]] * 2, (len(rest), 2, 2))
-        total[rest], error[rest] = over_boxes(patches, rest, whole, allowed[rest])
+        if len(rest):
+            total[rest], error[rest] = _direct_totals(patches, rest, allowed[rest])
         return cls(patches, found, kind, row, scale, total, error)
 
     def over(
@@ -167,7 +170,7 @@ class AreaGround:
             if len(rows):
                 patches = swapped(self.patches) if way else self.patches
                 value[rows], error[rows] = _directly(
-                    patches, *(a[rows] for a in (patch, start, u, v, tolerance))
+                    patches, patch[rows], start[rows], u[rows], v[rows], tolerance[rows]
                 )
         return value, error
 
@@ -181,6 +184,21 @@ def _directly(
     span = np.stack([start[each], u.reshape(-1)], axis=1)
     found = along_lines(patches, patch[each], span, v.reshape(-1), tolerance[each])
     return tuple(part.reshape(-1, count) for part in found)
+
+
+def _direct_totals(
+    patches: Patches, rows: IntArray, tolerance: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give the areas of patches that have no series, and their errors, from parts of each."""
+    count = len(rows)
+    each = np.arange(count).repeat(_PARTS**2)
+    lines = np.arange(_PARTS + 1) / _PARTS
+    spans = np.stack([lines[:-1], lines[1:]], axis=1)
+    box = np.empty((count, _PARTS, _PARTS, 2, 2))
+    box[..., 0, :], box[..., 1, :] = spans[:, None], spans
+    found = over_boxes(patches, rows[each], box.reshape(-1, 2, 2), (tolerance / _PARTS**2)[each])
+    value, error = (np.bincount(each, part, count).astype(np.float64) for part in found)
+    return value, error
 
 
 def _totals(patches: Patches, count: int) -> FloatArray:

@@ -18,7 +18,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.clusters import singular
 from assoc_hull.geometry.patches.components import Component, ComponentKind, EndKind
-from assoc_hull.geometry.patches.links import END_KINDS, Links, on_surface
+from assoc_hull.geometry.patches.landings import END_KINDS
+from assoc_hull.geometry.patches.links import Links
 from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = ["Parts", "groups"]
@@ -39,9 +40,11 @@ class Parts:
     links : Links
         Arcs and what they meet.
     chains, cells : list of (n,) int
-        The lines of each component; its rows of ``links.clusters.cell``.
+        The lines of each component; its rows of ``links.landings.clusters.cell``.
+    clusters : list of (n,) int
+        The clusters of each component.
     marks : dict of str to (n,) bool
-        Which clusters are singular, passed through, flat.
+        Of which clusters a tag is true.
     patch : (a,) int
         The patch of each arc.
     cell_patch : (c,) int
@@ -53,6 +56,7 @@ class Parts:
     links: Links
     chains: list[IntArray]
     cells: list[IntArray]
+    clusters: list[IntArray]
     marks: dict[str, NDArray[np.bool_]]
     patch: IntArray
     cell_patch: IntArray
@@ -64,16 +68,18 @@ class Parts:
         at: IntArray, count: int,
     ) -> Parts:  # fmt: skip
         """Sort lines and cells by the components of arcs (a,) and of clusters (n,)."""
-        found = links.clusters
+        found, over_gaps = links.landings.clusters, links.landings.over_gaps
+        more = np.zeros(len(at) - len(found), bool)
         marks = {
-            "singular": singular(patches, cells, found),
-            "tangent": links.passed,
-            "flat": found.flat,
+            "singular": np.append(singular(patches, cells, found), more),
+            "tangent": links.passed & np.append(found.regular, more),
+            "flat": np.append(found.flat, more),
+            "gap": over_gaps,
         }
         return cls(
             links, groups(label[links.chains.firsts], count), groups(at[found.cluster], count),
-            marks, cells.patch[arcs.cell], cells.patch[found.cell],
-            on_surface(patches, links.patch, links.uv),
+            groups(at, count), marks, cells.patch[arcs.cell], cells.patch[found.cell],
+            patches.parameters(links.points.patch, links.points.uv),
         )  # fmt: skip
 
     def component(self, number: int) -> Component:
@@ -82,12 +88,12 @@ class Parts:
         arcs = tuple(chains.of(i) for i in rows.tolist())
         loops = tuple(chains.closed[rows].tolist())
         joints = self._ends(arcs, loops)
-        ends = tuple(END_KINDS[i] for i in self.links.kind[joints].tolist())
+        ends = tuple(END_KINDS[i] for i in self.links.landings.kind[joints].tolist())
         touched = [self.patch[one] for one in arcs] + [self.cell_patch[cells]]
         return Component(
-            _kind(loops, ends), arcs, loops, self.links.clusters.cell[cells],
+            _kind(loops, ends), arcs, loops, self.links.landings.clusters.cell[cells],
             np.zeros((0, 2), np.intp), np.unique(np.concatenate(touched)),
-            self.uv[joints], ends, self._tags(cells, ends),
+            self.uv[joints], ends, self._tags(self.clusters[number], ends),
         )  # fmt: skip
 
     def _ends(self, arcs: tuple[IntArray, ...], loops: tuple[bool, ...]) -> IntArray:
@@ -100,10 +106,9 @@ class Parts:
         ]
         return np.concatenate([np.zeros(0, np.intp), *found])
 
-    def _tags(self, cells: IntArray, ends: tuple[EndKind, ...]) -> tuple[str, ...]:
+    def _tags(self, clusters: IntArray, ends: tuple[EndKind, ...]) -> tuple[str, ...]:
         """Tell what is special of a component."""
-        mine = np.unique(self.links.clusters.cluster[cells])
-        tags = [name for name, marked in self.marks.items() if marked[mine].any()]
+        tags = [name for name, marked in self.marks.items() if marked[clusters].any()]
         return (*tags, "knot-line") if EndKind.KNOT_LINE in ends else tuple(tags)
 
 

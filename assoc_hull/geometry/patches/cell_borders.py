@@ -23,11 +23,12 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.lattice import Lattice
 
-__all__ = ["leftover", "sides_of"]
+__all__ = ["SHORT", "between", "leftover", "of_both_signs", "plain", "sides_of"]
 
 # The corners of a cell in the order of the walk: which end of the box in u and in v.
 _WALK = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-_SHORT = 1e-8
+SHORT = 3e-8
+"""In parameters of a patch: what is shorter is a point."""
 
 
 def sides_of(
@@ -64,24 +65,41 @@ def sides_of(
     return np.concatenate([full, _cut(corners[cut], arc)])
 
 
+def plain(cells: Cells, arc_of: IntArray) -> IntArray:
+    """Give the simple cells without an arc."""
+    simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
+    return np.flatnonzero(simple & (arc_of < 0))
+
+
 def _whole(cells: Cells, kind: CellKind, arc_of: IntArray) -> NDArray[np.bool_]:
     """Tell which cells belong to a region as a whole."""
     found = cells.kind == kind
-    plain = np.flatnonzero(
-        (arc_of < 0) & ((cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE))
-    )
     if kind in (CellKind.POSITIVE, CellKind.NEGATIVE):
-        found[plain] = _sign(cells, plain) == kind
-    return found
+        rows = plain(cells, arc_of)
+        found[rows] = _sign(cells, rows) == kind
+    return np.asarray(found)
+
+
+def _corner_values(cells: Cells, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give polynomials and their errors at the corners of cells, (n, 4)."""
+    b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
+    corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
+    return np.stack([b[at] for at in corners], axis=1), np.stack(
+        [err[at] for at in corners], axis=1
+    )
 
 
 def _sign(cells: Cells, rows: IntArray) -> IntArray:
     """Tell the sign in simple cells that no arc crosses: that of the surest corner."""
-    b, err = cells.b[cells.row[rows]], cells.err[cells.row[rows]]
-    corners = [np.s_[:, i, j] for i in (0, -1) for j in (0, -1)]
-    values = np.stack([b[at] for at in corners], axis=1)
-    sure = (np.abs(values) - np.stack([err[at] for at in corners], axis=1)).argmax(axis=1)
+    values, err = _corner_values(cells, rows)
+    sure = (np.abs(values) - err).argmax(axis=1)
     return np.asarray(np.sign(values[np.arange(len(rows)), sure]), np.intp)
+
+
+def of_both_signs(cells: Cells, rows: IntArray) -> NDArray[np.bool_]:
+    """Tell which simple cells have corners of both signs for certain, so that an arc is there."""
+    values, err = _corner_values(cells, rows)
+    return np.asarray((values > err).any(axis=1) & (values < -err).any(axis=1))
 
 
 def _cut(corners: FloatArray, arc: FloatArray) -> FloatArray:
@@ -100,7 +118,7 @@ def _cut(corners: FloatArray, arc: FloatArray) -> FloatArray:
     first = np.where((low > side)[..., None], arc[:, None, 1], begin)
     last = np.where((high < side + 1.0)[..., None], arc[:, None, 0], after)
     first, last = (_kept_on(point, begin, after) for point in (first, last))
-    return np.stack([first, last], axis=2)[high > low]
+    return np.asarray(np.stack([first, last], axis=2)[high > low])
 
 
 def _position(corners: FloatArray, point: FloatArray) -> FloatArray:
@@ -134,24 +152,64 @@ def leftover(pieces: FloatArray) -> FloatArray:
     (q, 2, 2)
         What is left, each as long as it goes.
     """
-    axis = (np.abs(pieces[:, 1] - pieces[:, 0])).argmax(axis=1)
-    rows = np.arange(len(pieces))
-    across, first, last = (
-        pieces[rows, 0, 1 - axis], pieces[rows, 0, axis], pieces[rows, 1, axis],
-    )  # fmt: skip
-    line = np.unique(np.stack([axis, across]), axis=1, return_inverse=True)[1].reshape(-1)
-    events = np.stack([np.concatenate([line, line]), np.concatenate([first, last])])
-    step = np.repeat([1, -1], len(pieces))
-    places, which = np.unique(events, axis=1, return_inverse=True)
-    change = np.bincount(which.reshape(-1), step, minlength=places.shape[1]).astype(np.intp)
-    places, change = places[:, change != 0], change[change != 0]
-    depth = np.cumsum(change)[:-1]
-    low, high = places[1, :-1], places[1, 1:]
-    kept = np.flatnonzero((depth != 0) & (high - low > _SHORT))
-    source = np.zeros(int(line.max(initial=-1)) + 1, np.intp)
-    source[line] = rows
-    one = source[places[0, kept].astype(np.intp)]
-    found = pieces[one].copy()
-    found[np.arange(len(kept)), 0, axis[one]] = np.where(depth[kept] > 0, low[kept], high[kept])
-    found[np.arange(len(kept)), 1, axis[one]] = np.where(depth[kept] > 0, high[kept], low[kept])
-    return found
+    spans, depth = _spans(pieces, np.zeros(len(pieces), np.intp), 1)
+    return _walked(spans, depth[0])
+
+
+def between(pieces: FloatArray, others: FloatArray) -> FloatArray:
+    """Give where two regions share a border that both are left with.
+
+    Parameters
+    ----------
+    pieces, others : (p, 2, 2), (q, 2, 2)
+        Borders of both, each along u or along v, walked with the region on the left.
+
+    Returns
+    -------
+    (r, 2, 2)
+        Walked with the first region on the left.
+    """
+    of = np.repeat([0, 1], [len(pieces), len(others)])
+    spans, depth = _spans(np.concatenate([pieces, others]), of, 2)
+    return _walked(spans, np.where(depth[0] == -depth[1], depth[0], 0))
+
+
+def _spans(pieces: FloatArray, of: IntArray, sets: int) -> tuple[FloatArray, IntArray]:
+    """Cut lines wherever a piece begins or ends.
+
+    Returns the ends (s, 2, 2) of spans in rising order, and (sets, s) how often pieces of each set
+    run along them, those that run backward counted negative.
+    """
+    rows, axis = np.arange(len(pieces)), np.abs(pieces[:, 1] - pieces[:, 0]).argmax(axis=1)
+    ends = pieces[rows, :, axis]
+    across = pieces[rows, 0, 1 - axis]
+    columns = np.stack([ends.T.reshape(-1), np.tile(across, 2), np.tile(axis, 2)])
+    order = np.lexsort(columns)
+    columns = columns[:, order]
+    step = np.repeat([1, -1], len(pieces))[order]
+    new = np.ones(len(order), bool)
+    new[1:] = (columns[:, 1:] != columns[:, :-1]).any(axis=0)
+    event = np.cumsum(new) - 1
+    change = np.zeros((sets, int(event.max(initial=-1)) + 1), np.intp)
+    np.add.at(change, (np.tile(of, 2)[order], event), step)
+    kept = (change != 0).any(axis=0)
+    at, across, along = columns[:, new][:, kept]
+    depth = np.cumsum(change[:, kept], axis=1)[:, :-1]
+    spans = np.stack([at[:-1], at[1:]], axis=1)
+    found = np.where(
+        (along == 0)[:-1, None, None], _points(spans, across, 0), _points(spans, across, 1)
+    )
+    # Behind the last event of a line nothing runs along it, and its end is that of another line.
+    return found, depth
+
+
+def _points(spans: FloatArray, across: FloatArray, axis: int) -> FloatArray:
+    """Give the ends (s, 2, 2) of spans along an axis."""
+    other = np.broadcast_to(across[:-1, None], spans.shape)
+    return np.stack([spans, other] if axis == 0 else [other, spans], axis=2)
+
+
+def _walked(spans: FloatArray, depth: IntArray) -> FloatArray:
+    """Give the spans that are walked, each in its direction, but for very short ones."""
+    kept = (depth != 0) & (np.abs(spans[:, 1] - spans[:, 0]).max(axis=1) > SHORT)
+    return np.asarray(np.where((depth > 0)[:, None, None], spans, spans[:, ::-1])[kept])

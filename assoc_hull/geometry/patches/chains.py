@@ -55,6 +55,11 @@ class Chains:
         """The first arc of each chain."""
         return np.asarray(self.arcs[self.start[:-1]])
 
+    @property
+    def lasts(self) -> IntArray:
+        """The last arc of each chain."""
+        return np.asarray(self.arcs[self.start[1:] - 1])
+
     def of(self, chain: int) -> IntArray:
         """Give the arcs of one chain."""
         return self.arcs[self.start[chain] : self.start[chain + 1]]

@@ -28,8 +28,8 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.lattice import Lattice
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import stretch
-from assoc_hull.geometry.patches.touching import clusters
+from assoc_hull.geometry.patches.points import normals, stretch
+from assoc_hull.geometry.patches.touching import clusters, touching
 
 __all__ = ["Clusters", "clusters_of", "singular"]
 
@@ -37,6 +37,11 @@ TOUCHING = 1e-9
 
 # Where |r_u x r_v| is less than this part of its mean over the patch, the surface is singular.
 _SINGULAR = 1e-4
+# In a cell smaller than this a surface is as good as plane, unless it is singular there.
+_SMALL = 1e-3
+
+# Nil cells that cover less than this part of a patch are no region.
+_NARROW = 1e-4
 
 
 @attrs.frozen(eq=False)
@@ -57,6 +62,8 @@ class Clusters:
         Whether it has a cell in which the polynomial is nil.
     regular : (n,) bool
         Whether the zero set is a graph in the cluster.
+    size : (n,) float
+        Its area in parameters of its patch.
     """
 
     cell: IntArray
@@ -65,14 +72,44 @@ class Clusters:
     unresolved: NDArray[np.bool_]
     flat: NDArray[np.bool_]
     regular: NDArray[np.bool_]
+    size: FloatArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.cell, self.cluster, self.at_point, self.unresolved)
-        freeze(self.flat, self.regular)
+        freeze(self.flat, self.regular, self.size)
 
     def __len__(self) -> int:
         """Count the clusters."""
         return len(self.regular)
+
+    def touched(self, cells: Cells, lattice: Lattice, points: FloatArray, near: float) -> IntArray:
+        """Give the cluster that each of some points (p, 2) of the lattice is so near to, or -1."""
+        low, high = _corners(cells, lattice, self.cell)
+        count = len(low)
+        pairs = touching(np.concatenate([low, points]), np.concatenate([high, points]), near)
+        pairs = np.sort(pairs, axis=1)
+        pairs = pairs[(pairs[:, 0] < count) & (pairs[:, 1] >= count)]
+        found = np.full(len(points), -1)
+        found[pairs[:, 1] - count] = self.cluster[pairs[:, 0]]
+        return found
+
+    @property
+    def narrow(self) -> NDArray[np.bool_]:
+        """Which clusters (n,) are small, and nil throughout: widths of lines, no regions."""
+        return np.asarray(~self.unresolved & (self.size < _NARROW))
+
+    def merged(self, number: IntArray) -> Clusters:
+        """Give clusters by new numbers (n,), those of one number made one."""
+        count = int(number.max(initial=-1)) + 1
+        unresolved, flat, winding = (
+            np.bincount(number[marks], minlength=count) > 0
+            for marks in (self.unresolved, self.flat, ~self.regular)
+        )
+        at_point = np.append(number, -1)[self.at_point]
+        size = np.bincount(number, self.size, minlength=count).astype(np.float64)
+        return Clusters(
+            self.cell, number[self.cluster], at_point, unresolved, flat, ~winding, size
+        )  # fmt: skip
 
 
 def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None) -> Clusters:
@@ -94,8 +131,7 @@ def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None
     """
     rows = np.flatnonzero((cells.kind == CellKind.ZERO) | (cells.kind == CellKind.UNRESOLVED))
     points = np.zeros((0, 2)) if points is None else points
-    corner = lattice.corner[cells.patch[rows]]
-    low, high = corner + cells.box[rows, :, 0], corner + cells.box[rows, :, 1]
+    low, high = _corners(cells, lattice, rows)
     found = clusters(np.concatenate([low, points]), np.concatenate([high, points]), TOUCHING)
     cluster, at_point = np.split(found, [len(rows)])
     count = int(cluster.max(initial=-1)) + 1
@@ -105,7 +141,14 @@ def clusters_of(cells: Cells, lattice: Lattice, points: FloatArray | None = None
         np.bincount(cluster[~nil], minlength=count) > 0,
         np.bincount(cluster[nil], minlength=count) > 0,
         _regular(cells, rows, cluster, count),
+        np.bincount(cluster, np.prod(high - low, axis=1), minlength=count).astype(np.float64),
     )  # fmt: skip
+
+
+def _corners(cells: Cells, lattice: Lattice, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give the corners of some cells in the lattice."""
+    corner = lattice.corner[cells.patch[rows]]
+    return corner + cells.box[rows, :, 0], corner + cells.box[rows, :, 1]
 
 
 def _regular(cells: Cells, rows: IntArray, cluster: IntArray, count: int) -> NDArray[np.bool_]:
@@ -147,12 +190,22 @@ def singular(patches: Patches, cells: Cells, found: Clusters) -> NDArray[np.bool
     Returns
     -------
     (n,) bool
-        Whether ``|r_u x r_v|`` falls below 1e-4 of its mean over the patch.
+        Whether in one of the cells ``|r_u x r_v|`` falls below 1e-4 of its mean over the patch, or
+        changes so much from the middle to a corner that it may be nil in between.
     """
-    patch = cells.patch[found.cell]
-    here = stretch(patches, patch, cells.box[found.cell].mean(axis=2))
+    patch, box = cells.patch[found.cell], cells.box[found.cell]
+    middle = normals(patches, patch, box.mean(axis=2))
+    corners = [
+        normals(patches, patch, np.stack([box[:, 0, i], box[:, 1, j]], axis=1))
+        for i in (0, 1)
+        for j in (0, 1)
+    ]
+    here = np.linalg.norm(middle, axis=1)
+    change = np.max([np.linalg.norm(each - middle, axis=1) for each in corners], axis=0)
     concerned, which = np.unique(patch, return_inverse=True)
     low = here < _SINGULAR * _means(patches, concerned)[which.reshape(-1)]
+    small = (box[:, :, 1] - box[:, :, 0]).max(axis=1, initial=0.0) < _SMALL
+    low |= small & (here < 2.0 * change)
     return np.asarray(np.bincount(found.cluster[low], minlength=len(found)) > 0)
 
 

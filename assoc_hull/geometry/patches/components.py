@@ -75,7 +75,8 @@ class Component:
         "singular": the surface has no tangent plane there, so that this is no feature of its
         curvature. "knot-line": a line ends where the curvature jumps. "tangent": a line was
         followed through undecided cells in which it is proven to be a graph. "flat": it touches
-        cells in which the polynomial is nil.
+        cells in which the polynomial is nil. "gap": a line was followed over a gap in which the
+        polynomial is nil within its error.
     """
 
     kind: ComponentKind

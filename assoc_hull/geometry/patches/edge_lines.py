@@ -17,7 +17,6 @@ from assoc_hull.geometry.patches.assembling import groups
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.components import Component, ComponentKind, EndKind
 from assoc_hull.geometry.patches.lattice import SIDES, Lattice
-from assoc_hull.geometry.patches.links import on_surface
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.touching import connected
 
@@ -76,7 +75,7 @@ def _component(patches: Patches, patch: IntArray, side: IntArray, corner: IntArr
     """Put one edge line together; its ends are the corners where a single edge of it ends."""
     uses = np.bincount(corner.reshape(-1))[corner]
     row, which = np.nonzero(uses == 1)
-    ends = on_surface(patches, patch[row], _CORNERS[side[row], which].astype(np.float64))
+    ends = patches.parameters(patch[row], _CORNERS[side[row], which].astype(np.float64))
     nothing = np.zeros(0, np.intp)
     return Component(
         ComponentKind.EDGE_LINE, (), (), nothing, np.stack([patch, side], axis=1),
@@ -87,4 +86,4 @@ def _component(patches: Patches, patch: IntArray, side: IntArray, corner: IntArr
 def edge_points(patches: Patches, edges: IntArray) -> FloatArray:
     """Give the parameters (e, 2, 2), on the surface, of both corners of edges (e, 2)."""
     uv = _CORNERS[edges[:, 1]].astype(np.float64).reshape(-1, 2)
-    return on_surface(patches, np.repeat(edges[:, 0], 2), uv).reshape(-1, 2, 2)
+    return patches.parameters(np.repeat(edges[:, 0], 2), uv).reshape(-1, 2, 2)

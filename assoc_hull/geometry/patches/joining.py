@@ -34,6 +34,7 @@ from assoc_hull.geometry.patches.assembling import Parts
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.components import Component
 from assoc_hull.geometry.patches.edge_lines import edge_components
+from assoc_hull.geometry.patches.landings import JUNCTION
 from assoc_hull.geometry.patches.lattice import Lattice
 from assoc_hull.geometry.patches.links import Links
 from assoc_hull.geometry.patches.patches import Patches
@@ -68,7 +69,7 @@ def joined(
     """
     lattice = Lattice.of(patches.surface, patches.box)
     links = Links.of(lattice, cells, arcs)
-    links.check(patches, lattice)
+    links.check(patches)
     found = _components(patches, cells, arcs, links)
     return found if edges is None else found + edge_components(patches, lattice, cells, edges)
 
@@ -82,16 +83,22 @@ def _components(patches: Patches, cells: Cells, arcs: Arcs, links: Links) -> tup
 
 def _labels(links: Links) -> tuple[IntArray, IntArray, int]:
     """Give numbers of components to arcs and to clusters; -1 to those that are of none."""
+    clusters = links.landings.clusters
     joints, arcs, count = links.joints, len(links.following), len(links.joints)
     numbers, on = np.arange(arcs), links.following >= 0
-    meets = links.is_junction[joints.joint] & ~joints.short[:, None]
-    at = np.flatnonzero(links.cluster >= 0)
+    meets = (links.landings.kind == JUNCTION)[joints.joint] & ~joints.short[:, None]
+    at = np.flatnonzero(links.landings.cluster >= 0)
     pairs = [np.stack([numbers[on], links.following[on]], axis=1)]
     pairs += [np.stack([numbers, arcs + joints.joint[:, i]], axis=1)[meets[:, i]] for i in (0, 1)]
-    pairs += [np.stack([arcs + at, arcs + count + links.cluster[at]], axis=1)]
-    label = connected(arcs + count + len(links.clusters), np.concatenate(pairs))
+    pairs += [np.stack([arcs + at, arcs + count + links.landings.cluster[at]], axis=1)]
+    label = connected(arcs + count + len(links.passed), np.concatenate(pairs))
     mine, theirs = label[:arcs], label[arcs + count :]
-    wanted = np.concatenate([mine[~joints.short], theirs[links.clusters.unresolved]])
+    wanted = np.concatenate(
+        [
+            mine[~joints.short],
+            theirs[: len(clusters)][clusters.unresolved | clusters.narrow],
+        ]
+    )
     kept = np.unique(wanted)
     number = np.full(len(label), -1)
     number[kept] = np.arange(len(kept))

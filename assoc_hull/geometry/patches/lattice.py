@@ -33,6 +33,7 @@ __all__ = ["SIDES", "Lattice"]
 # The sides of a patch: which parameter is constant there, and its value.
 SIDES = ((0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0))
 
+_CORNERS = np.array([[0, 0], [0, 1], [1, 0], [1, 1]])
 _STEPS = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]])
 
 
@@ -63,11 +64,24 @@ class Lattice:
     @classmethod
     def apart(cls, count: int) -> Self:
         """Lay out patches that have nothing to do with one another."""
-        return cls(3 * np.arange(count)[:, None] + [0, 0], np.zeros((count, 4), bool))
+        corner = np.repeat(3 * np.arange(count)[:, None], 2, axis=1)
+        return cls(corner, np.zeros((count, 4), bool))
 
     def place(self, patch: IntArray, uv: FloatArray) -> FloatArray:
         """Give the places (n, 2) of points, by their patches (n,) and parameters (n, 2) there."""
         return np.asarray(self.corner[patch] + uv)
+
+    def patch_at(self, places: FloatArray) -> IntArray:
+        """Give a patch that has each of some places (n, 2) in it or on its border."""
+        codes = _codes(self.corner, self.corner)
+        order = np.argsort(codes)
+        floor = np.floor(places)
+        beside = floor[:, None, :] - _CORNERS * (places == floor)[:, None, :]
+        wanted = _codes(self.corner, beside)
+        at = np.minimum(np.searchsorted(codes[order], wanted), max(len(order) - 1, 0))
+        found = order[at]
+        hit = (codes[found] == wanted).argmax(axis=1)
+        return np.asarray(found[np.arange(len(places)), hit])
 
     def on_surface(self, box: FloatArray, places: FloatArray) -> FloatArray:
         """Give the parameters (n, 2) on their surfaces of places, by the boxes of all patches."""
@@ -77,6 +91,14 @@ class Lattice:
             at, first = np.unique(ends, return_index=True)
             found[:, axis] = np.interp(places[:, axis], at, box[:, axis].reshape(-1)[first])
         return found
+
+    def borders(self, places: FloatArray) -> IntArray:
+        """Tell where places (n, 2) lie: 0 on a border of a surface, 1 between patches, else -1."""
+        floor = np.floor(places)
+        on = places == floor
+        beside = floor[:, None, :] - _CORNERS * on[:, None, :]
+        outer = ~np.isin(_codes(self.corner, beside), _codes(self.corner, self.corner)).all(axis=1)
+        return np.where(on.any(axis=1), np.where(outer, 0, 1), -1)
 
     def sides(self, uv: FloatArray) -> NDArray[np.bool_]:
         """Tell which sides of their patch points (n, 2) lie on, to the last bit, (n, 4)."""
@@ -93,9 +115,12 @@ def _positions(surface: IntArray, span: FloatArray) -> IntArray:
     return np.asarray(numbers[which.reshape(-1)], np.intp)
 
 
+def _codes(corner: IntArray, places: FloatArray | IntArray) -> FloatArray | IntArray:
+    """Give one number for each place (..., 2) in whole numbers, those of `corner` and beside."""
+    width = corner[:, 1].max(initial=0) + 3
+    return np.asarray((places[..., 0] + 1) * width + places[..., 1] + 1)
+
+
 def _beside(corner: IntArray) -> NDArray[np.bool_]:
     """Tell whether there is a patch one step away in each of four directions."""
-    width = corner[:, 1].max(initial=0) + 3
-    wanted = corner[:, None, :] + _STEPS + 1
-    there = (corner[:, 0] + 1) * width + corner[:, 1] + 1
-    return np.isin(wanted[..., 0] * width + wanted[..., 1], there)
+    return np.isin(_codes(corner, corner[:, None, :] + _STEPS), _codes(corner, corner))

@@ -3,11 +3,16 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.patches.links import on_surface
->>> from assoc_hull.geometry.patches.patches import Patches
->>> patches = Patches(np.zeros((1, 2, 2, 3)), np.array([[[2.0, 4.0], [0.0, 1.0]]]), np.array([0]))
->>> on_surface(patches, np.array([0]), np.array([[0.5, 0.5]]))
-array([[3. , 0.5]])
+>>> from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
+>>> from assoc_hull.geometry.patches.lattice import Lattice
+>>> from assoc_hull.geometry.patches.links import Links
+>>> zero, none = np.array([0]), np.zeros((0, 2, 2))
+>>> whole, kind = np.array([[[0.0, 1.0]] * 2]), np.array([CellKind.U_SIMPLE])
+>>> cells = Cells(zero, whole, zero, kind, zero, none, none, zero > 0)
+>>> ends = np.array([[[0.5, 0.0], [0.5, 1.0]]])
+>>> arcs = Arcs(zero, zero, np.array([[0.0, 1.0]]), ends, zero == 0)
+>>> Links.of(Lattice.apart(1), cells, arcs).points.uv.tolist()
+[[0.5, 1.0], [0.5, 0.0]]
 """
 
 from __future__ import annotations
@@ -17,20 +22,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.errors import DanglingArcError
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import IntArray
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.chains import Chains, chained, directed
-from assoc_hull.geometry.patches.clusters import Clusters, clusters_of
-from assoc_hull.geometry.patches.components import EndKind
 from assoc_hull.geometry.patches.joints import Joints, joints_of
+from assoc_hull.geometry.patches.landings import NOWHERE, Landings, Points
 from assoc_hull.geometry.patches.lattice import Lattice
 from assoc_hull.geometry.patches.patches import Patches
 
-__all__ = ["END_KINDS", "Links", "on_surface"]
-
-# What an end is, by number; the last stands for none of them.
-END_KINDS = (EndKind.BORDER, EndKind.KNOT_LINE, EndKind.JUNCTION)
-_BORDER, _KNOT_LINE, _JUNCTION, _DANGLING = range(4)
+__all__ = ["Links"]
 
 
 @attrs.frozen(eq=False)
@@ -41,20 +41,12 @@ class Links:
     ----------
     joints : Joints
         Where arcs begin and end.
-    patch : (j,) int
-        The patch on which the first end of each joint was found.
-    uv : (j, 2)
-        Where it lies on that patch.
-    place : (j, 2)
-        Where it lies in the lattice.
-    cluster : (j,) int
-        The cluster that a joint touches at which a line ends, or -1.
-    kind : (j,) int
-        What an end is that lies there.
-    clusters : Clusters
-        Undecided and nil cells.
+    points : Points
+        Where joints lie.
+    landings : Landings
+        What lines end at.
     passed : (n,) bool
-        Which clusters one line passes through for certain.
+        Clusters through which a single line leads.
     following : (a,) int
         The arc that goes on where each ends, or -1.
     chains : Chains
@@ -62,57 +54,36 @@ class Links:
     """
 
     joints: Joints
-    patch: IntArray
-    uv: FloatArray
-    place: FloatArray
-    cluster: IntArray
-    kind: IntArray
-    clusters: Clusters
+    points: Points
+    landings: Landings
     passed: NDArray[np.bool_]
     following: IntArray
     chains: Chains
 
-    @property
-    def is_junction(self) -> NDArray[np.bool_]:
-        """At which joints lines of one component meet, (j,)."""
-        return np.asarray(self.kind == _JUNCTION)
-
     @classmethod
     def of(cls, lattice: Lattice, cells: Cells, arcs: Arcs) -> Links:
         """Find out what meets."""
-        ends, patch = directed(arcs), np.repeat(cells.patch[arcs.cell], 2)
-        places = lattice.place(patch, ends.reshape(-1, 2))
+        ends, patch = directed(arcs).reshape(-1, 2), np.repeat(cells.patch[arcs.cell], 2)
+        places = lattice.place(patch, ends)
         joints = joints_of(places.reshape(-1, 2, 2))
-        patch, uv = patch[joints.first], ends.reshape(-1, 2)[joints.first]
-        place = places[joints.first]
-        cluster = np.full(len(joints), -1)
-        clusters = clusters_of(cells, lattice, place[joints.free])
-        cluster[joints.free] = clusters.at_point
-        passed = clusters.regular & _one_each(joints, cluster, len(clusters))
-        following = _following(joints, cluster, passed)
-        kind = _end_kinds(joints, cluster, lattice, patch, uv)
-        chains = chained(following)
-        return cls(joints, patch, uv, place, cluster, kind, clusters, passed, following, chains)
+        points = Points(patch[joints.first], ends[joints.first], places[joints.first])
+        found = Landings.of(lattice, cells, arcs, joints, points)
+        passed = found.leads_on & _one_each(joints, found.cluster, len(found.over_gaps))
+        following = _following(joints, found.cluster, passed)
+        return cls(joints, points, found, passed, following, chained(following))
 
-    def check(self, patches: Patches, lattice: Lattice) -> None:
+    def check(self, patches: Patches) -> None:
         """Refuse ends that nothing explains."""
-        lost = np.flatnonzero(self.joints.free & (self.kind == _DANGLING))
+        lost = np.flatnonzero(self.joints.free & (self.landings.kind == NOWHERE))
         if not len(lost):
             return
-        one = lost[0]
-        patch = int(self.patch[one])
-        apart = np.abs(self.place - self.place[one]).max(axis=1)
-        apart[one] = np.inf
-        u, v = on_surface(patches, self.patch[lost[:1]], self.uv[lost[:1]])[0].tolist()
+        first, points = lost[:1], self.points
+        patch = int(points.patch[first[0]])
+        apart = np.abs(points.place - points.place[first]).max(axis=1)
+        apart[first] = np.inf
+        u, v = patches.parameters(points.patch[first], points.uv[first])[0].tolist()
         surface = int(patches.surface[patch])
         raise DanglingArcError(len(lost), surface, patch, (u, v), float(apart.min()))
-
-
-def on_surface(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
-    """Give the parameters (n, 2) on the surface of points that lie on some patches."""
-    low, high = patches.box[patch, :, 0], patches.box[patch, :, 1]
-    # Both ends of a span are met to the last bit, so that patches agree on their border.
-    return np.asarray((1.0 - uv) * low + uv * high)
 
 
 def _one_each(joints: Joints, cluster: IntArray, count: int) -> NDArray[np.bool_]:
@@ -136,18 +107,3 @@ def _following(joints: Joints, cluster: IntArray, passed: NDArray[np.bool_]) -> 
     real = np.flatnonzero((tail != head) & open_to[tail])
     starts[met[tail[real]]] = real
     return np.asarray(np.where((tail != head) & open_to[head], starts[met[head]], -1))
-
-
-def _end_kinds(
-    joints: Joints, cluster: IntArray, lattice: Lattice, patch: IntArray, uv: FloatArray
-) -> IntArray:
-    """Tell what an end is that lies at each joint."""
-    sides = lattice.sides(uv)
-    outer = (sides & ~lattice.neighbours[patch]).any(axis=1)
-    inner = (sides & lattice.neighbours[patch]).any(axis=1)
-    kind = np.where(outer, _BORDER, np.where(inner, _KNOT_LINE, _DANGLING))
-    # Two lines that end at one point of a border of patches met there by chance.
-    chance = inner & (joints.heads + joints.tails == 2)
-    kind[joints.meeting & ~chance] = _JUNCTION
-    kind[cluster >= 0] = _JUNCTION
-    return kind

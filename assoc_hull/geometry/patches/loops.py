@@ -18,11 +18,10 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.patches.cell_borders import SHORT
 from assoc_hull.geometry.patches.joints import joints_of
 
 __all__ = ["followers"]
-
-_NEAR = 3e-8
 
 
 def followers(pieces: FloatArray, leaving: FloatArray, arriving: FloatArray) -> IntArray:
@@ -40,7 +39,7 @@ def followers(pieces: FloatArray, leaving: FloatArray, arriving: FloatArray) -> 
     (p,) int
         The piece that begins where each ends, or -1 where there is none.
     """
-    tail, head = joints_of(pieces, _NEAR).joint.T
+    tail, head = joints_of(pieces, SHORT).joint.T
     count, rows = len(pieces), np.arange(len(pieces))
     # Round each point, counter-clockwise: the sector between a piece that leaves and the next
     # that arrives is what both bound.

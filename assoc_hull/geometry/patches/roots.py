@@ -64,9 +64,7 @@ def crossing(
     return found
 
 
-def _block(
-    b: FloatArray, rising: NDArray[np.bool_], start: FloatArray | None
-) -> FloatArray:
+def _block(b: FloatArray, rising: NDArray[np.bool_], start: FloatArray | None) -> FloatArray:
     degree = b.shape[1] - 1
     if degree == 0 or len(b) == 0:
         return np.zeros(len(b))

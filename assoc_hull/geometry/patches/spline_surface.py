@@ -20,6 +20,7 @@ from typing import Self
 import attrs
 import numpy as np
 
+from assoc_hull.arguments import integer
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.knots import blossom, cut, domain, limits, pieces, span_at
 from assoc_hull.geometry.patches.patches import Patches
@@ -175,6 +176,8 @@ class SplineSurface:
         """
         (m, n), (ku, kv) = self.degrees, (self.knots_u, self.knots_v)
         u, v = checked_parameters(u, v, self.domain, self.where)
+        if not u.size:
+            return np.zeros((*u.shape, 3))
         s, t = u.ravel(), v.ravel()
         i, j = span_at(ku, m, s), span_at(kv, n, t)
         rows, columns = i[:, None] + np.arange(-m, 1), j[:, None] + np.arange(-n, 1)
@@ -210,6 +213,7 @@ class SplineSurface:
         >>> SplineSurface("plane", (3, 3), *knots, net).patches().box.tolist()
         [[[0.0, 1.0], [0.0, 1.0]], [[1.0, 2.0], [0.0, 1.0]]]
         """
+        number = integer(number, "number", self.where, least=0)
         (m, n), (ku, kv) = self.degrees, (self.knots_u, self.knots_v)
         rows = pieces(self._homogeneous(), ku, m)
         found = pieces(np.moveaxis(rows, 2, 0), kv, n)

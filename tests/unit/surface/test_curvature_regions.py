@@ -44,12 +44,12 @@ def test_a_result_says_what_was_asked_for() -> None:
 
 def test_delta_is_that_of_each_patch_without_a_band() -> None:
     """1e-9 of the diagonal of the patch's own box, so that it does not depend on others."""
-    nets = [strip([[0, 0, 0], [0, 4, 0], [3, 0, 0], [3, 4, 1]]), patch("P08_wavy_plate")]
-    surfaces = [SplineSurface.bezier(net) for net in nets]
+    net = strip([[0, 0, 0], [0, 4, 0], [3, 0, 0], [3, 4, 1]])
+    surfaces = [SplineSurface.bezier(each) for each in (net, 2.0 * net, patch("P08_wavy_plate"))]
     result = ah.curvature_regions(surfaces, zero="exact")
-    found = {len(part.patches.net[0]): part.delta.tolist() for part in result.parts}
-    assert found[2] == [pytest.approx(1e-9 * 26**0.5)]
-    assert result.delta == max(max(each) for each in found.values())
+    small, other = (part.delta.tolist() for part in result.parts)
+    assert small == pytest.approx([1e-9 * 26**0.5, 2e-9 * 26**0.5], rel=1e-12)
+    assert result.delta == max(small + other)
 
 
 def test_areas_of_one_surface_and_of_all() -> None:
@@ -103,7 +103,7 @@ def test_polylines_keep_the_chord_tolerance() -> None:
         pytest.param([np.zeros((2, 2, 3))], "surfaces[0] is array", id="nets in a list"),
         pytest.param(np.zeros((4, 4)), "net", id="net without coordinates"),
         pytest.param(np.full((2, 2, 3), np.nan), "", id="points that are no numbers"),
-        pytest.param(np.zeros((2, 2, 3)), "patch 0 has no area", id="point"),
+        pytest.param(np.zeros((2, 2, 3)), "patch 1 has no area", id="point"),
         pytest.param(strip([[0, 0, 0], [1, 1, 1], [2, 2, 2], [5, 5, 5]]), "no area", id="line"),
         pytest.param(strip([[0, 0, 1e5], [1, 1, 1e5], [2, 2, 1e5], [5, 5, 1e5]]), "no area",
                      id="line far away"),
@@ -127,8 +127,8 @@ def test_notes_tell_a_search_that_ended() -> None:
     surface = SplineSurface.bezier(patch("P07_double_cross"), "saddle of the fourth order")
     notes = ah.curvature_regions(surface, zero="exact", delta=0.0, budget=500).notes
     assert len(notes) == 2
-    assert "surface 0 ('saddle of the fourth order')" in notes[0]
-    assert "budget of 500 cells in 1 patch (0)" in notes[0]
+    assert "In surface 'saddle of the fourth order' the" in notes[0]
+    assert "budget of 500 cells in 1 patch (1)" in notes[0]
     assert "unresolved, more than area_tol (1e-06)" in notes[1]
     assert all(note[0].isupper() and note.endswith(".") for note in notes)
 
@@ -152,16 +152,35 @@ def test_notes_tell_lines_that_end_at_knots() -> None:
     result = ah.curvature_regions(SplineSurface("bent", (3, 3), *knots, net), zero="exact")
     ends = [piece for piece in result.components if "knot-line" in piece.tags]
     assert ends
-    assert any("at knots" in note and "surface 0 ('bent')" in note for note in result.notes)
+    assert any("at knots" in note and "surface 'bent'" in note for note in result.notes)
 
 
 def test_notes_tell_borders_without_curvature() -> None:
     """K = 0 along the border of a plate is no line, and is told."""
     result = ah.curvature_regions(patch("P18_inflect_edge"), zero="exact")
     assert [piece.kind for piece in result.components] == ["edge_line"]
-    assert any("K = 0 1/m2 along 1 border of patches (0)" in note for note in result.notes)
+    assert any("K = 0 1/m2 along 1 border of patches (1)" in note for note in result.notes)
     (line,) = result.components[0].uv
     assert np.array_equal(line[:, 0], np.zeros(len(line)))
+
+
+@pytest.mark.parametrize("zero", ["strain", "exact"])
+def test_a_pole_is_no_line(zero: str) -> None:
+    """Where a side is drawn together in a point, no border and no line of the curvature is told."""
+    result = ah.curvature_regions(patch("P17_pole_sphere"), zero=zero)
+    assert (result.components, result.notes, result.unresolved) == ((), (), 0.0)
+    assert result.positive == pytest.approx(result.total, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["P14_cyl", "P18_inflect_edge"])
+def test_coordinates_are_known_to_their_rounding(name: str) -> None:
+    """With a delta of 0, what is nil but for the rounding of the net is nil."""
+    result = ah.curvature_regions(patch(name), zero="exact", delta=0.0)
+    assert result.delta == 2.0**-52 * np.abs(patch(name)).max()
+    assert (result.negative, {piece.kind for piece in result.components} - {"edge_line"}) == (
+        0,
+        set(),
+    )
 
 
 def test_a_line_that_breaks_off_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -204,10 +223,10 @@ def test_what_is_found_is_frozen() -> None:
             array[0] = 0
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
-    m=st.integers(1, 4),
-    n=st.integers(1, 4),
+    m=st.integers(1, 3),
+    n=st.integers(1, 3),
     seed=st.integers(0, 10**6),
     zero=st.sampled_from(["strain", "exact"]),
     scale=st.sampled_from([1e-3, 1.0, 1e3]),
@@ -215,12 +234,12 @@ def test_what_is_found_is_frozen() -> None:
 def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, scale: float) -> None:
     """Four areas of 0 or more add up to the total; the same net gives the same bits again."""
     net = scale * np.random.default_rng(seed).standard_normal((m + 1, n + 1, 3))
-    result = ah.curvature_regions(net, zero=zero, area_tol=1e-5, depth=10)
+    result = ah.curvature_regions(net, zero=zero, area_tol=1e-4, depth=8)
     areas = result.areas
     parts = areas.positive, areas.negative, areas.zero, areas.unresolved
     assert min(parts) >= 0.0
     assert sum(parts) == pytest.approx(areas.total, rel=1e-4)
-    again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-5, depth=10)
+    again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-4, depth=8)
     assert again.areas == areas
     assert [piece.xyz[0].tobytes() for piece in again.components] == [
         piece.xyz[0].tobytes() for piece in result.components
@@ -230,17 +249,18 @@ def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, sc
 def test_no_order_of_hashes_is_seen() -> None:
     """Another process with other hashes finds the same, to the last digit."""
     script = (
-        "import assoc_hull as ah; from assoc_hull.geometry.patches.spline_surface import *\n"
+        "import assoc_hull as ah\n"
+        "from assoc_hull.geometry.patches.spline_surface import SplineSurface\n"
         "from tests.curved_patches import graph_plates\n"
-        "many = [SplineSurface.bezier(n[: 3 + i % 2]) for i, n in enumerate(graph_plates(6, 3))]\n"
+        "many = [SplineSurface.bezier(n[: 3 + i % 2]) for i, n in enumerate(graph_plates(4, 3))]\n"
         "found = ah.curvature_regions(many, levels=(0.0, 0.01))\n"
-        "print(repr(found.areas), [(c.kind, c.surface, c.xyz[0].sum()) for c in found.components])"
+        "told = [(c.kind, c.surface, c.xyz[0].sum()) for c in found.components]\n"
+        "text = repr(found.areas) + repr(told)\n"
     )
-    outputs = {
-        subprocess.run(
-            [sys.executable, "-c", script], capture_output=True, text=True, check=True,
-            cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": seed},
-        ).stdout
-        for seed in ("1", "4711")
-    }  # fmt: skip
-    assert len(outputs) == 1
+    here: dict[str, str] = {}
+    exec(script, here)
+    other = subprocess.run(
+        [sys.executable, "-c", script + "print(text)"], capture_output=True, text=True,
+        check=True, cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": "4711"},
+    ).stdout  # fmt: skip
+    assert other.strip() == here["text"]

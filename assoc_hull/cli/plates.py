@@ -1,0 +1,197 @@
+"""The command that tells of shell plates how they are curved, and how they may be formed."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json
+from assoc_hull.cli.output import emit, progress
+from assoc_hull.cli.problems import UsageError, check_target
+from assoc_hull.errors import BadInputError
+
+if TYPE_CHECKING:
+    from assoc_hull.io.surface_file import ReadSurfaces
+    from assoc_hull.plating import Plates
+
+__all__ = ["add"]
+
+_OUT = (".csv", ".json", ".pdf")
+_UNITS = ("m", "mm", "cm", "ft", "in")
+_OWN = "own"
+
+
+def add(commands: Commands) -> None:
+    """Add ``plates``."""
+    parser = add_command(
+        commands, "plates", "tell how shell plates are curved, and how they may be formed", _plates,
+        """assoc-hull plates plates.csv
+        assoc-hull plates shell.igs -o plates.json --picture map.png
+        assoc-hull plates shell.igs --seams-u 0.25 0.5 0.75 --breadth own -o plates.pdf
+        assoc-hull plates plates.csv --strain-tol 0.002 --development flat.csv --json""",
+    )  # fmt: skip
+    parser.add_argument(
+        "file", metavar="FILE", type=Path,
+        help="surfaces: control nets (.csv, .json) or untrimmed IGES 128 (.igs)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--unit", choices=_UNITS, help="of lengths in FILE (default: as it says; m of a table)"
+    )
+    _add_options(parser)
+    parser.add_argument(
+        "-o", "--out", type=Path, metavar="TABLE", help="write a .csv, .json or .pdf file"
+    )
+    parser.add_argument(
+        "--picture", type=Path, metavar="MAP", help="draw the regions: .pdf, .svg or .png"
+    )
+    parser.add_argument(
+        "--development", type=Path, metavar="FLAT",
+        help="lay the plates flat, and write nodes and strains to a .csv file",
+    )  # fmt: skip
+    add_json(parser)
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--zero", choices=("strain", "absolute", "exact"), default="strain",
+        help="what counts as no Gaussian curvature (default: strain)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--strain-tol", type=float, metavar="E", help="strain that is neglected (default: 0.001)"
+    )
+    parser.add_argument(
+        "--breadth", type=_breadth, metavar="M",
+        help=f"breadth that has this strain, m, or {_OWN}: that of each plate (default: 2.5)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--k0", type=float, metavar="K", help="with --zero absolute: curvature neglected, 1/m2"
+    )
+    parser.add_argument(
+        "--delta", type=float, metavar="M", help="what control points may be off by, m"
+    )
+    parser.add_argument(
+        "--share", type=float, metavar="PART", help="part that makes the class (default: 0.95)"
+    )
+    parser.add_argument(
+        "--sagitta-tol", type=float, metavar="M",
+        help="sagitta over the breadth that counts as flat, m (default: 0.003)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--area-tol", type=float, metavar="PART", help="error of areas, of all (default: 1e-6)"
+    )
+    for name in ("u", "v"):
+        parser.add_argument(
+            f"--seams-{name}", type=float, nargs="+", default=[], metavar="P",
+            help=f"cut every surface at these parameters {name}",
+        )  # fmt: skip
+
+
+def _breadth(text: str) -> float | str:
+    """Take a breadth, or the word for each plate's own."""
+    if text == _OWN:
+        return text
+    try:
+        return float(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no length, and not {_OWN!r}") from error
+
+
+def _plates(arguments: argparse.Namespace) -> int:
+    from assoc_hull.io.surface_file import read_surface_file
+
+    _check_targets(arguments)
+    surfaces = read_surface_file(arguments.file, arguments.unit)
+    with progress("finding regions"):
+        found = _found(surfaces, arguments)
+    saved = _saved(found, arguments)
+    _tell(arguments, surfaces, found, saved)
+    return 0
+
+
+def _check_targets(arguments: argparse.Namespace) -> None:
+    """Refuse, before anything is computed, what could not be written."""
+    from assoc_hull.io.whole_file import require_no_hull_file
+
+    targets = ((arguments.out, _OUT), (arguments.picture, PICTURE_ENDINGS),
+               (arguments.development, (".csv",)))  # fmt: skip
+    known = {arguments.file.resolve()}
+    for path, endings in targets:
+        if path is None:
+            continue
+        check_target(path, endings)
+        require_no_hull_file(path)
+        if path.resolve() in known:
+            what = "another file of this command has this name"
+            raise BadInputError(what, f"at {path}", "give another name")
+        known.add(path.resolve())
+    if arguments.picture is not None or _is_sheet(arguments):
+        from assoc_hull.plot.sheet import require_matplotlib
+
+        require_matplotlib()
+    if arguments.picture is not None and arguments.breadth == _OWN:
+        raise UsageError("--picture needs one band, and --breadth own has many; give a breadth")
+
+
+def _is_sheet(arguments: argparse.Namespace) -> bool:
+    return arguments.out is not None and arguments.out.suffix == ".pdf"
+
+
+def _found(surfaces: ReadSurfaces, arguments: argparse.Namespace) -> Plates:
+    """Find the plates, by the options that are given."""
+    from assoc_hull.plating import plates
+    from assoc_hull.surface.seams import Seams
+
+    names = ("strain_tol", "k0", "delta", "share", "sagitta_tol", "area_tol")
+    given: dict[str, Any] = {name: getattr(arguments, name) for name in names}
+    options = {name: value for name, value in given.items() if value is not None}
+    if arguments.breadth is not None:
+        options["breadth"] = None if arguments.breadth == _OWN else arguments.breadth
+    seams = Seams(arguments.seams_u, arguments.seams_v)
+    return plates(surfaces, seams or None, arguments.zero, **options)
+
+
+def _saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
+    """Write what was asked for; name the files."""
+    saved: list[Path] = []
+    if arguments.out is not None:
+        with progress(f"writing {arguments.out}"):
+            _write(found, arguments)
+        saved.append(arguments.out)
+    if arguments.picture is not None:
+        from assoc_hull.plot.curvature_map import curvature_figure
+
+        with progress(f"drawing {arguments.picture}"):
+            curvature_figure(found.results[0], arguments.picture)
+        saved.append(arguments.picture)
+    if arguments.development is not None:
+        from assoc_hull.io.plates_file import development_csv
+        from assoc_hull.io.whole_file import write_whole
+
+        with progress("laying plates flat"):
+            text = development_csv([plate.development() for plate in found])
+        write_whole(arguments.development, text.encode())
+        saved.append(arguments.development)
+    return [str(each) for each in saved]
+
+
+def _write(found: Plates, arguments: argparse.Namespace) -> None:
+    """Write the table, or the sheet."""
+    if not _is_sheet(arguments):
+        found.save(arguments.out)
+        return
+    from assoc_hull.plot.plate_sheet import plate_sheet
+
+    plate_sheet(found, arguments.out)
+
+
+def _tell(
+    arguments: argparse.Namespace, surfaces: ReadSurfaces, found: Plates, saved: list[str]
+) -> None:
+    """Print what was found."""
+    from assoc_hull.io.plates_file import plates_document
+
+    document = plates_document(found)
+    document["notes"] = [*surfaces.notes, *document["notes"]]
+    words = [str(found), *surfaces.notes, *(f"written: {each}" for each in saved)]
+    emit(arguments, {**document, "saved": saved}, "\n".join(words))

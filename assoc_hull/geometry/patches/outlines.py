@@ -1,0 +1,204 @@
+"""Outlines of regions: arcs, pieces of borders, and holes as loops of their own.
+
+The outline of the positive region is made of the arcs, walked with it on the left, and of borders
+of cells that are left over when what two of its cells share is cancelled: pieces of the border of
+the patch, and sides of undecided cells. So areas that outlines enclose add up to that of the patch.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.patches.arcs import arcs_of
+>>> from assoc_hull.geometry.patches.cells import CellKind
+>>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
+>>> from assoc_hull.geometry.patches.outlines import outlines
+>>> from assoc_hull.geometry.patches.patches import Patches
+>>> from assoc_hull.geometry.patches.solve import solve
+>>> patches = Patches.single(np.zeros((2, 2, 3)))
+>>> b = np.array([[[-1.0, -1.0], [3.0, 3.0]]])  # 4 u - 1
+>>> cells = solve(IsoFunction(b, 1e-15 + 0.0 * b))
+>>> found = outlines(patches, cells, arcs_of(cells), CellKind.POSITIVE)
+>>> found.loop(0).tolist(), found.enclosed.tolist()
+([[0.25, 1.0], [0.25, 0.0], [1.0, 0.0], [1.0, 1.0]], [0.75])
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.patches.cell_borders import SHORT, leftover, sides_of
+from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
+from assoc_hull.geometry.patches.chains import Chains, chained, directed, forward
+from assoc_hull.geometry.patches.gathering import rows_of
+from assoc_hull.geometry.patches.joints import joints_of
+from assoc_hull.geometry.patches.lattice import Lattice
+from assoc_hull.geometry.patches.loops import followers
+from assoc_hull.geometry.patches.patches import Patches
+
+__all__ = ["Outlines", "outlines"]
+
+
+@attrs.frozen(eq=False)
+class Outlines:
+    """Closed polygons, with the region on the left: holes run the other way round.
+
+    Attributes
+    ----------
+    uv : (p, 2)
+        Corners, in parameters of the surface; the last leads to the first.
+    start : (n + 1,) int
+        Loop i has the corners ``uv[start[i] : start[i + 1]]``.
+    patch : (n,) int
+        The patch of each loop; of one that runs over several, one of them.
+    """
+
+    uv: FloatArray
+    start: IntArray
+    patch: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.uv, self.start, self.patch)
+
+    def __len__(self) -> int:
+        """Count the loops."""
+        return len(self.patch)
+
+    def loop(self, number: int) -> FloatArray:
+        """Give the corners (k, 2) of one loop."""
+        return self.uv[self.start[number] : self.start[number + 1]]
+
+    @property
+    def enclosed(self) -> FloatArray:
+        """What each loop encloses, in parameters, (n,); negative for a hole."""
+        after = np.arange(1, len(self.uv) + 1)
+        after[self.start[1:] - 1] = self.start[:-1]
+        # About the first corner of each loop, so that far places cost no digits.
+        origin = np.repeat(self.uv[self.start[:-1]], np.diff(self.start), axis=0)
+        a, b = self.uv - origin, self.uv[after] - origin
+        areas = 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        return np.asarray(np.add.reduceat(areas, self.start[:-1])) if len(self) else np.zeros(0)
+
+
+def outlines(
+    patches: Patches,
+    cells: Cells,
+    arcs: Arcs,
+    kind: CellKind,
+    samples: tuple[IntArray, FloatArray] | None = None,
+    across: bool = False,
+) -> Outlines:
+    """Give the outlines of a region.
+
+    Parameters
+    ----------
+    patches, cells, arcs : Patches, Cells, Arcs
+        The patches, their cells, the arcs in these.
+    kind : CellKind
+        POSITIVE, NEGATIVE, ZERO (the polynomial is nil in whole cells) or UNRESOLVED.
+    samples : (a + 1,) int and (p, 2), optional
+        Points of arcs, in parameters of patches, as `sampling.sampled` gives them; without them
+        arcs are straight.
+    across : bool
+        Whether regions of one surface are merged across the borders of patches.
+
+    Returns
+    -------
+    Outlines
+        In the order of patches, if they are not merged.
+    """
+    surface, box = patches.surface, patches.box
+    lattice = Lattice.of(surface, box) if across else Lattice.apart(len(patches))
+    lines = _Lines.of(lattice, cells, arcs, kind, samples)
+    chains = chained(followers(lines.ends, *lines.directions()))
+    corners, start = lines.along(chains)
+    kept = np.flatnonzero(np.diff(start) > 2)
+    corner, owner = rows_of(np.diff(start), kept)
+    start = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(kept)))])
+    patch = lines.patch[chains.firsts[kept]]
+    return Outlines(lattice.on_surface(box, corners[corner]), start, patch)
+
+
+@attrs.frozen(eq=False)
+class _Lines:
+    """Directed lines with the region on their left: arcs, then pieces of borders of cells.
+
+    Attributes
+    ----------
+    points : (p, 2)
+        Points of all lines, in the lattice.
+    start : (n + 1,) int
+        Where the points of each line begin.
+    ends : (n, 2, 2)
+        Where each begins and ends.
+    patch : (n,) int
+        The patch of each.
+    """
+
+    points: FloatArray
+    start: IntArray
+    ends: FloatArray
+    patch: IntArray
+
+    @classmethod
+    def of(
+        cls, lattice: Lattice, cells: Cells, arcs: Arcs, kind: CellKind,
+        samples: tuple[IntArray, FloatArray] | None,
+    ) -> _Lines:  # fmt: skip
+        """Gather the lines that bound a region."""
+        patch = cells.patch[arcs.cell]
+        ends = lattice.place(np.repeat(patch, 2), directed(arcs).reshape(-1, 2))
+        joints = joints_of(ends.reshape(-1, 2, 2))
+        # Both arcs that meet in a point have the same one, to the last bit.
+        ends = ends[joints.first][joints.joint]
+        arc_of = np.full(len(cells), -1)
+        arc_of[arcs.cell] = np.arange(len(arcs))
+        pieces = leftover(sides_of(cells, lattice, kind, arc_of, ends))
+        used = np.flatnonzero(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1) > SHORT)
+        if kind not in (CellKind.POSITIVE, CellKind.NEGATIVE):
+            used = used[:0]
+        turned = forward(arcs)[used] != (kind is CellKind.POSITIVE)
+        start, points = _sampled(lattice, patch, arcs, samples)
+        points, start = _turned(points, start, used, turned)
+        ends = np.where((kind is CellKind.POSITIVE), ends, ends[:, ::-1])[used]
+        points[start[:-1]], points[start[1:] - 1] = ends[:, 0], ends[:, 1]
+        behind = start[-1] + 2 * np.arange(1, len(pieces) + 1)
+        return cls(
+            np.concatenate([points, pieces.reshape(-1, 2)]), np.concatenate([start, behind]),
+            np.concatenate([ends, pieces]),
+            np.concatenate([patch[used], lattice.patch_at(pieces.mean(axis=1))]),
+        )  # fmt: skip
+
+    def directions(self) -> tuple[FloatArray, FloatArray]:
+        """Give the directions (n, 2) in which lines leave and arrive."""
+        first, last = self.start[:-1], self.start[1:] - 1
+        leave = self.points[np.minimum(first + 1, last)] - self.points[first]
+        return leave, self.points[last] - self.points[np.maximum(last - 1, first)]
+
+    def along(self, chains: Chains) -> tuple[FloatArray, IntArray]:
+        """Give the corners of chains of lines, and where those of each begin."""
+        counts = np.diff(self.start)
+        rows, line = rows_of(counts, chains.arcs)
+        # The last point of a line is the first of the next.
+        kept = rows != self.start[chains.arcs + 1][line] - 1
+        ends = np.cumsum((counts - 1)[chains.arcs])
+        return self.points[rows[kept]], np.concatenate([[0], ends])[chains.start]
+
+
+def _sampled(
+    lattice: Lattice, patch: IntArray, arcs: Arcs, samples: tuple[IntArray, FloatArray] | None
+) -> tuple[IntArray, FloatArray]:
+    """Give where the points of arcs begin, and the points in the lattice."""
+    start, uv = samples or (2 * np.arange(len(arcs) + 1), arcs.ends.reshape(-1, 2))
+    return start, lattice.place(np.repeat(patch, np.diff(start)), uv)
+
+
+def _turned(
+    points: FloatArray, start: IntArray, used: IntArray, turned: np.ndarray
+) -> tuple[FloatArray, IntArray]:
+    """Take the points of some arcs, some of them in reverse."""
+    counts = np.diff(start)
+    rows, arc = rows_of(counts, used)
+    ends = start[used] + start[used + 1] - 1
+    rows = np.where(turned[arc], ends[arc] - rows, rows)
+    return points[rows], np.concatenate([[0], np.cumsum(counts[used])])

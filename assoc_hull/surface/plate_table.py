@@ -1,0 +1,216 @@
+"""Rows of plates, as a table: names, units, text.
+
+Examples
+--------
+>>> from assoc_hull.surface.plate_table import COLUMNS
+>>> [column.name for column in COLUMNS][:4]
+['name', 'area', 'length', 'breadth']
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import shown
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.surface.plate import Plate
+from assoc_hull.surface.plate_options import PlateOptions
+from assoc_hull.surface.region_result import RegionResult
+from assoc_hull.surface.suggestions import CAVEAT
+
+__all__ = ["COLUMNS", "Column", "Plates"]
+
+_NIL = 1e-12
+"""Below this a number is printed as 0."""
+
+
+@attrs.frozen
+class Column:
+    """A column of the table of plates.
+
+    Attributes
+    ----------
+    name : str
+        Its name in files and of `Plates.column`.
+    unit : str
+        Its unit; "" of words and of numbers without one.
+    head : str
+        What stands over it in print; "" of a column that is in files only.
+    style : str
+        The format of its numbers in print.
+    value : callable
+        What a plate has there.
+    """
+
+    name: str
+    unit: str
+    head: str
+    style: str
+    value: Callable[[Plate], Any]
+
+
+def _share(name: str) -> Callable[[Plate], float]:
+    """Give what takes a share, in per cent."""
+    return lambda plate: 100.0 * float(getattr(plate.shares, name))
+
+
+def _own(name: str) -> Callable[[Plate], Any]:
+    """Give what takes an attribute."""
+    return lambda plate: getattr(plate, name)
+
+
+COLUMNS: tuple[Column, ...] = (
+    Column("name", "", "plate", "s", _own("name")),
+    Column("area", "m2", "area", ".3f", _own("area")),
+    Column("length", "m", "a", ".2f", _own("length")),
+    Column("breadth", "m", "b", ".2f", _own("breadth")),
+    Column("k0", "1/m2", "K0", ".3g", _own("k0")),
+    Column("convex", "%", "convex", ".1f", _share("convex")),
+    Column("saddle", "%", "saddle", ".1f", _share("saddle")),
+    Column("cylinder", "%", "cyl.", ".1f", _share("cylinder")),
+    Column("flat", "%", "flat", ".1f", _share("flat")),
+    Column("kind", "", "class", "s", _own("kind")),
+    Column("order", "", "order", "d", _own("order")),
+    Column("roll_axis", "deg", "axis", ".1f", _own("roll_axis")),
+    Column("coherence", "", "coh.", ".2f", _own("coherence")),
+    Column("least_radius", "m", "R least", ".2f", _own("least_radius")),
+    Column("total_curvature", "", "int |K|", ".2e", _own("total_curvature")),
+    Column("mean_strain", "", "strain", ".1e", _own("mean_strain")),
+    Column("lines", "", "lines", "d", _own("lines")),
+    Column("unresolved_area", "m2", "unres.", ".2g", _own("unresolved_area")),
+    Column("band_breadth", "m", "", "", _own("band_breadth")),
+    Column("unresolved", "%", "", "", _share("unresolved")),
+    Column("developable", "%", "", "", lambda plate: 100.0 * plate.shares.developable),
+    Column("rollable", "", "", "", _own("rollable")),
+    Column("largest_radius", "m", "", "", _own("largest_radius")),
+    Column("largest_strain", "", "", "", _own("largest_strain")),
+    Column("heating", "", "", "", _own("heating")),
+    Column("area_error", "m2", "", "", lambda plate: plate.areas.error_estimate),
+    Column("suggestion", "", "", "", _own("suggestion")),
+)
+"""The columns, in the order of files; those with a head are printed."""
+
+
+@attrs.frozen(eq=False)
+class Plates:
+    """Plates of a shell, one row each.
+
+    Attributes
+    ----------
+    rows : tuple of Plate
+        The plates.
+    options : PlateOptions
+        By what they were told apart.
+    results : tuple of RegionResult
+        The regions: one result for all, or one for each plate where each has its own band.
+    """
+
+    rows: tuple[Plate, ...]
+    options: PlateOptions
+    results: tuple[RegionResult, ...]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[Plate]:
+        return iter(self.rows)
+
+    def __getitem__(self, which: int | str) -> Plate:
+        """Give a plate by its number from 0, or by its name.
+
+        Raises
+        ------
+        BadInputError, UnknownNameError, WrongTypeError
+            No such number or name; a name that several have.
+        """
+        where = "in Plates"
+        if isinstance(which, str):
+            found = [plate for plate in self.rows if plate.name == which]
+            if not found:
+                raise UnknownNameError("plate", which, tuple(plate.name for plate in self.rows))
+            if len(found) > 1:
+                what = f"{len(found)} plates are named {which!r}"
+                raise BadInputError(what, where, "give the number of one")
+            return found[0]
+        if isinstance(which, bool) or not isinstance(which, int | np.integer):
+            raise WrongTypeError(f"a plate is {shown(which)}", where, "give a number or a name")
+        if not -len(self.rows) <= which < len(self.rows):
+            remedy = f"give 0 to {len(self.rows) - 1}"
+            raise BadInputError(f"there is no plate {which}", where, remedy)
+        return self.rows[which]
+
+    def result_of(self, number: int) -> RegionResult:
+        """Give the regions that hold a plate, by its number from 0; its `Plate.number` is there."""
+        self[number]
+        return self.results[0] if len(self.results) == 1 else self.results[number]
+
+    @property
+    def computed(self) -> int:
+        """How many patches were computed; the others were taken from earlier plates."""
+        return sum(each.computed for each in self.results)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of regions and plates, each a sentence."""
+        regions = (note for each in self.results for note in each.notes)
+        return (*regions, *(note for plate in self.rows for note in plate.notes))
+
+    def column(self, name: str) -> list[Any]:
+        """Give what all plates have in a column.
+
+        Raises
+        ------
+        UnknownNameError
+            No such column.
+        """
+        for each in COLUMNS:
+            if each.name == name:
+                return [each.value(plate) for plate in self.rows]
+        raise UnknownNameError("column", str(name), tuple(each.name for each in COLUMNS))
+
+    def table(self) -> list[dict[str, Any]]:
+        """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
+        return [{each.name: each.value(plate) for each in COLUMNS} for plate in self.rows]
+
+    def __str__(self) -> str:
+        """Write the table, the advice, and what is to be known."""
+        lines = [*self._printed(), "", *self._advice(), CAVEAT, str(self._band())]
+        return "\n".join([*lines, *self.notes])
+
+    def _printed(self) -> Iterator[str]:
+        """Write the columns that have a head."""
+        seen = [each for each in COLUMNS if each.head]
+        heads = [each.head for each in seen]
+        units = [each.unit for each in seen]
+        body = [[_cell(each, plate) for each in seen] for plate in self.rows]
+        wide = [max(map(len, column)) for column in zip(heads, units, *body, strict=True)]
+        for row in (heads, units, *body):
+            first, *others = (
+                f"{text:<{width}}" if i == 0 else f"{text:>{width}}"
+                for i, (text, width) in enumerate(zip(row, wide, strict=True))
+            )
+            yield "  ".join([first, *others]).rstrip()
+
+    def _advice(self) -> Iterator[str]:
+        """Write the suggestion of each plate."""
+        for plate in self.rows:
+            yield f"{plate.name}: {plate.suggestion}."
+
+    def _band(self) -> str:
+        """Say what counted as no curvature."""
+        if len(self.results) == 1:
+            return f"{self.results[0].band}; strains are those of each plate's own breadth b."
+        tol = self.results[0].band.strain_tol
+        return f"K0 by strain {tol:g} over the breadth b of each plate; strains likewise."
+
+
+def _cell(column: Column, plate: Plate) -> str:
+    """Write a value; a dash where there is none, 0 for what rounding leaves of nil."""
+    value = column.value(plate)
+    if isinstance(value, float) and abs(value) < _NIL:
+        value = 0.0
+    return "-" if value is None else format(value, column.style)
