@@ -107,7 +107,7 @@ def _negated(found: Joined) -> IsoFunction:
     return attrs.evolve(found.function, b=-found.function.b)
 
 
-def _spline(seed: int, multiplicity: int = 1) -> SplineSurface:
+def spline(seed: int, multiplicity: int = 1) -> SplineSurface:
     """A bicubic surface of 3 x 5 spans with random heights."""
     draw = np.random.default_rng(seed)
     inner = np.repeat([1.0, 2.0], multiplicity)
@@ -121,7 +121,7 @@ def _spline(seed: int, multiplicity: int = 1) -> SplineSurface:
 
 def test_lines_cross_the_borders_of_patches() -> None:
     """On a surface of 15 patches with continuous curvature, lines end on its border only."""
-    found = join(_spline(3).patches())
+    found = join(spline(3).patches())
     several = [each for each in found.components if len(each.patches) > 1]
     assert len(several) >= 5
     for each in found.components:
@@ -136,7 +136,7 @@ def test_lines_cross_the_borders_of_patches() -> None:
 
 def test_lines_end_where_the_curvature_jumps() -> None:
     """At knots where a surface is smooth but its curvature jumps, ends are told, not refused."""
-    found = join(_spline(3, 2).patches())
+    found = join(spline(3, 2).patches())
     jumps = [each for each in found.components if "knot-line" in each.tags]
     assert jumps
     for each in jumps:
