@@ -22,6 +22,12 @@ from drawings.container import (
     container_ship_225m_bulb,
 )
 from drawings.created import bulk_carrier_180m, bulk_carrier_180m_parent
+from drawings.curvature import (
+    curvature_lines,
+    curvature_mixed,
+    curvature_typical,
+    plate_flat,
+)
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.edits import pinned_or_field, pull
@@ -181,6 +187,10 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "variant_plan": variant_plan,
     "bossing_profile": bossing_profile,
     "bossing_lines": bossing_lines,
+    "curvature_typical": curvature_typical,
+    "curvature_mixed": curvature_mixed,
+    "curvature_lines": curvature_lines,
+    "plate_flat": plate_flat,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
@@ -188,7 +198,8 @@ DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 11
        "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
        "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
-COLOURS = {**dict.fromkeys(PLANS, 16), "form_curve": 256}
+COLOURS = {**dict.fromkeys(PLANS, 16)}
+COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "plate_flat"), 256)
 
 
 def write(name: str) -> int:

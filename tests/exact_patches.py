@@ -99,17 +99,58 @@ class ExactPatch:
         return total(product(self.e, self.n), -2 * cross, product(self.g, self.l))
 
 
+def _whole(points: FloatArray) -> tuple[Exact, int]:
+    """Floats (m + 1, n + 1, d) as whole numbers of 1 / unit, and unit."""
+    fractions = [[[Fraction(float(x)) for x in point] for point in row] for row in points]
+    unit = max(x.denominator for row in fractions for point in row for x in point)
+    return np.array([[[int(x * unit) for x in p] for p in row] for row in fractions], object), unit
+
+
+def _components(whole: Exact) -> list[Exact]:
+    return [_powers(_powers(whole[..., i]).T).T for i in range(whole.shape[-1])]
+
+
 def exact_patch(net: FloatArray) -> ExactPatch:
     """The polynomials of a control net (m + 1, n + 1, 3)."""
-    fractions = [[[Fraction(float(x)) for x in point] for point in row] for row in net]
-    unit = max(x.denominator for row in fractions for point in row for x in point)
-    whole = np.array([[[int(x * unit) for x in p] for p in row] for row in fractions], object)
-    r = [_powers(_powers(whole[..., axis]).T).T for axis in range(3)]
+    whole, unit = _whole(net)
+    r = _components(whole)
     ru, rv = [_du(x) for x in r], [_dv(x) for x in r]
     s = [total(product(ru[i], rv[j]), -product(ru[j], rv[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
     second = [_du(x) for x in ru], [_dv(x) for x in ru], [_dv(x) for x in rv]
     l, m, n = (_dot(s, each) for each in second)
     return ExactPatch(unit, s, l, m, n, _dot(ru, ru), _dot(ru, rv), _dot(rv, rv))
+
+
+def _determinant(columns: list[list[Exact]]) -> Exact:
+    """A determinant of polynomials, by its first column."""
+    if len(columns) == 1:
+        return columns[0][0]
+    parts = []
+    for i, entry in enumerate(columns[0]):
+        rest = [[x for j, x in enumerate(column) if j != i] for column in columns[1:]]
+        parts.append((-1) ** i * product(entry, _determinant(rest)))
+    return total(*parts)
+
+
+def exact_rational(net: FloatArray, weight: FloatArray) -> tuple[Exact, Exact, Exact, int]:
+    """A*, |S*|**4 and w**4 of a rational patch, each of 8, 8 and 4 factors of 1 / unit; unit.
+
+    By determinants of order 4 and 3, from the origin. Both A* and |S*|**4 hold coordinates times
+    weights: the caller's points and weights must be such that their products are floats.
+    """
+    weighted = np.concatenate([net * weight[..., None], weight[..., None]], axis=-1)
+    whole, unit = _whole(weighted)
+    h = _components(whole)
+    hu, hv = [_du(x) for x in h], [_dv(x) for x in h]
+    seconds = [_du(x) for x in hu], [_dv(x) for x in hu], [_dv(x) for x in hv]
+    l, m, n = (_determinant([h, hu, hv, each]) for each in seconds)
+    s = [
+        _determinant([[each[i] for i in rows] for each in (h, hu, hv)])
+        for rows in ((1, 2, 3), (0, 2, 3), (0, 1, 3))
+    ]
+    area, square = _dot(s, s), product(h[3], h[3])
+    a = total(product(l, n), -product(m, m))
+    return a, product(area, area), product(square, square), unit
 
 
 def _to_bernstein(powers: Exact, degree: int) -> Exact:

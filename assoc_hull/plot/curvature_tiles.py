@@ -36,7 +36,7 @@ class Tiles:
     patch : (k,) int
         The patch of each.
     uv : (k, 4, 2)
-        Corners in parameters of the patch, going round.
+        Corners in parameters of the patch, going round anticlockwise.
     sign : (k,) int
         1 where the polynomial is positive, -1 where it is negative, 0 where it is nil.
     """
@@ -121,7 +121,12 @@ def _strips(
     for low, high, side in ((np.zeros_like(g), g, -1), (g, np.ones_like(g), 1)):
         u = low[:, None] + across * (high - low)[:, None]
         local = np.stack(np.broadcast_arrays(u, t[:, None]), axis=-1)
-        uv = _placed(cells, rows, local[..., ::-1] if swapped else local)
+        # Exchanged parameters turn the corners round; all are to go the same way.
+        uv = (
+            _placed(cells, rows, local[..., ::-1])[:, ::-1]
+            if swapped
+            else _placed(cells, rows, local)
+        )
         each = count * (t.shape[1] - 1)
         sign = np.repeat(np.where(rising, side, -side), each)
         patch = np.repeat(cells.patch[rows], each)

@@ -11,9 +11,10 @@ from assoc_hull.arguments import instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.block import frame, scale_bar, title_block
 from assoc_hull.plot.colour_bar import STRAIN, colour_bar, shades
-from assoc_hull.plot.curvature_words import BLOCK, area_words
+from assoc_hull.plot.curvature_words import BLOCK
 from assoc_hull.plot.form_flow import wrapped
 from assoc_hull.plot.paper import MARGIN, PaperName, Pen
+from assoc_hull.plot.plate_entries import area_words
 from assoc_hull.plot.plate_grid import Field
 from assoc_hull.plot.plate_paint import fill
 from assoc_hull.plot.sheet import Path_, Sheet, save
@@ -23,11 +24,11 @@ from assoc_hull.surface.development import LABEL, Development
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["development_figure"]
+__all__ = ["development_figure", "development_sheet"]
 
 _OUTLINE = Pen(0.3, over=2.6)
 _CAPTION, _BAR = 7.0, 20.0  # room above a map, and below both, mm at A3
-_ROUND = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 _LEAST = 1e-6
 """The bar reaches at least to this strain: less is rounding, and shows as none."""
 
@@ -69,6 +70,14 @@ def development_figure(
     >>> net = np.stack([3 * x, y, 0.3 * x * y], axis=-1)
     >>> figure = development_figure(development(SplineSurface.bezier(net, "hypar"), (9, 5)))
     """
+    sheet = development_sheet(flat, paper=paper)
+    if path is not None:
+        save(sheet.figure, path)
+    return sheet.figure
+
+
+def development_sheet(flat: Development, *, paper: PaperName = "A4") -> Sheet:
+    """Draw the same as a sheet; arguments and errors as of `development_figure`."""
     instance(flat, Development, "flat", "in development_figure")
     sheet = Sheet(paper)
     factor, size = sheet.paper.factor, sheet.paper
@@ -84,9 +93,7 @@ def development_figure(
     for row, drawn in enumerate(_maps(flat)):
         _map(sheet, field.part(row, 0, 2, 1, 0.0), flat, drawn, (1e3 / denominator, most))
     _foot(sheet, field, denominator, most)
-    if path is not None:
-        save(sheet.figure, path)
-    return sheet.figure
+    return sheet
 
 
 def _reach(flat: Development) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from assoc_hull.plot.plate_scene import Shape
 from assoc_hull.plot.plate_view import Place
 from assoc_hull.plot.sheet import Sheet
 
-__all__ = ["BORDER", "SIGNS", "TINTS", "colours", "fill", "hatched", "paint", "signs"]
+__all__ = ["BORDER", "LEVEL", "SIGNS", "TINTS", "colours", "fill", "hatched", "paint", "signs"]
 
 TINTS = {1: "#d5604f", 0: "#d3e8b6", -1: "#5b93c9"}
 """Red, green and blue that differ in lightness too."""
@@ -22,21 +23,31 @@ SIGNS = {1: "+", 0: "0", -1: "−"}
 """What is written on regions, so that colour alone does not carry what they are."""
 
 BORDER = Pen(0.32, "black", over=2.6)
+LEVEL = Pen(0.16, "0.15", over=2.5)
 _EDGE = Pen(0.2, "0.2", over=2.4)
 _DARKEST = 0.72
 _CLEAR, _APART, _MOST = 2.2, 32.0, 5
 """mm at A3: a sign from the border of its region, and from the next one; so many at most."""
 
-_RINGS = 60
-"""More spots than these are a line or an area, which the hatching shows."""
+_BEHIND = 0.06
+"""Of the depth of a plate: a line so far behind a tile is hidden by it."""
+
+_LOWER = 1e-3
+"""Of the depth of a plate: ground lies so much lower than what is on it."""
+
+_RINGS = 8
+"""More spots than these are a line or an area, which is seen without rings."""
+
+_SEEN = 1.5
+"""mm at A3: smaller cells are too small for hatching."""
 
 
-def colours(shape: Shape) -> FloatArray:
-    """Give the colours of regions, (k, 3)."""
+def colours(tint: IntArray) -> FloatArray:
+    """Give the colours (k, 3) of regions."""
     from matplotlib.colors import to_rgb
 
     palette = np.array([to_rgb(TINTS[sign]) for sign in (-1, 0, 1)])
-    return np.asarray(palette[shape.tint + 1])
+    return np.asarray(palette[tint + 1])
 
 
 def fill(
@@ -79,35 +90,78 @@ def paint(
     if shaded:
         bright = _DARKEST + (1.0 - _DARKEST) * place.eye.lit(shape.normal)
         colour = colour * bright[:, None]
+    lines = _hiding(place, shape) if shaded else place.on_paper
     order = _order(place, shape)
     fill(sheet, place.on_paper(shape.corner)[order], colour[order], f"{name}/tiles")
     for edge in shape.edges:
-        sheet.line(place.on_paper(edge), _EDGE, f"{name}/edge")
-    spots = [shape.unresolved.mean(axis=1)]
-    for component, lines in shape.lines:
-        spots += [line for line in lines if len(line) == 1]
-        for line in lines:
-            sheet.line(place.on_paper(line), BORDER, f"{name}/line/{component.level:g}")
+        sheet.line(lines(edge), _EDGE, f"{name}/edge")
+    for line in shape.lines:
+        pen = BORDER if line.parting else LEVEL
+        sheet.line(lines(line.points), pen, f"{name}/line/{line.level:g}")
+    spots = [line.points for line in shape.lines if len(line.points) == 1]
+    spots.append(shape.unresolved.mean(axis=1))
     _unresolved(sheet, place, shape.unresolved, np.concatenate(spots), name)
+
+
+def _hiding(place: Place, shape: Shape) -> Callable[[FloatArray], FloatArray]:
+    """Give what puts lines on paper with nan where the plate itself lies before them."""
+    tile, far = place.on_paper(shape.corner), place.toward(shape.corner).min(axis=1)
+    low, high = tile.min(axis=1), tile.max(axis=1)
+    edge = np.roll(tile, -1, axis=1) - tile
+    depth = np.ptp(far)
+
+    def seen(points: FloatArray) -> FloatArray:
+        found, near = place.on_paper(points), place.toward(points)
+        before = far[:, None] > near + _BEHIND * depth
+        before &= (low[:, None] < found).all(axis=-1) & (high[:, None] > found).all(axis=-1)
+        k, p = np.nonzero(before)
+        off = found[p, None] - tile[k]
+        turn = edge[k, :, 0] * off[..., 1] - edge[k, :, 1] * off[..., 0]
+        inside = (turn > 0.0).all(axis=1) | (turn < 0.0).all(axis=1)
+        found[p[inside]] = np.nan
+        return found
+
+    return seen
 
 
 def _order(place: Place, shape: Shape) -> IntArray:
     """Give the tiles from the farthest to the nearest, the ground before what lies on it."""
     near = place.toward(shape.corner)
-    key = np.where(shape.under, near.min(axis=1), near.max(axis=1))
+    if _spread_out(place.on_paper(shape.corner)):
+        return np.lexsort((near.max(axis=1), ~shape.under))
+    low = near.min(axis=1) - _LOWER * np.ptp(near)
+    key = np.where(shape.under, low, near.max(axis=1))
     return np.argsort(key, kind="stable")
+
+
+def _spread_out(corner: FloatArray) -> bool:
+    """Tell whether all tiles show the same side, so that none lies before another."""
+    first, second = (corner[:, k + 2] - corner[:, k] for k in (0, 1))
+    turn = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    return bool((turn >= 0.0).all() or (turn <= 0.0).all())
 
 
 def _unresolved(
     sheet: Sheet, place: Place, corner: FloatArray, spots: FloatArray, name: str
 ) -> None:
-    """Hatch cells that are unresolved, and draw rings around them: most are too small to see."""
-    if len(corner):
-        hatched(sheet, place.on_paper(corner), f"{name}/unresolved")
-    seen = place.on_paper(spots)
-    _, first = np.unique(np.round(seen), axis=0, return_index=True)
+    """Hatch cells that are unresolved; small ones are made black, few of them get rings."""
+    from matplotlib.collections import PolyCollection
+
+    seen = place.on_paper(corner)
+    large = np.ptp(seen, axis=1).min(axis=1) > _SEEN * sheet.paper.factor
+    if large.any():
+        hatched(sheet, seen[large], f"{name}/unresolved")
+    if (~large).any():
+        sheet.axes.add_collection(
+            PolyCollection(list(seen[~large]), facecolors="0.15", edgecolors="0.15",
+                           linewidths=0.4 * sheet.paper.factor / POINT, zorder=2.2,
+                           gid=f"{name}/unresolved"),
+            autolim=False,
+        )  # fmt: skip
+    around = place.on_paper(spots)
+    _, first = np.unique(np.round(around / 3.0), axis=0, return_index=True)
     if 0 < len(first) <= _RINGS:
-        _rings(sheet, seen[np.sort(first)], f"{name}/ring")
+        _rings(sheet, around[np.sort(first)], f"{name}/ring")
 
 
 def hatched(sheet: Sheet, corner: FloatArray, name: str) -> None:
@@ -134,32 +188,54 @@ def _rings(sheet: Sheet, centre: FloatArray, name: str) -> None:
     )  # fmt: skip
 
 
-def signs(sheet: Sheet, place: Place, shape: Shape, name: str) -> None:
-    """Write the sign of each region where it is widest, once or a few times."""
-    from scipy.spatial import cKDTree
+def signs(
+    sheet: Sheet, place: Place, shape: Shape, name: str, clear: Sequence[FloatArray] = ()
+) -> None:
+    """Write the sign of each region where it is widest, once or a few times.
 
-    factor, tint = sheet.paper.factor, shape.tint
+    Parameters
+    ----------
+    sheet : Sheet
+        Where to draw.
+    place : Place
+        Where the plate lies on it.
+    shape : Shape
+        The plate.
+    name : str
+        Begins the ids.
+    clear : sequence of (n, 2), mm
+        Further lines that signs keep clear of.
+    """
+    factor, tint, under = sheet.paper.factor, shape.tint, shape.under
     corner = place.on_paper(shape.corner)
     middle = corner.mean(axis=1)
-    room = np.array(cKDTree(_borders(place, shape)).query(middle)[0], np.float64)
-    if shape.under.any() and not shape.under.all():
-        over = corner[~shape.under]
-        halves = 0.5 * (over + np.roll(over, 1, axis=1))
-        dense = np.concatenate([over, halves, middle[~shape.under, None]], axis=1)
-        # What lies beyond a border is no nearer than this; so these are covered.
-        covered = cKDTree(dense.reshape(-1, 2)).query(middle)[0] < room
-        room[shape.under & covered] = 0.0
+    room = _nearest(_borders(place, shape, clear), middle)
+    halves = 0.5 * (corner + np.roll(corner, 1, axis=1))
+    dense = np.concatenate([corner, halves, middle[:, None]], axis=1)
     for sign in np.unique(tint).tolist():
-        own = tint == sign
-        for x, y in _apart(middle[own], room[own], _CLEAR * factor, _APART * factor):
+        own, others = tint == sign, dense[(tint != sign) & ~under].reshape(-1, 2)
+        free, beside = room[own], _nearest(others, middle[own])
+        # Ground is covered where other tiles are nearer than any border.
+        free = np.where(under[own], np.where(beside < free, 0.0, free), np.minimum(free, beside))
+        for x, y in _apart(middle[own], free, _CLEAR * factor, _APART * factor):
             sheet.text((x, y), SIGNS[sign], size=1.9, bold=True, colour="0.1",
                        name=f"{name}/sign/{sign}")  # fmt: skip
 
 
-def _borders(place: Place, shape: Shape) -> FloatArray:
+def _nearest(places: FloatArray, points: FloatArray) -> FloatArray:
+    """Give how far points (k, 2) are from the nearest of places; inf if there is none."""
+    from scipy.spatial import cKDTree
+
+    if not len(places):
+        return np.full(len(points), np.inf)
+    return np.array(cKDTree(places).query(points)[0], np.float64)
+
+
+def _borders(place: Place, shape: Shape, clear: Sequence[FloatArray]) -> FloatArray:
     """Give close places along all lines and edges of a plate, (k, 2), mm."""
-    lines = [line for _, lines in shape.lines for line in lines]
-    return np.concatenate([resample(place.on_paper(line), 0.7) for line in (*lines, *shape.edges)])
+    lines = [line.points for line in shape.lines]
+    seen = [place.on_paper(line) for line in (*lines, *shape.edges)]
+    return np.concatenate([resample(line, 0.7) for line in (*seen, *clear)])
 
 
 def _apart(

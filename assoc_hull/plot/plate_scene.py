@@ -12,14 +12,27 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.plot.curvature_tiles import Tiles, tiles_of
+from assoc_hull.plot.curvature_tiles import tiles_of
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_result import RegionResult
 
-__all__ = ["Chart", "Scene", "Shape", "ground", "points_of", "scene_of"]
+__all__ = [
+    "STEPS",
+    "Chart",
+    "Line",
+    "Scene",
+    "Shape",
+    "ground",
+    "points_of",
+    "scene_of",
+    "steps_of",
+]
 
-_STEPS, _FEWEST = 48, 6
-"""Tiles along a side of a whole surface, about, and of each of its patches at least."""
+STEPS = 40
+"""Tiles along a side of a whole surface, about, where it is the only one of a picture."""
+
+_FEWEST = 4
+"""Tiles along a side of a patch at least."""
 
 _ALONG = 64  # points of an edge
 
@@ -46,6 +59,8 @@ class Scene:
         Corners of cells whose sign is not known.
     lines : tuple of Component
         Borders between regions, lines of further levels, spots.
+    levels : tuple of float, 1/m2
+        Of the lines, those of these levels are borders between regions.
     """
 
     surface: SplineSurface
@@ -54,6 +69,7 @@ class Scene:
     under: NDArray[np.bool_]
     unresolved: FloatArray
     lines: tuple[Component, ...]
+    levels: tuple[float, ...]
 
     def __attrs_post_init__(self) -> None:
         freeze(self.uv, self.tint, self.under, self.unresolved)
@@ -72,9 +88,29 @@ class Scene:
         at = chart or (lambda uv: points_of(self.surface, uv))
         return Shape(
             at(self.uv), self.tint, self.under, at(self.unresolved),
-            tuple((each, tuple(at(line) for line in each.uv)) for each in self.lines),
+            tuple(Line(each.level, each.level in self.levels, at(uv))
+                  for each in self.lines for uv in each.uv),
             tuple(at(edge) for edge in self.edges),
         )  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class Line:
+    """A line K = level, or a spot of one point.
+
+    Attributes
+    ----------
+    level : float, 1/m2
+        The curvature.
+    parting : bool
+        Whether it parts regions.
+    points : (n, 3), m
+        Where it is drawn.
+    """
+
+    level: float
+    parting: bool
+    points: FloatArray
 
 
 @attrs.frozen(eq=False)
@@ -89,8 +125,8 @@ class Shape:
         As of the scene.
     unresolved : (m, 4, 3), m
         Cells whose sign is not known.
-    lines : tuple of (Component, tuple of (n, 3))
-        Lines, m, with what they are.
+    lines : tuple of Line
+        Lines of constant curvature.
     edges : tuple of (n, 3), m
         Sides of the plate.
     """
@@ -99,7 +135,7 @@ class Shape:
     tint: IntArray
     under: NDArray[np.bool_]
     unresolved: FloatArray
-    lines: tuple[tuple[Component, tuple[FloatArray, ...]], ...]
+    lines: tuple[Line, ...]
     edges: tuple[FloatArray, ...]
 
     @property
@@ -109,41 +145,50 @@ class Shape:
         return np.asarray(0.5 * np.cross(first, second))
 
 
-def ground(surface: SplineSurface, steps: int) -> FloatArray:
-    """Give tiles of a regular grid on a surface, between its knots: corners (k, 4, 2)."""
-    (u0, u1), (v0, v1) = surface.domain
-    sides = [
-        np.unique(np.concatenate([np.linspace(a, b, steps + 1), knots[(knots > a) & (knots < b)]]))
-        for a, b, knots in ((u0, u1, surface.knots_u), (v0, v1, surface.knots_v))
-    ]
-    grid = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1)
+def ground(count: int, steps: int) -> tuple[IntArray, FloatArray]:
+    """Give a grid of tiles on so many patches: the patch (k,), corners (k, 4, 2) in it."""
+    side = np.linspace(0.0, 1.0, steps + 1)
+    grid = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
     corner = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=2)
-    return corner.reshape(-1, 4, 2)
+    return np.repeat(np.arange(count), steps * steps), np.tile(
+        corner.reshape(-1, 4, 2), (count, 1, 1)
+    )
 
 
-def scene_of(result: RegionResult, number: int) -> Scene:
+def scene_of(result: RegionResult, number: int, steps: int = STEPS) -> Scene:
     """Give what is drawn of one surface of a result.
 
     Regions are drawn of the cells that were proven to have one sign, and of both sides of the
-    arcs in the others: their borders are those of the result, not of a grid.
+    arcs in the others: their borders are those of the result, not of a grid. About so many
+    tiles (`steps`) lie along a side of the surface.
     """
     surface = result.surfaces[number]
-    banded = result.k0 > 0.0
-    uv, tint, open_ = [], [], []
-    if banded:
-        base = ground(surface, _STEPS)
-        uv, tint = [base], [np.zeros(len(base), np.intp)]
-    first = len(uv[0]) if uv else 0
-    for patches, cells, side in _searches(result, number):
-        tiles = tiles_of(cells, _steps(patches))
-        shown = (tiles.sign == side) | (side == 0)
-        uv.append(_on_surface(patches, tiles)[shown])
-        tint.append(tiles.sign[shown])
-        open_.append(_unresolved(patches, cells))
-    every, signs = np.concatenate(uv), np.concatenate(tint)
-    under = np.arange(len(every)) < first
+    parts = [_tiles(*search, steps) for search in _searches(result, number)]
+    uv, tint, under, unresolved = (np.concatenate(each) for each in zip(*parts, strict=True))
     lines = tuple(each for each in result.components if each.surface == number)
-    return Scene(surface, every, signs, under, np.concatenate(open_), lines)
+    return Scene(surface, uv, tint, under, unresolved, lines, result.band.levels)
+
+
+def _tiles(
+    patches: Patches, cells: Cells, side: int, steps: int
+) -> tuple[FloatArray, IntArray, NDArray[np.bool_], FloatArray]:
+    """Give tiles of one search: corners on the surface, tints, which lie below; unresolved cells.
+
+    Above the band (side 1) they lie on ground that is developable all over.
+    """
+    each = steps_of(patches, steps)
+    tiles = tiles_of(cells, each)
+    shown = (tiles.sign == side) | (side == 0)
+    uv, tint = _on_surface(patches, tiles.patch, tiles.uv)[shown], tiles.sign[shown]
+    under = np.zeros(len(uv), np.bool_)
+    if side > 0:
+        base = _on_surface(patches, *ground(len(patches), each))
+        uv = np.concatenate([base, uv])
+        tint, under = (
+            np.concatenate([np.full(len(base), first, rest.dtype), rest])
+            for first, rest in ((0, tint), (1, under))
+        )
+    return uv, tint, under, _unresolved(patches, cells)
 
 
 def points_of(surface: SplineSurface, uv: FloatArray) -> FloatArray:
@@ -154,9 +199,9 @@ def points_of(surface: SplineSurface, uv: FloatArray) -> FloatArray:
     return surface.at(np.clip(uv[..., 0], u0, u1), np.clip(uv[..., 1], v0, v1))
 
 
-def _steps(patches: Patches) -> int:
-    """Give how many tiles lie along a side of a patch."""
-    return max(_FEWEST, round(_STEPS / float(np.sqrt(max(len(patches), 1)))))
+def steps_of(patches: Patches, steps: int) -> int:
+    """Give how many tiles lie along a side of a patch, of so many for a whole surface."""
+    return max(_FEWEST, round(steps / float(np.sqrt(max(len(patches), 1)))))
 
 
 def _searches(result: RegionResult, number: int) -> Iterator[tuple[Patches, Cells, int]]:
@@ -165,7 +210,7 @@ def _searches(result: RegionResult, number: int) -> Iterator[tuple[Patches, Cell
         chosen = np.flatnonzero(part.patches.surface == number)
         if not len(chosen):
             continue
-        patches = Patches(part.patches.net[chosen], part.patches.box[chosen], chosen)
+        patches = part.patches[chosen]
         for solution in part.solutions:
             if solution.level in result.band.levels:
                 yield patches, _of_patches(solution.cells, chosen), int(np.sign(solution.level))
@@ -182,10 +227,9 @@ def _of_patches(cells: Cells, chosen: IntArray) -> Cells:
     )  # fmt: skip
 
 
-def _on_surface(patches: Patches, tiles: Tiles) -> FloatArray:
-    """Take corners from parameters of patches to those of the surface."""
-    box = patches.box[tiles.patch][:, None]
-    return np.asarray(box[..., 0] + (box[..., 1] - box[..., 0]) * tiles.uv)
+def _on_surface(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
+    """Take corners (k, 4, 2) from parameters of patches (k,) to those of the surface."""
+    return patches.parameters(np.repeat(patch, 4), uv.reshape(-1, 2)).reshape(-1, 4, 2)
 
 
 def _unresolved(patches: Patches, cells: Cells) -> FloatArray:
@@ -194,4 +238,4 @@ def _unresolved(patches: Patches, cells: Cells) -> FloatArray:
     (u0, u1), (v0, v1) = np.moveaxis(cells.box[rows], 0, -1)
     ring = ((u0, v0), (u1, v0), (u1, v1), (u0, v1))
     uv = np.stack([np.stack(corner, axis=-1) for corner in ring], axis=1)
-    return _on_surface(patches, Tiles(cells.patch[rows], uv, cells.kind[rows]))
+    return _on_surface(patches, cells.patch[rows], uv)

@@ -20,18 +20,14 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches.algebra import u_derivative, v_derivative
+from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.quadrature import lobatto
-from assoc_hull.geometry.tensor_bernstein import basis
 
 __all__ = ["CurvatureNodes", "curvature_nodes", "map_value"]
 
 COUNT = 24
 """Nodes each way on a patch."""
-
-_NO_NORMAL = 1e-9
-"""Where |S| is below this part of its largest on the patch there is no normal."""
 
 
 @attrs.frozen(eq=False)
@@ -97,70 +93,19 @@ def curvature_nodes(patches: Patches, count: int = COUNT) -> CurvatureNodes:
     CurvatureNodes
         Places, areas and curvatures.
     """
-    place, ru, rv, ruu, ruv, rvv = _derivatives(patches, count)
-    s = np.cross(ru, rv)
-    size = np.sqrt(_dot(s, s))
-    there = size > _NO_NORMAL * size.max(axis=(1, 2), keepdims=True)
-    normal = _over(s, size, there)
-    e, f = _dot(ru, ru), _dot(ru, rv)
-    # Curvature in the orthonormal frame of r_u and what lies to its left.
-    h11 = _over(_dot(normal, ruu), e, there)
-    h12 = _over(_dot(normal, ruv) - f * h11, size, there)
-    h22 = _over(_dot(normal, rvv) * e - f * (2.0 * size * h12 + f * h11), size**2, there)
-    mean, half = 0.5 * (h11 + h22), 0.5 * np.hypot(h11 - h22, 2.0 * h12)
-    angle = 0.5 * np.arctan2(2.0 * h12, h11 - h22) + np.where(mean < 0.0, 0.5 * np.pi, 0.0)
-    ahead = _over(ru, np.sqrt(e), there)
-    bending = np.cos(angle)[..., None] * ahead
-    bending = bending + np.sin(angle)[..., None] * np.cross(normal, ahead)
-    _, weight = lobatto(count)
-    area = np.where(there, size, 0.0) * weight[:, None] * weight
-    return CurvatureNodes(
-        place, normal * area[..., None], area, h11 * h22 - h12**2,
-        np.abs(mean) + half, np.abs(np.abs(mean) - half), bending,
+    at, weight = lobatto(count)
+    k, each = len(patches), count * count
+    uv = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1).reshape(each, 2)
+    found = curvatures(patches, np.repeat(np.arange(k), each), np.tile(uv, (k, 1)))
+    there = np.isfinite(found.gauss)
+    rows = np.arange(k * each)
+    amount = np.abs(np.where(there[:, None], found.principal, 0.0))
+    larger = amount.argmax(axis=1)
+    bending = np.nan_to_num(found.axes[rows, larger])
+    area = np.where(there, found.element, 0.0) * np.tile(np.outer(weight, weight).ravel(), k)
+    normal = np.nan_to_num(found.normal) * area[:, None]
+    values = (
+        found.position, normal, area, np.where(there, found.gauss, 0.0),
+        amount[rows, larger], amount[rows, 1 - larger], bending,
     )  # fmt: skip
-
-
-def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    return np.asarray((a * b).sum(axis=-1))
-
-
-def _over(a: FloatArray, b: FloatArray, where: np.typing.NDArray[np.bool_]) -> FloatArray:
-    """Divide where it makes sense, and give 0 elsewhere."""
-    if a.ndim > b.ndim:
-        b, where = b[..., None], np.broadcast_to(where[..., None], a.shape)
-    return np.asarray(np.divide(a, b, out=np.zeros_like(a), where=where))
-
-
-def _derivatives(patches: Patches, count: int) -> tuple[FloatArray, ...]:
-    """Give r, r_u, r_v, r_uu, r_uv, r_vv at the nodes, (k, q, q, 3) each."""
-    r = patches.components
-    if patches.weight is None:
-        return tuple(np.moveaxis(each, 1, -1) for each in _grids(r, count))
-    w = patches.weight[:, None]
-    homogeneous = _grids(np.concatenate([r * w, w], axis=1), count)
-    return _projected([np.moveaxis(each, 1, -1) for each in homogeneous])
-
-
-def _grids(r: FloatArray, count: int) -> list[FloatArray]:
-    """Evaluate coefficients (k, c, m + 1, n + 1) and their derivatives, (k, c, q, q) each."""
-    ru, rv = u_derivative(r), v_derivative(r)
-    second = u_derivative(ru), v_derivative(ru), v_derivative(rv)
-    at, _ = lobatto(count)
-    found = []
-    for each in (r, ru, rv, *second):
-        rows, columns = (basis(size - 1, at) for size in each.shape[-2:])
-        found.append(np.asarray(rows @ each @ columns.T))
-    return found
-
-
-def _projected(homogeneous: list[FloatArray]) -> tuple[FloatArray, ...]:
-    """Give points and derivatives of what has coordinates (w x, w y, w z, w)."""
-    (r, ru, rv, ruu, ruv, rvv), (w, wu, wv, wuu, wuv, wvv) = (
-        [each[..., part] for each in homogeneous] for part in (slice(3), slice(3, 4))
-    )
-    r = r / w
-    ru, rv = (ru - wu * r) / w, (rv - wv * r) / w
-    ruu = (ruu - 2.0 * wu * ru - wuu * r) / w
-    ruv = (ruv - wu * rv - wv * ru - wuv * r) / w
-    rvv = (rvv - 2.0 * wv * rv - wvv * r) / w
-    return r, ru, rv, ruu, ruv, rvv
+    return CurvatureNodes(*(value.reshape(k, count, count, *value.shape[1:]) for value in values))

@@ -12,12 +12,13 @@ from tests.fuzz.kinds.hull_json import HULL_JSON
 from tests.fuzz.kinds.lines import DIGITISED, DRAWINGS
 from tests.fuzz.kinds.meshes import OBJ, STL
 from tests.fuzz.kinds.offsets import OFFSETS
+from tests.fuzz.kinds.surfaces import SURFACES
 
 __all__ = ["KINDS"]
 
 _TABLES = (OFFSETS, XLSX)
 _LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, GF)
-_REST = (DEFINITIONS, *_LINES, STL, OBJ)
+_REST = (DEFINITIONS, *_LINES, STL, OBJ, SURFACES)
 
 KINDS: dict[str, Kind] = {
     kind.name: kind for kind in (*_TABLES, HULL_FILE, HULL_JSON, EDITS, CURVE, *_REST)

@@ -192,9 +192,12 @@ def v_derivative(a: FloatArray) -> FloatArray:
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Give the scalar product of vectors (..., 3, m + 1, n + 1)."""
+    """Give the scalar product of vectors (..., d, m + 1, n + 1), added in one order."""
     found = multiply(a, b)
-    return np.asarray(found[..., 0, :, :] + found[..., 1, :, :] + found[..., 2, :, :])
+    total = found[..., 0, :, :]
+    for i in range(1, found.shape[-3]):
+        total = total + found[..., i, :, :]
+    return np.asarray(total)
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:

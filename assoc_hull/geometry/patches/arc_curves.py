@@ -9,7 +9,7 @@ Examples
 >>> from assoc_hull.geometry.patches.solve import solve
 >>> b = np.array([[[-1.0, -2.0], [3.0, 2.0]]])
 >>> cells = solve(IsoFunction(b, 1e-15 + 0.0 * b))
->>> [(curves, rows)] = arc_curves(cells, arcs_of(cells))
+>>> [(curves, rows)] = arc_curves(cells, arcs_of(cells), np.array([0]))
 >>> curves.at(rows, np.array([[0.0, 1.0]]), np.array([[0.3, 0.4]]))
 array([[0.25, 0.5 ]])
 """
@@ -95,7 +95,7 @@ class ArcCurves:
         return low[:, 0] + size[:, 0] * heights(self.b[row], self.rising[row], t, rough)
 
 
-def arc_curves(cells: Cells, arcs: Arcs) -> list[tuple[ArcCurves, IntArray]]:
+def arc_curves(cells: Cells, arcs: Arcs, chosen: IntArray) -> list[tuple[ArcCurves, IntArray]]:
     """Turn arcs into curves u = g(v), in one batch if the polynomial has one degree in u and v.
 
     Parameters
@@ -104,17 +104,18 @@ def arc_curves(cells: Cells, arcs: Arcs) -> list[tuple[ArcCurves, IntArray]]:
         The cells.
     arcs : Arcs
         Their arcs.
+    chosen : (c,) int
+        Which of these.
 
     Returns
     -------
     list of (ArcCurves, (a,) int)
         Curves, and which rows of `arcs` they are.
     """
-    every = np.arange(len(arcs))
     if cells.b.shape[1] == cells.b.shape[2]:
-        parts = [every]
+        parts = [chosen]
     else:
-        parts = [every[arcs.across == 0], every[arcs.across == 1]]
+        parts = [chosen[arcs.across[chosen] == way] for way in (0, 1)]
     return [(_curves(cells, arcs, rows), rows) for rows in parts if len(rows)]
 
 

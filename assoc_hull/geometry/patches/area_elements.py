@@ -16,10 +16,18 @@ array([[[6., 6.]]])
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.algebra import across, binomials, u_derivative, v_derivative
+from assoc_hull.geometry.patches.algebra import (
+    across,
+    binomials,
+    degrees,
+    u_derivative,
+    v_derivative,
+)  # fmt: skip
 from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = ["added", "bernstein_values", "on_grid", "on_lines", "swapped", "taken"]
@@ -102,7 +110,8 @@ def swapped(patches: Patches) -> Patches:
     >>> swapped(Patches.single(np.zeros((2, 4, 3)))).degrees
     (3, 1)
     """
-    return Patches(patches.net.swapaxes(1, 2), patches.box[:, ::-1], patches.surface)
+    weight = None if patches.weight is None else patches.weight.swapaxes(1, 2)
+    return Patches(patches.net.swapaxes(1, 2), patches.box[:, ::-1], patches.surface, weight)
 
 
 def taken(patches: Patches, rows: IntArray) -> Patches:
@@ -125,7 +134,7 @@ def taken(patches: Patches, rows: IntArray) -> Patches:
     >>> len(taken(Patches.single(np.zeros((2, 4, 3))), np.array([0, 0])))
     2
     """
-    return Patches(patches.net[rows], patches.box[rows], patches.surface[rows])
+    return patches[rows]
 
 
 def on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
@@ -150,11 +159,14 @@ def on_grid(patches: Patches, u: FloatArray, v: FloatArray) -> FloatArray:
     >>> on_grid(Patches.single(net), np.array([0.5]), np.array([0.5]))
     array([[[1.]]])
     """
-    m, n = patches.degrees
-    r = patches.components
-    ru = across(bernstein_values(m - 1, u).T, u_derivative(r), bernstein_values(n, v).T)
-    rv = across(bernstein_values(m, u).T, v_derivative(r), bernstein_values(n - 1, v).T)
-    return _lengths(np.moveaxis(ru, 1, 0), np.moveaxis(rv, 1, 0))
+
+    def values(a: FloatArray) -> FloatArray:
+        in_u, in_v = (
+            bernstein_values(degree, t) for degree, t in zip(degrees(a), (u, v), strict=True)
+        )
+        return np.moveaxis(across(in_u.T, a, in_v.T), 1, 0)
+
+    return _elements(patches, values)
 
 
 def on_lines(patches: Patches, patch: IntArray, u: FloatArray, v: FloatArray) -> FloatArray:
@@ -184,17 +196,33 @@ def on_lines(patches: Patches, patch: IntArray, u: FloatArray, v: FloatArray) ->
     >>> on_lines(Patches.single(net), row, u, v)
     array([[[1., 1.]]])
     """
-    m, n = patches.degrees
+
+    def values(a: FloatArray) -> FloatArray:
+        m, n = degrees(a)
+        return _on_lines(a[patch], bernstein_values(m, u), bernstein_values(n, v))
+
+    return _elements(patches, values)
+
+
+def _elements(patches: Patches, values: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Give |r_u x r_v| where `values` evaluates polynomials, components first.
+
+    A rational patch is X / w, with X the weighted points, and (X / w)_u = (X_u - w_u X / w) / w.
+    """
     r = patches.components
-    ru = _on_lines(u_derivative(r)[patch], bernstein_values(m - 1, u), bernstein_values(n, v))
-    rv = _on_lines(v_derivative(r)[patch], bernstein_values(m, u), bernstein_values(n - 1, v))
-    return _lengths(ru, rv)
+    if patches.weight is None:
+        return _lengths(values(u_derivative(r)), values(v_derivative(r)))
+    weight = patches.weight[:, None]
+    h = np.concatenate([weight * (r - r[..., :1, :1]), weight], axis=1)
+    point, *both = (values(each) for each in (h, u_derivative(h), v_derivative(h)))
+    place = point[:3] / point[3]
+    return _lengths(*((each[:3] - each[3] * place) / point[3] for each in both))
 
 
 def _on_lines(a: FloatArray, in_u: FloatArray, in_v: FloatArray) -> FloatArray:
-    """Give vectors (3, c, p, q) of coefficients (c, 3, m + 1, n + 1) on lines."""
+    """Give vectors (d, c, p, q) of coefficients (c, d, m + 1, n + 1) on lines."""
     lines = a @ np.moveaxis(in_v, 0, 1)[:, None]
-    found = np.zeros((3, *in_u.shape[1:]))
+    found = np.zeros((a.shape[1], *in_u.shape[1:]))
     for i, values in enumerate(in_u):
         found += np.moveaxis(lines[:, :, i], 1, 0)[..., None] * values
     return found

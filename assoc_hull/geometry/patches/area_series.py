@@ -82,10 +82,11 @@ class AreaSeries:
         (c,) float, m2
             The areas.
         """
-        ends = _integrals(self.count, box)
-        u, v = np.moveaxis(ends[..., 1] - ends[..., 0], 2, 0)
-        lines = self.terms[0, row] @ np.ascontiguousarray(v.T)[..., None]
-        return added(u * lines[..., 0].T)
+        found = np.empty(len(row))
+        for first in range(0, len(row), _BLOCK):
+            part = slice(first, first + _BLOCK)
+            found[part] = _over(self.terms[0, row[part]], box[part])
+        return found
 
     def between(
         self, row: IntArray, flip: IntArray, start: FloatArray, u: FloatArray, v: FloatArray
@@ -114,6 +115,13 @@ class AreaSeries:
             terms = self.terms[flip[part], row[part]]
             found[part] = _along(terms, start[part], u[part], v[part])
         return found
+
+
+def _over(terms: FloatArray, box: FloatArray) -> FloatArray:
+    ends = _integrals(terms.shape[1], box)
+    u, v = np.moveaxis(ends[..., 1] - ends[..., 0], 2, 0)
+    lines = terms @ np.ascontiguousarray(v.T)[..., None]
+    return added(u * lines[..., 0].T)
 
 
 def _along(terms: FloatArray, start: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:

@@ -37,6 +37,8 @@ __all__ = ["Areas", "areas"]
 
 # What rounding may leave of the area of a patch.
 _ROUNDING = 4e-15
+# Arcs at a time: their polynomials take room.
+_BLOCK = 2048
 
 
 @attrs.frozen(eq=False)
@@ -111,7 +113,9 @@ def areas(
     number = np.bincount(cells.patch, minlength=count)
     cell_tol = (0.25 * allowed / np.maximum(number, 1))[cells.patch]
     whole, off = ground.over(cells.patch, cells.box, cell_tol)
+    whole = np.maximum(whole, 0.0)
     low, low_off = _low_parts(ground, cells, arcs, allowed, whole)
+    low = np.clip(low, 0.0, whole[arcs.cell])
     sign = _signs(cells)
     parted = np.zeros(len(cells), np.bool_)
     parted[arcs.cell] = True
@@ -154,8 +158,10 @@ def _low_parts(
     share = whole[arcs.cell] / ground.scale[patch] + 1.0 / number[patch]
     tolerance = np.maximum(0.3 * allowed, 1e-15 * ground.scale)[patch] * share
     value, error = np.zeros((2, len(arcs)))
-    for curves, rows in arc_curves(cells, arcs):
-        value[rows], error[rows] = _low(ground, curves, tolerance[rows])
+    for first in range(0, len(arcs), _BLOCK):
+        chosen = np.arange(first, min(first + _BLOCK, len(arcs)))
+        for curves, rows in arc_curves(cells, arcs, chosen):
+            value[rows], error[rows] = _low(ground, curves, tolerance[rows])
     return value, error
 
 

@@ -1,6 +1,7 @@
 """Polynomials that have the sign of Gaussian or mean curvature less a level, with error bounds.
 
-With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3), so the sign of
+With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3) on polynomial patches,
+so the sign of
 
     K                is that of  A                                (6m - 4, 6n - 4)
     K - K0           is that of  A - K0 |S|**4                    (8m - 4, 8n - 4)
@@ -9,8 +10,11 @@ With A, B and S of `curvature_terms`, K = A / |S|**4 and H = B / (2 |S|**3), so 
     k1 - k2 (>= 0)   is that of  B**2 - 4 A |S|**2                (10m - 6, 10n - 6)
 
 for patches of degrees (m, n), which stand at the right. The true degrees of A are one less each
-way; reducing them saves no work. Beside the coefficients stand bounds of what each may be off by:
-rounding, with the control points taken as exact, and their uncertainty `delta`.
+way; reducing them saves no work. On rational patches, with A*, S* and w of `rational_terms`, K has
+the sign of A*, (8m - 4, 8n - 4), and K - K0 that of A* w**4 - K0 |S*|**4, (12m - 4, 12n - 4).
+
+Beside the coefficients stand bounds of what each may be off by: rounding, with the control points
+taken as exact, and their uncertainty `delta`.
 
 Source: the idea of iso-curves of curvature on the patches of a plate is that of "Curvature Region
 Analysis for Application of Plates Forming", J. SNAK; degrees and bounds are our own.
@@ -34,18 +38,11 @@ from collections.abc import Callable, Sequence
 import attrs
 import numpy as np
 
+from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.patches import curvature_terms, rational_terms
 from assoc_hull.geometry.patches.algebra import degrees, elevated, multiply
-from assoc_hull.geometry.patches.curvature_terms import (
-    Delta,
-    Steps,
-    Terms,
-    amounts,
-    area_squared,
-    gauss_numerator,
-    mean_numerator,
-    values,
-)  # fmt: skip
+from assoc_hull.geometry.patches.curvature_terms import Delta, Steps
 from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = [
@@ -126,26 +123,34 @@ class _Bases:
     """The terms of some patches: values, amounts, and amounts of what may be wrong."""
 
     def __init__(self, patches: Patches, delta: Delta) -> None:
-        self.values = values(patches)
-        self.amounts = amounts(self.values, 0.0)
-        self.wide = amounts(self.values, delta) if np.any(delta) else self.amounts
-        self.steps = Steps.of(*patches.degrees)
+        self.kind = curvature_terms if patches.weight is None else rational_terms
+        self.values = self.kind.values(patches)
+        self.amounts = self.kind.amounts(patches, 0.0)
+        self.wide = self.kind.amounts(patches, delta) if np.any(delta) else self.amounts
+        self.steps = self.kind.steps(*patches.degrees)
         self.share = np.where(np.reshape(delta, (-1, 1, 1)) > 0.0, 3.0, 1.0)
 
-    def bounded(self, rule: Callable[[Terms], FloatArray], name: str, least: float) -> _Bounded:
+    def bounded(self, rule: Callable[..., FloatArray], name: str, least: float) -> _Bounded:
         """Run a formula on values and amounts."""
         b, amount = rule(self.values), rule(self.amounts)
         wide = amount if self.wide is self.amounts else rule(self.wide)
         return _Bounded(b, amount, wide, _margin(self.steps[name], least), self.share)
 
     def gauss(self) -> _Bounded:
-        return self.bounded(gauss_numerator, "gauss", 200.0)
+        return self.bounded(self.kind.gauss_numerator, "gauss", 200.0)
+
+    def weighted(self, a: _Bounded) -> _Bounded:
+        """Give A times what |S|**4 has as its factor: w**4 on rational patches."""
+        if self.kind is curvature_terms:
+            return a
+        fourth = self.bounded(rational_terms.weight_fourth, "weight", 0.0)
+        return a.times(fourth, _margin(self.steps["gauss"].times(self.steps["weight"]), 0.0))
 
     def area(self) -> _Bounded:
-        return self.bounded(area_squared, "area", 120.0)
+        return self.bounded(self.kind.area_squared, "area", 120.0)
 
     def mean(self) -> _Bounded:
-        return self.bounded(mean_numerator, "mean", 200.0)
+        return self.bounded(curvature_terms.mean_numerator, "mean", 200.0)
 
     def quartic(self, area: _Bounded) -> _Bounded:
         """Give |S|**4 of |S|**2."""
@@ -191,7 +196,8 @@ def gauss_functions(
     -------
     tuple of IsoFunction
         One a level: A, of degrees (6m - 4, 6n - 4), for 0; else A - K0 |S|**4, of degrees
-        (8m - 4, 8n - 4). What is found for a patch does not depend on the others, to the last bit.
+        (8m - 4, 8n - 4); for rational patches (8m - 4, 8n - 4) and (12m - 4, 12n - 4). What is
+        found for a patch does not depend on the others, to the last bit.
 
     Examples
     --------
@@ -207,11 +213,10 @@ def gauss_functions(
 
     def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
         a = bases.gauss()
-        quartic = bases.quartic(bases.area()) if any(levels) else None
-        return [
-            (a.b, a.err) if quartic is None or level == 0.0 else _less(a, level, quartic)
-            for level in levels
-        ]
+        if not any(levels):
+            return [(a.b, a.err)] * len(levels)
+        raised, quartic = bases.weighted(a), bases.quartic(bases.area())
+        return [_less(raised, level, quartic) if level else (a.b, a.err) for level in levels]
 
     return _chunks(patches, delta, rule)
 
@@ -236,6 +241,14 @@ def gauss_function(patches: Patches, level: float, delta: Delta = 0.0) -> IsoFun
     return gauss_functions(patches, (level,), delta)[0]
 
 
+def _require_polynomial(patches: Patches) -> None:
+    if patches.weight is not None:
+        raise BadInputError(
+            "patches have weights", "in mean curvature",
+            "take polynomial patches, or values at points by `curvatures`",
+        )  # fmt: skip
+
+
 def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> IsoFunction:
     """Give a polynomial with the zero set of the mean curvature less a level.
 
@@ -255,6 +268,11 @@ def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> I
         |H| > |H0|: of its zero set only the branch where B has the sign of H0 is wanted, the
         other one is H = -H0.
 
+    Raises
+    ------
+    BadInputError
+        Rational patches.
+
     Examples
     --------
     >>> import numpy as np
@@ -265,6 +283,7 @@ def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> I
     >>> mean_function(Patches.single(net)).b.shape
     (1, 13, 13)
     """
+    _require_polynomial(patches)
 
     def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
         b = bases.mean()
@@ -294,6 +313,11 @@ def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
     IsoFunction
         Of degrees (10m - 6, 10n - 6); 4 (H**2 - K) |S|**6, so never below nil but by `err`.
 
+    Raises
+    ------
+    BadInputError
+        Rational patches.
+
     Examples
     --------
     >>> import numpy as np
@@ -304,6 +328,7 @@ def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
     >>> umbilic_function(Patches.single(net)).b.shape
     (1, 25, 25)
     """
+    _require_polynomial(patches)
 
     def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
         b, steps = bases.mean(), bases.steps

@@ -19,8 +19,8 @@ Examples
 >>> from assoc_hull.geometry.patches.patches import Patches
 >>> net = np.zeros((2, 2, 3))
 >>> net[1, :, 0], net[:, 1, 1] = 2.0, 1.0
->>> terms = values(Patches.single(net))
->>> area_squared(terms).ravel(), area_squared(amounts(terms, 0.0)).ravel()
+>>> patch = Patches.single(net)
+>>> area_squared(values(patch)).ravel(), area_squared(amounts(patch, 0.0)).ravel()
 (array([4., 4., 4., 4., 4., 4., 4., 4., 4.]), array([4., 4., 4., 4., 4., 4., 4., 4., 4.]))
 """
 
@@ -41,7 +41,8 @@ from assoc_hull.geometry.patches.algebra import (
 from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = [
-    "Steps", "Terms", "amounts", "area_squared", "gauss_numerator", "mean_numerator", "values",
+    "Delta", "Steps", "Terms", "amounts", "area_squared", "gauss_numerator", "less",
+    "mean_numerator", "steps", "sums", "values",
 ]  # fmt: skip
 
 Delta = float | FloatArray
@@ -72,17 +73,16 @@ class Terms:
     rvv: FloatArray | None
     s: FloatArray
 
-    def less(self, a: FloatArray, b: FloatArray) -> FloatArray:
-        """Give a - b; of amounts a + b."""
-        return subtract(a, b) if self.signed else add(a, b)
+
+def less(a: FloatArray, b: FloatArray, signed: bool) -> FloatArray:
+    """Give a - b; of amounts a + b."""
+    return subtract(a, b) if signed else add(a, b)
 
 
 def _normal(ru: FloatArray, rv: FloatArray, signed: bool) -> FloatArray:
     """Give the vector product; of amounts, the sums of sizes."""
     after, last = [1, 2, 0], [2, 0, 1]
-    first = multiply(ru[:, after], rv[:, last])
-    second = multiply(ru[:, last], rv[:, after])
-    return first - second if signed else first + second
+    return less(multiply(ru[:, after], rv[:, last]), multiply(ru[:, last], rv[:, after]), signed)
 
 
 def values(patches: Patches) -> Terms:
@@ -106,20 +106,20 @@ def values(patches: Patches) -> Terms:
     return Terms(True, ru, rv, ruu, v_derivative(ru), rvv, _normal(ru, rv, True))
 
 
-def _sums(a: FloatArray, axis: int) -> FloatArray:
+def sums(a: FloatArray, axis: int) -> FloatArray:
     """Bound the sizes of differences of neighbours, times the degree."""
     degree = a.shape[axis] - 1
     low, high = a.take(range(degree), axis), a.take(range(1, degree + 1), axis)
     return np.asarray(degree * (low + high))
 
 
-def amounts(terms: Terms, delta: Delta) -> Terms:
+def amounts(patches: Patches, delta: Delta) -> Terms:
     """Give the amounts of terms, with control points that may be wrong.
 
     Parameters
     ----------
-    terms : Terms
-        The values, of which first derivatives are used.
+    patches : Patches
+        The patches.
     delta : float or (k,), m
         How far each coordinate of a control point may be off.
 
@@ -129,14 +129,13 @@ def amounts(terms: Terms, delta: Delta) -> Terms:
         Amounts; those of second derivatives are sums of the amounts of first ones, since these
         are what rounding and uncertainty go into.
     """
-    m, n = terms.ru.shape[-2], terms.rv.shape[-1]
+    r = patches.components
+    m, n = patches.degrees
     off = np.asarray(delta, np.float64).reshape(-1, 1, 1, 1)
-    ru, rv = np.abs(terms.ru), np.abs(terms.rv)
-    ruu = _sums(ru, -2) + 4 * m * (m - 1) * off if m > 1 else None
-    rvv = _sums(rv, -1) + 4 * n * (n - 1) * off if n > 1 else None
-    ruv = _sums(ru, -1) + 4 * m * n * off
-    ru, rv = ru + 2 * m * off, rv + 2 * n * off
-    return Terms(False, ru, rv, ruu, ruv, rvv, _normal(ru, rv, False))
+    ru, rv = np.abs(u_derivative(r)) + 2 * m * off, np.abs(v_derivative(r)) + 2 * n * off
+    ruu = sums(ru, -2) if m > 1 else None
+    rvv = sums(rv, -1) if n > 1 else None
+    return Terms(False, ru, rv, ruu, sums(ru, -1), rvv, _normal(ru, rv, False))
 
 
 def gauss_numerator(terms: Terms) -> FloatArray:
@@ -145,7 +144,8 @@ def gauss_numerator(terms: Terms) -> FloatArray:
     square = multiply(m, m)
     if terms.ruu is None or terms.rvv is None:
         return 0.0 - square if terms.signed else square
-    return terms.less(multiply(dot(terms.s, terms.ruu), dot(terms.s, terms.rvv)), square)
+    product = multiply(dot(terms.s, terms.ruu), dot(terms.s, terms.rvv))
+    return less(product, square, terms.signed)
 
 
 def area_squared(terms: Terms) -> FloatArray:
@@ -186,25 +186,25 @@ class Steps:
         terms = (min(m, p) + 1) * (min(n, q) + 1)
         return Steps((m + p, n + q), self.count + other.count + terms + 6 + sums)
 
-    @classmethod
-    def of(cls, m: int, n: int) -> dict[str, Steps]:
-        """Give those of A, |S|**2 and B for patches of degrees m and n.
 
-        Examples
-        --------
-        >>> from assoc_hull.geometry.patches.curvature_terms import Steps
-        >>> {name: each.count for name, each in Steps.of(3, 3).items()}
-        {'gauss': 153, 'area': 84, 'mean': 107}
-        """
-        ru, rv = cls((m - 1, n), 2), cls((m, n - 1), 2)
-        s = ru.times(rv, 1)
-        ruu, ruv = cls((max(m - 2, 0), n), 4), cls((m - 1, n - 1), 4)
-        rvv = cls((m, max(n - 2, 0)), 4)
-        l, middle, right = s.times(ruu, 2), s.times(ruv, 2), s.times(rvv, 2)
-        e, f, g = ru.times(ru, 2), ru.times(rv, 2), rv.times(rv, 2)
-        gauss = max(l.times(right, 1), middle.times(middle, 1), key=_count)
-        mean = max(e.times(right, 2), f.times(middle, 2), g.times(l, 2), key=_count)
-        return {"gauss": gauss, "area": s.times(s, 2), "mean": mean}
+def steps(m: int, n: int) -> dict[str, Steps]:
+    """Give the roundings of A, |S|**2 and B for patches of degrees m and n.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.patches.curvature_terms import steps
+    >>> {name: each.count for name, each in steps(3, 3).items()}
+    {'gauss': 153, 'area': 84, 'mean': 107}
+    """
+    ru, rv = Steps((m - 1, n), 2), Steps((m, n - 1), 2)
+    s = ru.times(rv, 1)
+    ruu, ruv = Steps((max(m - 2, 0), n), 4), Steps((m - 1, n - 1), 4)
+    rvv = Steps((m, max(n - 2, 0)), 4)
+    l, middle, right = s.times(ruu, 2), s.times(ruv, 2), s.times(rvv, 2)
+    e, f, g = ru.times(ru, 2), ru.times(rv, 2), rv.times(rv, 2)
+    gauss = max(l.times(right, 1), middle.times(middle, 1), key=_count)
+    mean = max(e.times(right, 2), f.times(middle, 2), g.times(l, 2), key=_count)
+    return {"gauss": gauss, "area": s.times(s, 2), "mean": mean}
 
 
 def _count(steps: Steps) -> int:
