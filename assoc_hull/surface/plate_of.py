@@ -124,7 +124,7 @@ def plate_of(
         order=shares.order(options.share), rollable=rollable,
         roll_axis=axis.angle_deg if single else None,
         roll_direction=axis.direction if single else None, coherence=axis.coherence,
-        least_radius=radius(float(there.max())), largest_radius=radius(float(there.min())),
+        least_radius=radius(float(there.max())), largest_radius=None if shares.flat > 0.0 else radius(float(there.min())),
         total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
         largest_strain=strain * float(amount.max()),
         heating=areas.positive + areas.negative > regions.options.area_tol * areas.total,
