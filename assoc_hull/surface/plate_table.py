@@ -169,10 +169,11 @@ class Plates:
         UnknownNameError
             No such column.
         """
+        wanted = shown_name(name)
         for each in COLUMNS:
-            if isinstance(name, str) and each.name == name:
+            if each.name == wanted:
                 return [each.value(plate) for plate in self.rows]
-        raise UnknownNameError("column", shown_name(name), tuple(each.name for each in COLUMNS))
+        raise UnknownNameError("column", wanted, tuple(each.name for each in COLUMNS))
 
     def table(self) -> list[dict[str, Any]]:
         """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""

@@ -116,8 +116,8 @@ def plates(
         instance(previous, Plates, "previous", _WHERE)
     drafts = _drafts(given, seams_of(seams, given, _WHERE))
     search = dict[str, Any](
-        zero=choice(zero, "zero", MODES, _WHERE), strain_tol=strain_tol, k0=k0, delta=delta, area_tol=area_tol, depth=depth,
-        budget=budget, chord_tol=chord_tol,
+        zero=choice(zero, "zero", MODES, _WHERE), strain_tol=strain_tol, k0=k0, delta=delta,
+        area_tol=area_tol, depth=depth, budget=budget, chord_tol=chord_tol,
     )  # fmt: skip
     results = _results(drafts, search, options, previous)
     rows = tuple(
