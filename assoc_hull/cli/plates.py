@@ -101,7 +101,8 @@ def _plates(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.surface_file import read_surface_file
 
     _check_targets(arguments)
-    surfaces = read_surface_file(arguments.file, arguments.unit)
+    with progress(f"reading {arguments.file}"):
+        surfaces = read_surface_file(arguments.file, arguments.unit)
     with progress("finding regions"):
         found = _found(surfaces, arguments)
     saved = _saved(found, arguments)

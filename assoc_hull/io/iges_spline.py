@@ -83,7 +83,7 @@ class SurfaceData:
 
     @property
     def points(self) -> NDArray[np.bool_]:
-        """Whether it is a point along the sides of least u, greatest u; least v, greatest v, (2, 2).
+        """Whether it is a point along the sides of least u, greatest u; least v, greatest v.
 
         Only of surfaces that are not bounded within their knots, which are repeated at the ends.
         """
