@@ -95,9 +95,7 @@ class ArcCurves:
         return low[:, 0] + size[:, 0] * heights(self.b[row], self.rising[row], t, rough)
 
 
-def arc_curves(
-    cells: Cells, arcs: Arcs, chosen: IntArray
-) -> list[tuple[ArcCurves, IntArray]]:
+def arc_curves(cells: Cells, arcs: Arcs, chosen: IntArray) -> list[tuple[ArcCurves, IntArray]]:
     """Turn arcs into curves u = g(v), in one batch if the polynomial has one degree in u and v.
 
     Parameters
