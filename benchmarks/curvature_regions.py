@@ -7,6 +7,7 @@ splines, as one would write it, and with basis matrices in numpy, as fast as tha
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from time import process_time
 
 import numpy as np
@@ -59,7 +60,7 @@ def _positive(derivatives: list[FloatArray]) -> float:
     ru, rv, ruu, ruv, rvv = derivatives
     s = np.cross(ru, rv)
     k = (s * ruu).sum(axis=-1) * (s * rvv).sum(axis=-1) - (s * ruv).sum(axis=-1) ** 2
-    return float(np.linalg.norm(s, axis=-1)[k > 0.0].sum()) / k.size
+    return float(np.linalg.norm(s, axis=-1)[k > 0.0].sum() / k.size)
 
 
 def _knots(degree: int) -> FloatArray:
@@ -116,6 +117,10 @@ def _by_matrices(net: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
     return np.sqrt(x * x + y * y + z * z) * (k > 0.0), k
 
 
+def _sampled(peer: Nodes, nets: FloatArray) -> list[float]:
+    return [peer(net, NODES) for net in nets]
+
+
 def _least(job: Callable[[], object], rounds: int) -> float:
     """Give the least time of a job, s."""
     times = list[float]()
@@ -134,7 +139,7 @@ def _given_our_time(rounds: int) -> tuple[float, int, float, float]:
     error = abs(float(regions(net[None]).positive[0]) - known.positive) / known.total
     count = NODES
     for _ in range(4):  # The time of nodes goes with their number, roughly; so in some steps.
-        taken = _least(lambda: by_matrices(net, count), max(3, rounds // 2))
+        taken = _least(partial(by_matrices, net, count), max(3, rounds // 2))
         count = max(8, round(count * (ours / taken) ** 0.5))
     off = [abs(by_matrices(net, n) - known.positive) for n in range(count - 2, count + 3)]
     return ours, count, error, float(np.median(off)) / known.total
@@ -156,7 +161,7 @@ def figures(quick: bool = False) -> list[Figure]:
         "NdBSpline": by_nd_spline, "FITPACK": by_fitpack, "matrices": by_matrices,
     }  # fmt: skip
     for name, peer in peers.items():
-        jobs[name] = lambda peer=peer: [peer(net, NODES) for net in few]
+        jobs[name] = partial(_sampled, peer, few)
     if not quick:
         jobs["most"] = lambda: regions(nets)
     found = side_by_side(jobs, rounds)
@@ -164,7 +169,9 @@ def figures(quick: bool = False) -> list[Figure]:
     result = [
         Figure(f"{COUNT} cut plates in a batch, one of them", 1e3 * found["batch"] / COUNT, "ms"),
         Figure("one by one / in a batch", found["single"] / found["batch"], "x", 2.0),
-        Figure("100 x 100 nodes by NdBSpline / batch", found["NdBSpline"] / found["batch"], "x", 1.0),
+        Figure(
+            "100 x 100 nodes by NdBSpline / batch", found["NdBSpline"] / found["batch"], "x", 1.0
+        ),
         Figure("100 x 100 nodes by FITPACK / batch", found["FITPACK"] / found["batch"], "x", 1.0),
         Figure("100 x 100 nodes by basis matrices / batch", found["matrices"] / found["batch"]),
         Figure("tolerance 1e-10 / 1e-6", found["fine"] / found["batch"]),

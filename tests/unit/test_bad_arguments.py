@@ -237,6 +237,7 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "levels": (-0.2,), "previous": None,
         },
     ),
+    "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
     "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
     "sectional_area": (
@@ -811,5 +812,5 @@ def test_every_public_name_is_tried() -> None:
     assert public == tried | handles
     made = {name for name in dir(Examples) if name[0] != "_"}
     takes_nothing = {"bulk_carrier_207k", "bulk_carrier_180m", "container_ship_225m", "plain_ship"}
-    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship"}
+    takes_nothing |= {"seaking_ship", "sfolds_ship", "prelikon_ship", "typical_plates"}
     assert made == {"wigley", "series60"} | takes_nothing

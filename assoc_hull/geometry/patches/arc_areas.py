@@ -3,10 +3,10 @@
 In a cell where each line v = constant meets the zero set once, at u = g(v), the part of the cell
 below the arc is the integral over v of that of the area element from the cell's border to g(v).
 Each g(v) is a root of the polynomial itself, so the integrand is smooth, and no chord is ever
-taken. The first rule has 7 points, of which two are the ends of the arc, which are known; it is
-judged by that of 4 of them. Where the difference is too large 6 points more make the rule of 13,
-judged by that of 7; where that is not enough the arc is halved. Roots are looked for from the
-polynomial through those that are known.
+taken. The first rule has 7 points, of which two are the ends of the arc, which are known. It is
+judged by the last terms of the series through these values, which are far larger than those that
+it leaves out. Where they are too large 6 points more make the rule of 13; where that is not enough
+the arc is halved. Roots are looked for from the polynomial through those that are known.
 
 Source: height functions are those of R. I. Saye, SIAM J. Sci. Comput. 37(2), 2015, and J. Comput.
 Phys. 448, 2022.
@@ -167,6 +167,6 @@ def _mixed(matrix: FloatArray, values: FloatArray) -> FloatArray:
 def _judged(
     values: FloatArray, rules: FloatArray, width: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Give integrals by a rule, and what its two measures make of their errors."""
-    found, even, odd = (width * added(values * weights[:, None]) for weights in rules)
-    return found, np.abs(even) + np.abs(odd)
+    """Give integrals by a rule, and the last two terms of the series through the values."""
+    found, *terms = (width * added(values * weights[:, None]) for weights in rules)
+    return found, np.abs(terms[0]) + np.abs(terms[1])

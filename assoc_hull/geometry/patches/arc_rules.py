@@ -15,7 +15,6 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cache
 
 import attrs
@@ -24,9 +23,6 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["ArcRules", "arc_rules"]
-
-# How much the second measure of an error counts.
-_TWIN = 0.2
 
 
 @attrs.frozen(eq=False)
@@ -40,9 +36,10 @@ class ArcRules:
     second : (6,)
         Nodes that the larger one adds.
     few, many : (3, 7), (3, 13)
-        Weights of the two rules; of what the rule of 4, or 7, points gives beyond it; and of a twin
-        of that. The latter two measure errors: the one is nil for all odd functions, the twin for
-        all even ones, so that not both vanish by chance.
+        Weights of the two rules, and those of the last two terms of a series in polynomials:
+        degrees 5 and 6, 11 and 12. The rules leave out terms of degrees beyond 9 and 19 only, so
+        these two tell how large their errors are at most. One is nil for all even functions, the
+        other for all odd ones; so not both vanish by chance.
     between : (6, 7)
         The polynomial through values at the first nodes, at the second.
     inside : (10, 13)
@@ -79,11 +76,10 @@ def arc_rules() -> ArcRules:
     first = np.array([-1.0, -outer, -inner, 0.0, inner, outer, 1.0])
     second = np.concatenate([-more, more[::-1]])
     every = np.concatenate([first, second])
-    few = _weights(first, range(7)), _weights(first, (0, 2, 4, 6))
-    many = _weights(every, range(13)), _weights(every, range(7))
+    few, many = (_measured(t, _weights(t)) for t in (first, every))
     halves = np.concatenate([0.5 * first[1:-1] - 0.5, 0.5 * first[1:-1] + 0.5])
     return ArcRules(
-        0.5 + 0.5 * first, 0.5 + 0.5 * second, _judges(first, *few), _judges(every, *many),
+        0.5 + 0.5 * first, 0.5 + 0.5 * second, few, many,
         _through(first, second), _through(every, halves),
     )  # fmt: skip
 
@@ -95,24 +91,20 @@ def _through(nodes: FloatArray, places: FloatArray) -> FloatArray:
     return np.array(np.linalg.solve(*at).T, np.float64)
 
 
-def _judges(nodes: FloatArray, rule: FloatArray, coarse: FloatArray) -> FloatArray:
-    """Give the weights of a rule, of what the coarse one gives beyond it, and of the twin."""
-    even = coarse - rule
-    count = (np.count_nonzero(coarse) + 1) // 2
-    odd = np.polynomial.legendre.legvander(nodes, len(nodes))[:, 1::2]
-    known, next_one = odd[:, :count], odd[:, count]
-    gram = (known * rule[:, None]).T
-    twin = rule * (next_one - known @ np.linalg.solve(gram @ known, gram @ next_one))
-    twin *= _TWIN * np.linalg.norm(even) / np.linalg.norm(twin)
-    return np.array([rule, even, twin])
+def _measured(nodes: FloatArray, rule: FloatArray) -> FloatArray:
+    """Give the weights of a rule, and those that give the last two terms of a series.
+
+    The terms are those of polynomials that are orthonormal with respect to the rule itself.
+    """
+    root = np.sqrt(rule)
+    values = np.polynomial.legendre.legvander(nodes, len(nodes) - 1)
+    basis = np.linalg.qr(values * root[:, None])[0]
+    return np.concatenate([rule[None], (basis * root[:, None]).T[-2:]])
 
 
-def _weights(nodes: FloatArray, used: Sequence[int]) -> FloatArray:
-    """Give the weights, on [0, 1], of the rule that has only some of the nodes."""
-    chosen = list(used)
-    moments = np.zeros(len(chosen))
+def _weights(nodes: FloatArray) -> FloatArray:
+    """Give the weights, on [0, 1], of the rule that is exact for as many powers as it has nodes."""
+    moments = np.zeros(len(nodes))
     moments[0] = 1.0
-    found = np.zeros(len(nodes))
-    values = np.polynomial.legendre.legvander(nodes[chosen], len(chosen) - 1).T
-    found[chosen] = np.linalg.solve(values, moments)
-    return found
+    values = np.polynomial.legendre.legvander(nodes, len(nodes) - 1).T
+    return np.asarray(np.linalg.solve(values, moments), np.float64)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.arguments import integer, number, shown, word
+from assoc_hull.arguments import integer, shown, word
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.knots import checked_knots
@@ -170,12 +170,11 @@ def checked_parameters(
 
 def _between(value: object, limits: Limits, axis: str, where: str) -> Limits:
     """Take two rising parameters; those within rounding of an end are the end."""
-    listed = isinstance(value, tuple | list) or (isinstance(value, np.ndarray) and value.ndim == 1)
-    if not listed or len(value) != 2:  # type: ignore[arg-type]
+    given = _array(value, axis, where, "give (low, high)")
+    if given.shape != (2,):
         raise WrongTypeError(f"{axis} is {shown(value)}", where, "give (low, high)")
     room = _SAME * max(abs(limits[0]), abs(limits[1]))
-    ends = [number(each, axis, where) for each in value]
-    ends = [next((end for end in limits if abs(t - end) <= room), t) for t in ends]
+    ends = [next((end for end in limits if abs(t - end) <= room), t) for t in given.tolist()]
     _inside(np.array(ends), limits, axis, where)
     if not ends[1] - ends[0] > room:
         raise BadInputError(f"{axis} is {shown(value)}", where, "give (low, high), rising")

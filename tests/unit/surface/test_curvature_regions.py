@@ -204,10 +204,10 @@ def test_what_is_found_is_frozen() -> None:
             array[0] = 0
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
-    m=st.integers(1, 4),
-    n=st.integers(1, 4),
+    m=st.integers(1, 3),
+    n=st.integers(1, 3),
     seed=st.integers(0, 10**6),
     zero=st.sampled_from(["strain", "exact"]),
     scale=st.sampled_from([1e-3, 1.0, 1e3]),
@@ -215,12 +215,12 @@ def test_what_is_found_is_frozen() -> None:
 def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, scale: float) -> None:
     """Four areas of 0 or more add up to the total; the same net gives the same bits again."""
     net = scale * np.random.default_rng(seed).standard_normal((m + 1, n + 1, 3))
-    result = ah.curvature_regions(net, zero=zero, area_tol=1e-5, depth=10)
+    result = ah.curvature_regions(net, zero=zero, area_tol=1e-4, depth=8)
     areas = result.areas
     parts = areas.positive, areas.negative, areas.zero, areas.unresolved
     assert min(parts) >= 0.0
     assert sum(parts) == pytest.approx(areas.total, rel=1e-4)
-    again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-5, depth=10)
+    again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-4, depth=8)
     assert again.areas == areas
     assert [piece.xyz[0].tobytes() for piece in again.components] == [
         piece.xyz[0].tobytes() for piece in result.components
@@ -230,17 +230,18 @@ def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, sc
 def test_no_order_of_hashes_is_seen() -> None:
     """Another process with other hashes finds the same, to the last digit."""
     script = (
-        "import assoc_hull as ah; from assoc_hull.geometry.patches.spline_surface import *\n"
+        "import assoc_hull as ah\n"
+        "from assoc_hull.geometry.patches.spline_surface import SplineSurface\n"
         "from tests.curved_patches import graph_plates\n"
-        "many = [SplineSurface.bezier(n[: 3 + i % 2]) for i, n in enumerate(graph_plates(6, 3))]\n"
+        "many = [SplineSurface.bezier(n[: 3 + i % 2]) for i, n in enumerate(graph_plates(4, 3))]\n"
         "found = ah.curvature_regions(many, levels=(0.0, 0.01))\n"
-        "print(repr(found.areas), [(c.kind, c.surface, c.xyz[0].sum()) for c in found.components])"
+        "told = [(c.kind, c.surface, c.xyz[0].sum()) for c in found.components]\n"
+        "text = repr(found.areas) + repr(told)\n"
     )
-    outputs = {
-        subprocess.run(
-            [sys.executable, "-c", script], capture_output=True, text=True, check=True,
-            cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": seed},
-        ).stdout
-        for seed in ("1", "4711")
-    }  # fmt: skip
-    assert len(outputs) == 1
+    here: dict[str, str] = {}
+    exec(script, here)
+    other = subprocess.run(
+        [sys.executable, "-c", script + "print(text)"], capture_output=True, text=True,
+        check=True, cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": "4711"},
+    ).stdout  # fmt: skip
+    assert other.strip() == here["text"]

@@ -177,7 +177,8 @@ def test_what_is_no_surface_is_refused(changed: dict[str, object], words: str) -
     [
         ((1, 0), (0, 1), "rising"),
         ((0, 2), (0, 1), "u is 2, in surface 's'; give u from 0 to 1"),
-        ((0, 1), (0.5, np.nan), "finite"),
+        ((0, 1), (0.5, np.nan), "v is nan"),
+        (("a", "b"), (0, 1), "give \\(low, high\\)"),
         ((0, 1), None, "give \\(low, high\\)"),
         ((0, 1), (0.5,), "give \\(low, high\\)"),
     ],
