@@ -134,7 +134,7 @@ def test_notes_tell_a_search_that_ended() -> None:
 
 
 def test_notes_tell_spots_without_a_tangent_plane() -> None:
-    """There are false zeros of the curvature: they are told apart, by place, once for all levels."""
+    """K has false zeros there: they are told apart, by their places, once for all levels."""
     net = random_nets(6, 1)[5]
     result = ah.curvature_regions(net, zero="exact", delta=0.0, levels=(1.0,))
     singular = [piece for piece in result.components if piece.singular]
