@@ -53,8 +53,8 @@ class Component:
     level: float
     surface: int
     patches: tuple[int, ...]
-    uv: tuple[FloatArray, ...]
-    xyz: tuple[FloatArray, ...]
+    uv: tuple[FloatArray, ...] = attrs.field(repr=False)
+    xyz: tuple[FloatArray, ...] = attrs.field(repr=False)
     ends: int
     tags: tuple[str, ...]
 
