@@ -1,5 +1,7 @@
 """What is to be known of regions: searches that ended early, spots, knots, borders.
 
+Surfaces are told by their names, or by numbers; these, as those of patches, are counted from one.
+
 Examples
 --------
 >>> from assoc_hull.surface.region_notes import listed
@@ -60,7 +62,7 @@ def _stops(part: RegionPart, number: int, name: str, options: RegionOptions) -> 
     """Tell searches that the budget ended."""
     own = part.patches.surface == number
     for each in part.solutions:
-        patches = part.number[own & each.cells.stopped].tolist()
+        patches = (part.number[own & each.cells.stopped] + 1).tolist()
         if patches:
             yield (
                 f"In {name} the search for K = {each.level:.4g} 1/m2 ended at its budget of "
@@ -114,7 +116,7 @@ def _borders(pieces: Sequence[Component], name: str) -> Iterator[str]:
     for level in dict.fromkeys(piece.level for piece in pieces):
         lines = [piece for piece in pieces if piece.kind == "edge_line" and piece.level == level]
         if lines:
-            patches = sorted({patch for piece in lines for patch in piece.patches})
+            patches = sorted({patch + 1 for piece in lines for patch in piece.patches})
             yield (
                 f"In {name} K = {level:.4g} 1/m2 along {_plural(len(lines), 'border', 'borders')} "
                 f"of patches ({listed(patches)}): regions end there without a line of their own."

@@ -205,6 +205,19 @@ def test_the_area_below_a_line_is_known() -> None:
     assert got.positive == pytest.approx([3.75], abs=1e-12)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_arc_too_short_to_count_leaves_its_cell_whole(sign: float) -> None:
+    """A polynomial that is nil at a corner, but for 1e-15, has the sign of the rest."""
+    net = np.zeros((1, 2, 2, 3))
+    net[0, 1, :, 0] = net[0, :, 1, 1] = 1.0
+    line = sign * np.array([[[-1e-15, 1.0], [1.0, 2.0]]])
+    cells = solve(IsoFunction(line, 1e-20 + 0.0 * line))
+    assert not len(arcs_of(cells))
+    got = areas(batch(net), cells, arcs_of(cells), 1e-9)
+    assert got.positive == pytest.approx([float(sign > 0.0)], abs=1e-12)
+    assert got.negative == pytest.approx([float(sign < 0.0)], abs=1e-12)
+
+
 def test_nets_without_area_have_none() -> None:
     """A net that is a point or a line has no area, no error, and ends."""
     net = np.zeros((2, 4, 4, 3))
