@@ -143,6 +143,14 @@ def test_square_cells_are_the_default() -> None:
     assert LABEL in str(development(surface, (9, 5)))
 
 
+def test_the_steps_of_the_grid_are_even() -> None:
+    """However unevenly parameters run, steps along and across are alike, and cells square."""
+    x, y = np.meshgrid([0.0, 0.1, 0.3, 6.0], [0.0, 1.5, 1.9, 2.0], indexing="ij")
+    place = equal_grid(SplineSurface.bezier(np.stack([x, y, 0.0 * x], axis=-1))).place
+    assert np.linalg.norm(np.diff(place, axis=0), axis=-1) == pytest.approx(0.125, rel=0.02)
+    assert np.linalg.norm(np.diff(place, axis=1), axis=-1) == pytest.approx(0.125, rel=0.02)
+
+
 @pytest.mark.parametrize("grid", [(2, 9), (9,), (9, 300), "49x17", 49], ids=str)
 def test_another_grid_is_refused(grid: object) -> None:
     """A grid has 3 to 257 nodes each way."""
