@@ -160,11 +160,13 @@ def test_a_ring_of_transformations_is_refused() -> None:
 
 
 def test_a_part_of_a_moved_face_moves_with_it() -> None:
-    """A dependent surface is moved by itself, then with its face."""
+    """A dependent surface is moved by itself, then with its face; an independent one is not."""
     parts = face()
     parts[1] = Entity(144, [1, 0, 0, 0], moved=9)
     parts[4] = matrix(TURN, (0.0, 0.0, 1.0))
     assert only(iges(parts)).net == pytest.approx(NET @ TURN.T + [0.0, 0.0, 1.0])
+    parts[0] = surface(status="00000000")
+    assert np.array_equal(only(iges(parts)).net, NET)
 
 
 def test_the_bounds_of_the_parameters_cut_the_surface() -> None:
