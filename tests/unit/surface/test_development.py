@@ -54,6 +54,16 @@ def test_a_plate_rolled_over_itself_is_laid_flat() -> None:
     assert np.abs(flat.strain).max() < 1e-7
 
 
+def test_the_outline_goes_round_once() -> None:
+    """Counter-clockwise, each border node once, with the same nodes on the surface."""
+    flat = development(bent_plates.cylinder(6.0, 2.0, 4.0), (9, 5))
+    x, y = flat.outline.T
+    assert 0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() == pytest.approx(flat.flat_area)
+    assert len(np.unique(flat.outline, axis=0)) == len(flat.outline) == 24
+    steps = np.linalg.norm(np.diff(flat.outline_on_surface, axis=0), axis=1)
+    assert steps == pytest.approx(np.hypot(np.diff(x), np.diff(y)), rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("surface", "sign", "breadth"),
     [

@@ -110,6 +110,8 @@ def test_a_plate_bent_all_ways_has_no_roll_axis() -> None:
     assert fan.coherence < 0.8
     assert fan.roll_axis is None
     assert fan.suggestion == SUGGESTIONS["cone"]
+    assert f"  rulings: {fan.rulings(5)}" in str(ah.plates(fan.surface))
+    assert str(fan.rulings(5)).count(" deg R ") == 5
 
 
 def test_strain_is_that_of_the_breadth() -> None:
