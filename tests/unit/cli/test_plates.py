@@ -112,7 +112,6 @@ def test_plates_that_ship_are_written(facts: Json, tmp_path: Path) -> None:
         pytest.param(["-o", "shell.csv"], "another file of this command", id="itself"),
         pytest.param(["-o", "a.pdf", "--picture", "a.pdf"], "another file of this", id="twice"),
         pytest.param(["--breadth", "wide"], "is no length, and not 'own'", id="breadth"),
-        pytest.param(["--breadth", "own", "--picture", "a.svg"], "needs one band", id="own"),
         pytest.param(["--zero", "absolute"], "give k0, 1/m2", id="no K0"),
         pytest.param(["--k0", "1"], "leave k0 out", id="K0 that is not used"),
         pytest.param(["--share", "0.2"], "above 0.5", id="share"),
