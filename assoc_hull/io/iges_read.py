@@ -20,7 +20,7 @@ from itertools import chain
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.iges_file import UNITS, IgesFile
-from assoc_hull.io.iges_parts import KINDS, Part, left_out, parts_of
+from assoc_hull.io.iges_parts import Part, left_out, parts_of
 from assoc_hull.io.iges_spline import SurfaceData, spline_surface
 from assoc_hull.io.iges_transform import NOTHING, Motion, motion_of
 from assoc_hull.io.iges_trim import borders_of_face, is_box, parameter_curves
@@ -114,11 +114,11 @@ def _require_untrimmed(file: IgesFile, part: Part, data: SurfaceData) -> None:
         what = f"it has {len(borders) - 1} holes"
     else:
         found = [parameter_curves(file, each) for each in curves]
-        if all(found) and is_box(list(chain.from_iterable(found)), data.spans):
+        if all(found) and is_box(list(chain.from_iterable(found)), data.spans, data.points):
             return
         what = "its border is not that of the whole surface"
     raise BadInputError(
-        f"this {KINDS[entry.kind]} is trimmed: {what}", file.where(entry),
+        f"this surface is trimmed: {what}", file.where(entry),
         "export the surface untrimmed; trimmed ones need the extra 'cad', and are not read yet",
     )  # fmt: skip
 

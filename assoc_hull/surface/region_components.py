@@ -19,14 +19,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.chains import forward
 from assoc_hull.geometry.patches.components import Component as Joined
 from assoc_hull.geometry.patches.components import ComponentKind
 from assoc_hull.geometry.patches.gathering import rows_of
 from assoc_hull.geometry.patches.joining import joined
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.points import points
-from assoc_hull.geometry.patches.sampling import sampled
 from assoc_hull.surface.edge_polylines import edge_polyline
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_options import RegionOptions
@@ -36,9 +34,6 @@ __all__ = ["components_of"]
 
 _SAME = 1e-9
 """In parameters of a patch: ends of arcs that are nearer are one point."""
-
-_MIDDLE = 0.8
-"""Of the tolerance: chords are judged by a point near their middle, not by the farthest one."""
 
 
 def components_of(parts: Sequence[RegionPart], options: RegionOptions) -> tuple[Component, ...]:
@@ -65,40 +60,24 @@ def _pieces(part: RegionPart, solution: Solution, chord_tol: float) -> list[Comp
     lines = joined(patches, solution.cells, solution.arcs, solution.edges)
     if not lines:
         return []
-    samples = _Samples.of(patches, solution, chord_tol)
+    samples = _Samples.of(patches, solution)
     return [_component(part, solution, samples, line, chord_tol) for line in lines]
 
 
 @attrs.frozen(eq=False)
 class _Samples:
-    """Points of all arcs, those of each in the direction of a walk with K above on the left.
-
-    Attributes
-    ----------
-    count : (a,) int
-        How many points each arc has.
-    place : (p, 2)
-        Parameters of the patch.
-    uv, xyz : (p, 2), (p, 3)
-        Parameters of the surface; points in space, m.
-    """
+    """Points of all arcs of a part: how many each has (a,), parameters of the surface, xyz."""
 
     count: IntArray
-    place: FloatArray
     uv: FloatArray
     xyz: FloatArray
 
     @classmethod
-    def of(cls, patches: Patches, solution: Solution, chord_tol: float) -> _Samples:
-        """Sample all arcs as finely as the tolerance wants."""
-        cells, arcs = solution.cells, solution.arcs
-        start, place = sampled(patches, cells, arcs, _MIDDLE * chord_tol)
-        count = np.diff(start)
-        rows, arc = rows_of(count, np.arange(len(arcs)))
-        last = start[arc] + start[arc + 1] - 1
-        place = place[np.where(forward(arcs)[arc], rows, last - rows)]
-        patch = cells.patch[arcs.cell][arc]
-        return cls(count, place, patches.parameters(patch, place), points(patches, patch, place))
+    def of(cls, patches: Patches, solution: Solution) -> _Samples:
+        """Put the points of arcs on their surface."""
+        found = solution.points
+        patch = np.repeat(solution.cells.patch[solution.arcs.cell], found.count)
+        return cls(found.count, patches.parameters(patch, found.place), found.xyz)
 
     def chain(self, arcs: IntArray, loop: bool) -> tuple[FloatArray, FloatArray]:
         """Give the polyline along some arcs; points that two of them share once."""

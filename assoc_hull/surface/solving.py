@@ -24,6 +24,7 @@ from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.refining import refined
 from assoc_hull.geometry.patches.signs import edge_lines
 from assoc_hull.geometry.patches.solve import solve
+from assoc_hull.surface.arc_points import ArcPoints
 from assoc_hull.surface.band_areas import band_areas
 from assoc_hull.surface.given_surfaces import diagonals
 from assoc_hull.surface.region_options import RegionOptions
@@ -64,23 +65,26 @@ def solved(
     known = gauss_functions(patches, levels, delta)
     sound = ~_collapsed(patches)
     found = tuple(
-        _solution(level, function, nil.err, sound, options)
+        _solution(patches, level, function, nil.err, options, sound)
         for level, function, nil in zip(levels, functions, known, strict=True)
     )
     return found, _areas(patches, found[: len(band.levels)], options.area_tol)
 
 
 def _solution(
+    patches: Patches,
     level: float,
     function: IsoFunction,
     nil: FloatArray,
-    sound: NDArray[np.bool_],
     options: RegionOptions,
+    sound: NDArray[np.bool_],
 ) -> Solution:
     """Solve for one level; `sound` are the sides (k, 4) along which K has a meaning."""
     cells = solve(function, options.depth, options.budget, nil=nil)
     cells = refined(function, cells, options.depth, options.budget, nil)
-    return Solution(level, cells, arcs_of(cells), edge_lines(function.b, nil) & sound)
+    arcs = arcs_of(cells)
+    points = ArcPoints.of(patches, cells, arcs, options.chord_tol)
+    return Solution(level, cells, arcs, points, edge_lines(function.b, nil) & sound)
 
 
 def _collapsed(patches: Patches) -> NDArray[np.bool_]:

@@ -68,6 +68,12 @@ class Outlines:
         """Give the corners (k, 2) of one loop."""
         return self.uv[self.start[number] : self.start[number + 1]]
 
+    def chosen(self, rows: IntArray) -> Outlines:
+        """Give some of the loops, in another order."""
+        counts = np.diff(self.start)
+        start = np.concatenate([[0], np.cumsum(counts[rows])])
+        return Outlines(self.uv[rows_of(counts, rows)[0]], start, self.patch[rows])
+
     @property
     def enclosed(self) -> FloatArray:
         """What each loop encloses, in parameters, (n,); negative for a hole."""
@@ -105,18 +111,17 @@ def outlines(
     Returns
     -------
     Outlines
-        In the order of patches, if they are not merged.
+        In the order of patches, if they are not merged; holes behind what they are holes of.
     """
     surface, box = patches.surface, patches.box
     lattice = Lattice.of(surface, box) if across else Lattice.apart(len(patches))
     lines = _Lines.of(lattice, cells, arcs, kind, samples)
     chains = chained(followers(lines.ends, *lines.directions()))
     corners, start = lines.along(chains)
+    uv, patch = lattice.on_surface(box, corners), lines.patch[chains.firsts]
+    found = Outlines(uv, start, patch)
     kept = np.flatnonzero(np.diff(start) > 2)
-    corner, owner = rows_of(np.diff(start), kept)
-    start = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(kept)))])
-    patch = lines.patch[chains.firsts[kept]]
-    return Outlines(lattice.on_surface(box, corners[corner]), start, patch)
+    return found.chosen(kept[np.lexsort([found.enclosed[kept] < 0.0, patch[kept]])])
 
 
 @attrs.frozen(eq=False)

@@ -224,6 +224,20 @@ def test_a_border_in_space_only_is_refused() -> None:
         read(iges(parts))
 
 
+def test_a_side_that_is_a_point_needs_no_border() -> None:
+    """Of a sphere some programs write the seam only: its poles are no curves in space."""
+    net = NET.copy()
+    net[0] = net[0, 0]
+    corners = SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3]
+    parts = face(corners)
+    parts[0] = surface(net, status="00010000")
+    parts[3] = Entity(102, [3, *parts[3].values[1:4]], status="00010000")
+    assert np.array_equal(only(iges(parts)).net, net)
+    parts[0] = surface(status="00010000")
+    with pytest.raises(BadInputError, match="is trimmed"):
+        read(iges(parts))
+
+
 def test_a_border_of_one_spline_is_read_piece_by_piece() -> None:
     """A spline of degree 1 through the corners: each leg lies on a side."""
     corners = [value for corner in (*SQUARE, SQUARE[0]) for value in (*corner, 0.0)]
