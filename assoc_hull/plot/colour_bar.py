@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CURVATURE", "STRAIN", "colour_bar", "shades"]
 
-CURVATURE = ("#1f5e9e", "#5b93c9", "#e6f0d4", "#d5604f", "#96281b")
+CURVATURE = ("#1f5e9e", "#74a9d8", "#e6f0d4", "#d5604f", "#96281b")
 """From saddle over developable to convex."""
 
 STRAIN = ("#4a2a82", "#9b86c4", "#f6f5f3", "#eda55d", "#a8500a")
@@ -74,7 +74,7 @@ def colour_bar(
     y = np.stack([low, low, top, top], axis=-1)
     colour = shades(np.linspace(-1.0, 1.0, _STEPS), palette)
     sheet.axes.add_collection(
-        PolyCollection(list(np.stack([x, y], axis=-1)), facecolors=colour, edgecolors=colour,
+        PolyCollection(cast("Any", np.stack([x, y], axis=-1)), facecolors=colour, edgecolors=colour,
                        linewidths=0.2, zorder=1.5, gid="bar"),
         autolim=False,
     )  # fmt: skip

@@ -23,6 +23,9 @@ __all__ = ["Tiles", "tiles_of"]
 _LEAST = 8
 """Strips along an arc in the smallest of cells."""
 
+_MOVES = 3
+"""How often places on an arc are moved to lie equally far apart."""
+
 _SLIVER = 1e-9
 """Of a cell: what is thinner is left out."""
 
@@ -143,17 +146,35 @@ def _long(t: FloatArray, count: int) -> NDArray[np.bool_]:
 def _arc(b: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
     """Give v from 0 to 1 and g there, (c, count + 3), of polynomials that rise with u.
 
-    Where the arc leaves the cell through u = 0 or 1 stands a place of its own.
+    Where the arc leaves the cell through u = 0 or 1 stands a place of its own; the others are
+    moved so that they lie equally far apart along the arc, which may run along v = constant.
     """
     ends = np.stack([_leaving(b[:, 0]), _leaving(b[:, -1])], axis=-1)
-    t = np.broadcast_to(np.linspace(0.0, 1.0, count + 1), (len(b), count + 1))
-    t = np.sort(np.concatenate([t, ends], axis=1), axis=1)
+    even = np.broadcast_to(np.linspace(0.0, 1.0, count + 1), (len(b), count + 1))
+    t = np.sort(np.concatenate([even, ends], axis=1), axis=1)
+    for _ in range(_MOVES):
+        t = np.sort(np.concatenate([_apart(t, _heights(b, t), even), ends], axis=1), axis=1)
+    return t, _heights(b, t)
+
+
+def _apart(t: FloatArray, g: FloatArray, even: FloatArray) -> FloatArray:
+    """Give places at these shares of the lengths of polylines (t, g), row by row."""
+    steps = np.hypot(np.diff(t, axis=1), np.diff(g, axis=1))
+    way = np.concatenate([np.zeros((len(t), 1)), np.cumsum(steps, axis=1)], axis=1)
+    start = 4.0 * np.arange(len(t))[:, None]  # rows one behind the other: none is longer
+    wanted = start + even * way[:, -1:]
+    found = np.interp(wanted.ravel(), (start + way).ravel(), t.ravel())
+    return np.asarray(found.reshape(even.shape))
+
+
+def _heights(b: FloatArray, t: FloatArray) -> FloatArray:
+    """Give g at places (c, k): 0 where a polynomial is positive all along, 1 where negative."""
     lines = _along(b, t)
     g = np.where(lines[..., 0] >= 0.0, 0.0, 1.0)
     inner = (lines[..., 0] < 0.0) & (lines[..., -1] > 0.0)
     if inner.any():
         g[inner] = crossing(lines[inner], np.ones(int(inner.sum()), np.bool_))
-    return t, g
+    return g
 
 
 def _leaving(edge: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 import attrs
+import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.plate_scene import STEPS, Scene, scene_of
@@ -38,6 +39,8 @@ class Entry:
         Stands below it.
     axis : (3,) or None
         The direction it is rolled about.
+    frame : (3, 3) or None
+        Rows: along the plate, across it, its normal; None where it is found from the shape.
     result : RegionResult
         What holds the plate.
     number : int
@@ -48,6 +51,7 @@ class Entry:
     scene: Scene
     words: str
     axis: FloatArray | None
+    frame: FloatArray | None
     result: RegionResult
     number: int
 
@@ -85,7 +89,7 @@ def picture_of(found: RegionResult | Plates) -> Picture:
         entries = tuple(_of_plate(found, number, steps) for number in range(count))
         results, notes = found.results, found.notes
         axes = any(entry.axis is not None for entry in entries)
-        notes = (*notes, *(("Dash-dotted: the axis a plate is rolled about.",) if axes else ()))
+        notes = (*(("Dash-dotted: the axis a plate is rolled about.",) if axes else ()), *notes)
     else:
         entries = tuple(_of_surface(found, number, steps) for number in range(count))
         results, notes = (found,), found.notes
@@ -97,13 +101,15 @@ def picture_of(found: RegionResult | Plates) -> Picture:
 def _of_surface(result: RegionResult, number: int, steps: int) -> Entry:
     name = result.surfaces[number].name or (f"{number + 1}" if len(result.surfaces) > 1 else "")
     words = shares_of(result.of_surface(number))
-    return Entry(name, scene_of(result, number, steps), words, None, result, number)
+    return Entry(name, scene_of(result, number, steps), words, None, None, result, number)
 
 
 def _of_plate(plates: Plates, number: int, steps: int) -> Entry:
     plate, result = plates[number], plates.result_of(number)
     scene = scene_of(result, plate.number, steps)
-    return Entry(plate.name, scene, _told(plate), plate.roll_direction, result, plate.number)
+    frame = plate.axes * np.array([[1.0], [-1.0], [-1.0]])  # e2 runs down, e3 away from the eye
+    words = _told(plate)
+    return Entry(plate.name, scene, words, plate.roll_direction, frame, result, plate.number)
 
 
 def _told(plate: Plate) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from assoc_hull.plot.sheet import Sheet
 
 __all__ = ["BORDER", "LEVEL", "SIGNS", "TINTS", "colours", "fill", "hatched", "paint", "signs"]
 
-TINTS = {1: "#d5604f", 0: "#d3e8b6", -1: "#5b93c9"}
+TINTS = {1: "#d5604f", 0: "#d3e8b6", -1: "#74a9d8"}
 """Red, green and blue that differ in lightness too."""
 
 SIGNS = {1: "+", 0: "0", -1: "−"}
@@ -59,7 +60,7 @@ def fill(
     if len(corner):
         sheet.axes.add_collection(
             PolyCollection(
-                list(corner), facecolors=colour, edgecolors=colour,
+                cast("Any", corner), facecolors=colour, edgecolors=colour,
                 linewidths=0.12 * sheet.paper.factor / POINT, joinstyle="bevel",
                 snap=False, zorder=over, gid=name,
             ),
@@ -153,7 +154,7 @@ def _unresolved(
         hatched(sheet, seen[large], f"{name}/unresolved")
     if (~large).any():
         sheet.axes.add_collection(
-            PolyCollection(list(seen[~large]), facecolors="0.15", edgecolors="0.15",
+            PolyCollection(cast("Any", seen[~large]), facecolors="0.15", edgecolors="0.15",
                            linewidths=0.4 * sheet.paper.factor / POINT, zorder=2.2,
                            gid=f"{name}/unresolved"),
             autolim=False,
@@ -170,7 +171,7 @@ def hatched(sheet: Sheet, corner: FloatArray, name: str) -> None:
 
     rings = corner.reshape(-1, *corner.shape[-2:])
     sheet.axes.add_collection(
-        PolyCollection(list(rings), facecolors="white", edgecolors="black", hatch="xxxxxx",
+        PolyCollection(cast("Any", rings), facecolors="white", edgecolors="black", hatch="xxxxxx",
                        linewidths=0.0, zorder=2.2, gid=name),
         autolim=False,
     )  # fmt: skip

@@ -73,7 +73,9 @@ def draw_plates(
     """
     factor = sheet.paper.factor
     looks = [look(entry) for entry in entries]
-    plates = [_sights(scene, views) for scene, _ in looks]
+    plates = [
+        _sights(scene, entry.frame, views) for entry, (scene, _) in zip(entries, looks, strict=True)
+    ]
     single = len(entries) == 1 and entries[0].axis is None
     below = 0.0 if single else (3.0 * _WORD + 1.5) * factor
     room = Field(field.left, field.low + 8.0 * factor, field.right, field.top)
@@ -85,11 +87,13 @@ def draw_plates(
     _scale(sheet, field, cells[0].denominator)
 
 
-def _sights(scene: Scene, views: Sequence[str]) -> list[Sight]:
-    """Give the views of a plate."""
+def _sights(scene: Scene, frame: FloatArray | None, views: Sequence[str]) -> list[Sight]:
+    """Give the views of a plate, in a frame of its own if there is one."""
     shape = scene.drawn()
     normal, middle = shape.normal, shape.corner.mean(axis=1)
     plan = plate_frame(middle, np.sqrt((normal**2).sum(axis=-1)), normal.sum(axis=0))
+    if frame is not None:
+        plan = attrs.evolve(plan, frame=frame)
     found = {
         "plan": lambda: Sight("plan", shape, plan),
         "space": lambda: Sight("space", shape, plan.in_space(relief_of(plan, middle))),

@@ -202,11 +202,11 @@ def _step(
     """Give the step that would be the last if lengths were linear in places."""
     side = z[second] - z[first]
     size = np.abs(side)
-    side = root * np.divide(side, size, out=np.zeros_like(side), where=size > 0.0)
+    ahead = np.divide(root, size, out=np.zeros_like(root), where=size > 0.0) * side
     row, count = np.arange(len(off)), len(z)
     slope = coo_array(
         (
-            np.concatenate([side.real, -side.real, side.imag, -side.imag]),
+            np.concatenate([ahead.real, -ahead.real, ahead.imag, -ahead.imag]),
             (np.tile(row, 4), np.concatenate([second, first, second + count, first + count])),
         ),
         (len(off), 2 * count),

@@ -67,7 +67,7 @@ class Plate:
         How well the directions of bending agree, 0 to 1; of noise on a flat plate.
     least_radius, largest_radius : float or None, m
         One over the larger principal curvature, where it is most and where it is least; None
-        where it is not bent (above 1,000 km).
+        above 1,000 km, and no largest one where a part is flat.
     total_curvature : float
         The integral of |K| dA, nil for developable plates.
     mean_strain, largest_strain : float

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assoc_hull.arguments import instance
+from assoc_hull.arguments import choice, instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.curvature_regions import curvature_regions
@@ -25,7 +25,7 @@ from assoc_hull.surface.plate_options import SAGITTA_TOL, SHARE, PlateOptions, p
 from assoc_hull.surface.plate_table import Plates
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.seams import Seams, cut_at, seams_of
-from assoc_hull.surface.zero_band import BREADTH, STRAIN_TOL
+from assoc_hull.surface.zero_band import BREADTH, MODES, STRAIN_TOL
 
 __all__ = ["plates"]
 
@@ -116,8 +116,8 @@ def plates(
         instance(previous, Plates, "previous", _WHERE)
     drafts = _drafts(given, seams_of(seams, given, _WHERE))
     search = dict[str, Any](
-        zero=zero, strain_tol=strain_tol, k0=k0, delta=delta, area_tol=area_tol, depth=depth,
-        budget=budget, chord_tol=chord_tol,
+        zero=choice(zero, "zero", MODES, _WHERE), strain_tol=strain_tol, k0=k0, delta=delta,
+        area_tol=area_tol, depth=depth, budget=budget, chord_tol=chord_tol,
     )  # fmt: skip
     results = _results(drafts, search, options, previous)
     rows = tuple(

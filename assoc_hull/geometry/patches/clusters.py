@@ -94,9 +94,14 @@ class Clusters:
         return found
 
     @property
+    def small(self) -> NDArray[np.bool_]:
+        """Which clusters (n,) are widths of lines, no regions."""
+        return np.asarray(self.size < _NARROW)
+
+    @property
     def narrow(self) -> NDArray[np.bool_]:
-        """Which clusters (n,) are small, and nil throughout: widths of lines, no regions."""
-        return np.asarray(~self.unresolved & (self.size < _NARROW))
+        """Which clusters (n,) are small, and nil throughout."""
+        return np.asarray(~self.unresolved & self.small)
 
     def merged(self, number: IntArray) -> Clusters:
         """Give clusters by new numbers (n,), those of one number made one."""

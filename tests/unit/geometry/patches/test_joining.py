@@ -6,7 +6,7 @@ import pytest
 
 from assoc_hull.errors import DanglingArcError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.cells import Arcs
+from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
 from assoc_hull.geometry.patches.components import Component, ComponentKind, EndKind
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
 from assoc_hull.geometry.patches.joining import joined
@@ -47,12 +47,49 @@ def test_a_crossing_has_four_ends() -> None:
     assert len(cross.cells) >= 1
 
 
+def test_lines_that_meet_in_a_point_are_a_junction() -> None:
+    """Four arcs that end in one point, the positive quarters opposite, are one component."""
+    lines = np.array([[0.0, 0.5], [1.0, 0.5], [0.5, 0.0], [0.5, 1.0]])
+    box = np.array(
+        [[[0.0, 0.5]] * 2, [[0.5, 1.0]] * 2, [[0.0, 0.5], [0.5, 1.0]], [[0.5, 1.0], [0, 0.5]]]
+    )
+    four, none = np.zeros(4, np.intp), np.zeros((0, 2, 2))
+    kind = np.full(4, CellKind.U_SIMPLE)
+    cells = Cells(four, box, four, kind, four - 1, none, none, np.zeros(1, bool))
+    across = np.array([1, 1, 0, 0])
+    ends = np.stack([lines, np.full((4, 2), 0.5)], axis=1)
+    rising = np.array([True, False, False, True])
+    arcs = Arcs(np.array([0, 1, 3, 2]), across, none[:0, 0].reshape(0, 2), ends, rising)
+    (cross,) = joined(apart(np.zeros((1, 2, 2, 3))), cells, arcs)
+    assert cross.kind is ComponentKind.JUNCTION
+    assert cross.meetings == 4
+    assert sorted(cross.ends[[k is EndKind.BORDER for k in cross.end_kinds]].tolist()) == sorted(
+        lines.tolist()
+    )
+
+
+def test_a_line_may_end_in_the_corner_of_its_patch() -> None:
+    """Where undecided cells lie on the border, a line that ends at them ends on the border."""
+    slopes = {(1, 0): 1.0, (0, 1): -1.0}, {(2, 0): 1.0, (0, 2): -3.0, (1, 1): 1.0}
+    for terms in slopes:
+        line_of = joined_of(apart(monkey(0.5)[None]), function(polynomial(terms, 2)))
+        (line,) = line_of.components
+        assert line.kind is ComponentKind.OPEN
+        assert line.end_kinds == (EndKind.BORDER, EndKind.BORDER)
+        assert np.abs(line.ends).min() < 3e-5
+
+
 def test_edges_of_no_curvature_are_told() -> None:
     """Curvature that is nil along an edge makes an edge line, and no other."""
     (edge,) = join_nets(patch("P18_inflect_edge")[None], 1e-12).components
     assert edge.kind is ComponentKind.EDGE_LINE
     assert edge.edges.tolist() == [[0, 0]]
     assert sorted(edge.ends.tolist()) == [[0.0, 0.0], [0.0, 1.0]]
+
+
+def test_a_surface_of_no_curvature_has_no_components() -> None:
+    """A plane has no line, no point, no edge line: all its cells are nil, and its edges too."""
+    assert join_nets(patch("P13_plane")[None], 1e-12).components == ()
 
 
 def test_no_end_is_lost_on_random_plates_and_nets() -> None:
@@ -107,7 +144,7 @@ def _negated(found: Joined) -> IsoFunction:
     return attrs.evolve(found.function, b=-found.function.b)
 
 
-def _spline(seed: int, multiplicity: int = 1) -> SplineSurface:
+def spline(seed: int, multiplicity: int = 1) -> SplineSurface:
     """A bicubic surface of 3 x 5 spans with random heights."""
     draw = np.random.default_rng(seed)
     inner = np.repeat([1.0, 2.0], multiplicity)
@@ -121,7 +158,7 @@ def _spline(seed: int, multiplicity: int = 1) -> SplineSurface:
 
 def test_lines_cross_the_borders_of_patches() -> None:
     """On a surface of 15 patches with continuous curvature, lines end on its border only."""
-    found = join(_spline(3).patches())
+    found = join(spline(3).patches())
     several = [each for each in found.components if len(each.patches) > 1]
     assert len(several) >= 5
     for each in found.components:
@@ -136,7 +173,7 @@ def test_lines_cross_the_borders_of_patches() -> None:
 
 def test_lines_end_where_the_curvature_jumps() -> None:
     """At knots where a surface is smooth but its curvature jumps, ends are told, not refused."""
-    found = join(_spline(3, 2).patches())
+    found = join(spline(3, 2).patches())
     jumps = [each for each in found.components if "knot-line" in each.tags]
     assert jumps
     for each in jumps:
