@@ -199,9 +199,11 @@ class Plates:
             yield "  ".join([first, *others]).rstrip()
 
     def _advice(self) -> Iterator[str]:
-        """Write the suggestion of each plate."""
+        """Write the suggestion of each plate, with rulings where no single axis serves."""
         for plate in self.rows:
             yield f"{plate.name}: {plate.suggestion}."
+            if plate.rollable and plate.kind != "flat" and plate.roll_axis is None:
+                yield f"  rulings: {plate.rulings(5)}"
 
     def _band(self) -> str:
         """Say what counted as no curvature."""

@@ -60,11 +60,11 @@ class RegionResult:
         What is to be known of the result, each a sentence.
     """
 
-    surfaces: tuple[SplineSurface, ...]
+    surfaces: tuple[SplineSurface, ...] = attrs.field(repr=False)
     band: ZeroBand
     options: RegionOptions
-    parts: tuple[RegionPart, ...]
-    components: tuple[Component, ...]
+    parts: tuple[RegionPart, ...] = attrs.field(repr=False)
+    components: tuple[Component, ...] = attrs.field(repr=False)
     computed: int
     notes: tuple[str, ...]
 

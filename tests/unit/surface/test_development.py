@@ -54,6 +54,16 @@ def test_a_plate_rolled_over_itself_is_laid_flat() -> None:
     assert np.abs(flat.strain).max() < 1e-7
 
 
+def test_the_outline_goes_round_once() -> None:
+    """Counter-clockwise, each border node once, with the same nodes on the surface."""
+    flat = development(bent_plates.cylinder(6.0, 2.0, 4.0), (9, 5))
+    x, y = flat.outline.T
+    assert 0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() == pytest.approx(flat.flat_area)
+    assert len(np.unique(flat.outline, axis=0)) == len(flat.outline) == 24
+    steps = np.linalg.norm(np.diff(flat.outline_on_surface, axis=0), axis=1)
+    assert steps == pytest.approx(np.hypot(np.diff(x), np.diff(y)), rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("surface", "sign", "breadth"),
     [
@@ -141,6 +151,14 @@ def test_square_cells_are_the_default() -> None:
     assert development(surface).flat.shape == (49, 17, 2)
     assert development(surface, (9, 5)).flat.shape == (9, 5, 2)
     assert LABEL in str(development(surface, (9, 5)))
+
+
+def test_the_steps_of_the_grid_are_even() -> None:
+    """However unevenly parameters run, steps along and across are alike, and cells square."""
+    x, y = np.meshgrid([0.0, 0.1, 0.3, 6.0], [0.0, 1.5, 1.9, 2.0], indexing="ij")
+    place = equal_grid(SplineSurface.bezier(np.stack([x, y, 0.0 * x], axis=-1))).place
+    assert np.linalg.norm(np.diff(place, axis=0), axis=-1) == pytest.approx(0.125, rel=0.02)
+    assert np.linalg.norm(np.diff(place, axis=1), axis=-1) == pytest.approx(0.125, rel=0.02)
 
 
 @pytest.mark.parametrize("grid", [(2, 9), (9,), (9, 300), "49x17", 49], ids=str)

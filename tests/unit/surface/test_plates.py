@@ -110,6 +110,8 @@ def test_a_plate_bent_all_ways_has_no_roll_axis() -> None:
     assert fan.coherence < 0.8
     assert fan.roll_axis is None
     assert fan.suggestion == SUGGESTIONS["cone"]
+    assert f"  rulings: {fan.rulings(5)}" in str(ah.plates(fan.surface))
+    assert str(fan.rulings(5)).count(" deg R ") == 5
 
 
 def test_strain_is_that_of_the_breadth() -> None:
@@ -121,6 +123,19 @@ def test_strain_is_that_of_the_breadth() -> None:
     assert plate.largest_strain == pytest.approx(plate.mean_strain, rel=1e-5)
     assert plate.least_radius == pytest.approx(10.0, rel=1e-4)
     assert plate.heating
+
+
+def test_weights_are_part_of_the_shape() -> None:
+    """A quarter of a tube as a conic: rolled to its radius, laid flat to its girth."""
+    net = np.zeros((3, 2, 3))
+    net[..., :2] = np.array([[2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])[:, None]
+    net[:, 1, 2] = 6.0
+    weights = np.array([[1.0], [np.sqrt(0.5)], [1.0]]) * np.ones((1, 2))
+    plate = ah.plates(SplineSurface.bezier(net, "quarter", weights))[0]
+    assert plate.kind == "cylinder"
+    assert plate.area == pytest.approx(6.0 * np.pi, rel=1e-9)
+    assert [plate.least_radius, plate.largest_radius] == pytest.approx([2.0, 2.0])
+    assert plate.development((9, 9)).size == pytest.approx([6.0, np.pi], rel=1e-4)
 
 
 def test_a_band_for_each_breadth() -> None:
@@ -233,6 +248,7 @@ def test_the_table_has_all_columns_once(shell: Plates) -> None:
     for head in ("plate", "K0", "convex", "class", "axis", "int |K|", "strain", "lines"):
         assert head in printed[0]
     assert all(name in line for name, line in zip(NAMES, printed[2:], strict=False))
+    assert "2.5e-04" in printed[2 + NAMES.index("P09_bow_plate")]
     assert "K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)" in str(shell)
 
 
