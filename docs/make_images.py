@@ -199,7 +199,7 @@ DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 11
        "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
 COLOURS = {**dict.fromkeys(PLANS, 16)}
-COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "plate_flat"), 256)
+COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0}  # 0: all
 
 
 def write(name: str) -> int:
@@ -211,7 +211,8 @@ def write(name: str) -> int:
     plt.close(figure)
     colours = COLOURS.get(name, 64)
     with Image.open(path) as image:
-        image.convert("RGB").quantize(colours).save(path, optimize=True)
+        plain = image.convert("RGB")
+        (plain.quantize(colours) if colours else plain).save(path, optimize=True)
     return path.stat().st_size
 
 

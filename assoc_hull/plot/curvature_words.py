@@ -30,7 +30,7 @@ def region_block(sheet: Sheet, picture: Picture, title: str) -> float:
     room = (BLOCK - 7.0) * factor
     lines = [line for words in picture.notes for line in wrapped(sheet, words, room, 1.0)]
     if len(lines) > _MOST:
-        lines = [*lines[:_MOST], f"and {len(lines) - _MOST} lines more, in the notes of the result"]
+        lines = [*lines[:_MOST], "... and more, in the notes of the result"]
     return title_block(sheet, corner, BLOCK * factor, title, picture.facts, lines)
 
 

@@ -100,9 +100,7 @@ def _reach(flat: Development) -> float:
     """Give a round strain that is no less than any."""
     most = max(flat.largest_strain, _LEAST)
     power = 10.0 ** np.floor(np.log10(most))
-    return float(
-        next(k * power for k in (1, 2, 3, 4, 5, 6, 8, 10) if k * power >= most * (1 - 1e-9))
-    )
+    return float(next(k * power for k in _ROUND if k * power >= most * (1.0 - 1e-9)))
 
 
 def _maps(flat: Development) -> Iterator[tuple[str, FloatArray, FloatArray]]:

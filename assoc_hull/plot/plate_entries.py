@@ -89,7 +89,7 @@ def picture_of(found: RegionResult | Plates) -> Picture:
         entries = tuple(_of_plate(found, number, steps) for number in range(count))
         results, notes = found.results, found.notes
         axes = any(entry.axis is not None for entry in entries)
-        notes = (*notes, *(("Dash-dotted: the axis a plate is rolled about.",) if axes else ()))
+        notes = (*(("Dash-dotted: the axis a plate is rolled about.",) if axes else ()), *notes)
     else:
         entries = tuple(_of_surface(found, number, steps) for number in range(count))
         results, notes = (found,), found.notes

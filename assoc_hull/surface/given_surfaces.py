@@ -70,7 +70,7 @@ def given_surfaces(
     for number, surface in enumerate(surfaces):
         if not isinstance(surface, SplineSurface):
             what = f"surfaces[{number}] is {shown(surface)}"
-            raise WrongTypeError(what, where, "give SplineSurface objects")
+            raise WrongTypeError(what, where, "give SplineSurface objects, or one net as an array")
     return tuple(surfaces)
 
 

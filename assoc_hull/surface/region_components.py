@@ -25,6 +25,7 @@ from assoc_hull.geometry.patches.gathering import rows_of
 from assoc_hull.geometry.patches.joining import joined
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.points import points
+from assoc_hull.geometry.patches.touching import clusters
 from assoc_hull.surface.edge_polylines import edge_polyline
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_options import RegionOptions
@@ -99,8 +100,9 @@ def _component(
 ) -> Component:
     """Give one component with its polylines."""
     patches = part.patches
+    spots = _spots(patches, solution, line.cells)
     if line.kind is ComponentKind.ISOLATED:
-        drawn = [_spot(patches, solution, line.cells)]
+        drawn = [(spots[0][:1], spots[1][:1])]
     elif line.kind is ComponentKind.EDGE_LINE:
         drawn = [edge_polyline(patches, *side, chord_tol) for side in _sides(line)]
     else:
@@ -115,6 +117,7 @@ def _component(
         tuple(xyz for _, xyz in drawn),
         _ends(line),
         line.tags,
+        spots[1],
     )
 
 
@@ -128,9 +131,15 @@ def _ends(line: Joined) -> int:
     return line.meetings if line.kind is ComponentKind.JUNCTION else len(line.end_kinds)
 
 
-def _spot(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Give the middle of the cell that is most in the middle of some."""
-    patch, middle = solution.cells.patch[rows], solution.cells.box[rows].mean(axis=2)
-    uv = patches.parameters(patch, middle)
-    best = [int(np.argmin(np.linalg.norm(uv - uv.mean(axis=0), axis=1)))]
-    return uv[best], points(patches, patch[best], middle[best])
+def _spots(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give a point for each group of cells that touch: the middle of the one most in the middle."""
+    patch, box = solution.cells.patch[rows], solution.cells.box[rows]
+    low, high = (patches.parameters(patch, box[:, :, end]) for end in (0, 1))
+    group = clusters(low, high, _SAME)
+    middle = (low + high) / 2.0
+    sums = [np.bincount(group, middle[:, axis]) for axis in (0, 1)]
+    means = np.stack(sums, axis=1) / np.bincount(group)[:, None]
+    order = np.lexsort((np.linalg.norm(middle - means[group], axis=1), group))
+    best = order[np.unique(group[order], return_index=True)[1]]
+    place = box[best].mean(axis=2)
+    return patches.parameters(patch[best], place), points(patches, patch[best], place)

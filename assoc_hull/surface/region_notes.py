@@ -13,8 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.given_surfaces import name_of
 from assoc_hull.surface.region_areas import RegionAreas
@@ -85,19 +84,20 @@ def _unresolved(part: RegionPart, number: int, name: str, options: RegionOptions
 
 def _spots(pieces: Sequence[Component], name: str) -> Iterator[str]:
     """Tell spots where the surface has no tangent plane."""
-    spots = [piece for piece in pieces if piece.singular]
-    if spots:
-        places = [_place(piece) for piece in spots]
+    singular = (piece for piece in pieces if piece.singular)
+    # Lines of several levels meet in one spot.
+    places = list(dict.fromkeys(_place(spot) for piece in singular for spot in piece.spots))
+    if places:
         yield (
             f"{name[0].upper()}{name[1:]} has no tangent plane at "
-            f"{_plural(len(spots), 'spot', 'spots')} ({listed(places)}): "
+            f"{_plural(len(places), 'spot', 'spots')} ({listed(places)}): "
             "the lines that end there are none of its shape."
         )
 
 
-def _place(piece: Component) -> str:
+def _place(spot: FloatArray) -> str:
     """Give the place of a spot in space."""
-    x, y, z = np.mean(np.concatenate(piece.xyz), axis=0)
+    x, y, z = spot
     return f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
 
 

@@ -164,6 +164,15 @@ def test_plates_have_their_class_and_roll_axis(shell: Plates, lines_of: Lines) -
         assert min(off, 180.0 - off) < 1e-6
 
 
+def test_plates_may_have_a_band_each(lines_of: Lines) -> None:
+    """The block tells the least and the largest K0; each plate has the lines of its own."""
+    found = ah.plates([bezier("P08_wavy_plate"), bezier("P12_bowl")], breadth=None)
+    figure = curvature_figure(found, views=["plan"])
+    k0 = [plate.k0 for plate in found]
+    assert f"{min(k0):.3g} to {max(k0):.3g} 1/m²" in words(figure, "label/block")
+    assert len(lines_of(figure, f"P08_wavy_plate/plan/line/{k0[0]:g}")) == 1
+
+
 def test_a_picture_in_plan_sees_the_side_of_the_normal() -> None:
     """Seen from there a net runs anticlockwise from u to v; from behind it is mirrored."""
     net = patch("P12_bowl")

@@ -136,5 +136,8 @@ def test_extremes_of_strain_are_named(flat: Development) -> None:
              if text.get_gid() == "label/extreme/strain along"}  # fmt: skip
     ends = flat.longitudinal.min(), flat.longitudinal.max()
     assert named == {f"{1e3 * end:+.2f}‰".replace("-", "−") for end in ends}
+    bar = [text.get_text() for text in figure.axes[0].texts if text.get_gid() == "label/bar"]
+    (high,) = (float(each[1:-1]) for each in bar if each.startswith("+"))
+    assert 1.0 <= high / (1e3 * flat.largest_strain) < 4.0 / 3.0 + 1e-9
     with pytest.raises(BadInputError, match="Development"):
         development_figure("flat")  # type: ignore[arg-type]

@@ -19,7 +19,7 @@ from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface import solving
-from tests.curved_patches import graph_plates, patch
+from tests.curved_patches import patch, random_nets
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 
@@ -134,13 +134,16 @@ def test_notes_tell_a_search_that_ended() -> None:
 
 
 def test_notes_tell_spots_without_a_tangent_plane() -> None:
-    """A patch pinched inside has a false zero of the curvature there: it is told apart."""
-    net = graph_plates(1, 1)[0].copy()
-    net[1:3, 1:3] = net[1:3, 1:3].mean(axis=(0, 1))
-    net[1, 1:3, 0], net[2, 1:3, 0] = net[2, 1, 0] + 1.2, net[1, 1, 0] - 1.2
-    result = ah.curvature_regions(net, zero="exact", delta=0.0)
+    """K has false zeros there: they are told apart, by their places, once for all levels."""
+    net = random_nets(6, 1)[5]
+    result = ah.curvature_regions(net, zero="exact", delta=0.0, levels=(1.0,))
     singular = [piece for piece in result.components if piece.singular]
-    assert bool(singular) == any("no tangent plane" in note for note in result.notes)
+    assert [(piece.level, piece.kind) for piece in singular] == [(0, "junction"), (1, "junction")]
+    ((x, y, z),) = singular[0].spots
+    (note,) = result.notes
+    assert f"no tangent plane at 1 spot (x {x:.3f}, y {y:.3f}, z {z:.3f} m)" in note
+    ends = np.concatenate([line[[0, -1]] for line in singular[0].xyz])
+    assert np.linalg.norm(ends - [x, y, z], axis=1).min() < 1e-3
 
 
 def test_notes_tell_lines_that_end_at_knots() -> None:

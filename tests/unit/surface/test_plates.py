@@ -125,6 +125,19 @@ def test_strain_is_that_of_the_breadth() -> None:
     assert plate.heating
 
 
+def test_weights_are_part_of_the_shape() -> None:
+    """A quarter of a tube as a conic: rolled to its radius, laid flat to its girth."""
+    net = np.zeros((3, 2, 3))
+    net[..., :2] = np.array([[2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])[:, None]
+    net[:, 1, 2] = 6.0
+    weights = np.array([[1.0], [np.sqrt(0.5)], [1.0]]) * np.ones((1, 2))
+    plate = ah.plates(SplineSurface.bezier(net, "quarter", weights))[0]
+    assert plate.kind == "cylinder"
+    assert plate.area == pytest.approx(6.0 * np.pi, rel=1e-9)
+    assert [plate.least_radius, plate.largest_radius] == pytest.approx([2.0, 2.0])
+    assert plate.development((9, 9)).size == pytest.approx([6.0, np.pi], rel=1e-4)
+
+
 def test_a_band_for_each_breadth() -> None:
     """breadth=None gives each plate the K0 of its own breadth; the notes tell a plate that is too
     broad for the common one.
@@ -235,6 +248,7 @@ def test_the_table_has_all_columns_once(shell: Plates) -> None:
     for head in ("plate", "K0", "convex", "class", "axis", "int |K|", "strain", "lines"):
         assert head in printed[0]
     assert all(name in line for name, line in zip(NAMES, printed[2:], strict=False))
+    assert "2.5e-04" in printed[2 + NAMES.index("P09_bow_plate")]
     assert "K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)" in str(shell)
 
 

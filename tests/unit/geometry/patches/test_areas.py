@@ -80,7 +80,9 @@ def test_the_estimate_is_no_smaller_than_the_error(name: str, tol: float) -> Non
     assert abs(got.zero[0] - known.zero) <= 1e-12 + got.error_estimate[0]
     if name == "P07_double_cross":
         assert got.negative[0] <= known.negative <= got.negative[0] + got.unresolved[0] + 1e-12
-        assert got.positive_estimate[0] == 0.0
+        assert got.positive_estimate[0] <= 1e-8
+        if tol <= 1e-8:
+            assert abs(got.negative_estimate[0] - known.negative) <= 1e-8
         return
     assert estimate <= tol
     if tol == 1e-10:

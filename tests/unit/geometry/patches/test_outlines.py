@@ -5,7 +5,7 @@ import pytest
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.cells import CellKind
-from assoc_hull.geometry.patches.outlines import Outlines, outlines
+from assoc_hull.geometry.patches.outlines import Outlines, Region, outlines, rest
 from assoc_hull.geometry.patches.sampling import sampled
 from tests.curved_patches import graph_plates, patch, random_nets
 from tests.unit.geometry.patches.isolines import monkey
@@ -18,7 +18,7 @@ REGIONS = CellKind.POSITIVE, CellKind.NEGATIVE, CellKind.ZERO, CellKind.UNRESOLV
 def drawn(found: Joined, kind: CellKind, chord_tol: float = 1e-3, across: bool = False) -> Outlines:
     """The outlines of a region with sampled arcs."""
     samples = sampled(found.patches, found.cells, found.arcs, chord_tol)
-    return outlines(found.patches, found.cells, found.arcs, kind, samples, across)
+    return outlines(found.patches, Region(found.cells, found.arcs, kind, samples), across)
 
 
 def enclosed(found: Joined, kind: CellKind) -> FloatArray:
@@ -98,6 +98,22 @@ def test_outlines_of_a_patch_do_not_depend_on_the_batch() -> None:
         assert len(mine) == len(alone)
         for i, loop in enumerate(mine.tolist()):
             np.testing.assert_allclose(together.loop(loop), alone.loop(i), rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("across", [False, True], ids=["patch by patch", "merged"])
+def test_what_a_band_leaves(across: bool) -> None:
+    """Where the curvature lies within a band, beside what lies above it and what below."""
+    patches = spline(3).patches()
+    size, taken = 0.0, []
+    for level, kind in ((0.02, CellKind.POSITIVE), (-0.02, CellKind.NEGATIVE)):
+        found = join(patches, level)
+        samples = sampled(patches, found.cells, found.arcs, 1e-3)
+        taken.append(Region(found.cells, found.arcs, kind, samples))
+        size += outlines(patches, taken[-1], across).enclosed.sum()
+    band = rest(patches, taken, across)
+    assert size + band.enclosed.sum() == pytest.approx(15.0, abs=1e-12)
+    assert 0.2 < band.enclosed.sum() < 10.0
+    assert rest(patches, [], True).enclosed.tolist() == [15.0]
 
 
 def test_a_region_that_is_not_there_has_no_outline() -> None:
