@@ -20,6 +20,8 @@ from assoc_hull.geometry.patches.areas import Areas, areas
 from assoc_hull.geometry.patches.curvature_functions import gauss_function
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.solve import solve
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.surface.curvature_regions import curvature_regions
 from benchmarks.clock import Figure, side_by_side
 from tests.curved_patches import graph_plates, patch, references
 
@@ -150,12 +152,14 @@ def figures(quick: bool = False) -> list[Figure]:
     rounds = 3 if quick else 9
     nets = cut_plates(4 * COUNT if quick else 16 * COUNT)
     few, more = nets[:COUNT], nets[: 4 * COUNT]
+    surfaces = [SplineSurface.bezier(net) for net in few]
     jobs: dict[str, Callable[[], object]] = {
         "batch": lambda: regions(few),
         "single": lambda: [regions(net[None]) for net in few],
         "band": lambda: [regions(few, level=level) for level in (0.00128, -0.00128)],
         "more": lambda: regions(more),
         "fine": lambda: regions(few, 1e-10),
+        "public": lambda: curvature_regions(surfaces, zero="exact"),
     }
     peers: dict[str, Nodes] = {
         "NdBSpline": by_nd_spline, "FITPACK": by_fitpack, "matrices": by_matrices,
@@ -174,6 +178,10 @@ def figures(quick: bool = False) -> list[Figure]:
         ),
         Figure("100 x 100 nodes by FITPACK / batch", found["FITPACK"] / found["batch"], "x", 1.0),
         Figure("100 x 100 nodes by basis matrices / batch", found["matrices"] / found["batch"]),
+        Figure(
+            "with lines of K = 0 and results (ah.curvature_regions) / batch",
+            found["public"] / found["batch"],
+        ),
         Figure("tolerance 1e-10 / 1e-6", found["fine"] / found["batch"]),
         Figure("both sides of a band / K = 0", found["band"] / found["batch"]),
         Figure("240 plates / 60", found["more"] / found["batch"], "x", 4.8, "most"),

@@ -15,12 +15,15 @@ Examples
 
 from __future__ import annotations
 
+import contextlib
+from collections import Counter
 from itertools import chain
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.iges_file import UNITS, IgesFile
-from assoc_hull.io.iges_parts import KINDS, Part, left_out, parts_of
+from assoc_hull.io.iges_parts import Part, left_out, parts_of
+from assoc_hull.io.iges_record import Record
 from assoc_hull.io.iges_spline import SurfaceData, spline_surface
 from assoc_hull.io.iges_transform import NOTHING, Motion, motion_of
 from assoc_hull.io.iges_trim import borders_of_face, is_box, parameter_curves
@@ -64,11 +67,15 @@ def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
     shown = [part for part in parts if not part.hidden]
     if not shown:
         raise _nothing(file, parts)
-    data = [spline_surface(file.record(part.surface)) for part in shown]
+    records = [file.record(part.surface) for part in shown]
+    data = [spline_surface(record) for record in records]
     for part, each in zip(shown, data, strict=True):
         _require_untrimmed(file, part, each)
     motions = [_motion(file, part) for part in shown]
-    names = _names(file, shown, data)
+    properties = [
+        _property(file, record, each.after) for record, each in zip(records, data, strict=True)
+    ]
+    names = _names(file, shown, properties)
     found = [
         _surface(each, motion, metres, called)
         for each, motion, called in zip(data, motions, names, strict=True)
@@ -114,11 +121,11 @@ def _require_untrimmed(file: IgesFile, part: Part, data: SurfaceData) -> None:
         what = f"it has {len(borders) - 1} holes"
     else:
         found = [parameter_curves(file, each) for each in curves]
-        if all(found) and is_box(list(chain.from_iterable(found)), data.spans):
+        if all(found) and is_box(list(chain.from_iterable(found)), data.spans, data.points):
             return
         what = "its border is not that of the whole surface"
     raise BadInputError(
-        f"this {KINDS[entry.kind]} is trimmed: {what}", file.where(entry),
+        f"this surface is trimmed: {what}", file.where(entry),
         "export the surface untrimmed; trimmed ones need the extra 'cad', and are not read yet",
     )  # fmt: skip
 
@@ -150,22 +157,30 @@ def _surface(data: SurfaceData, motion: Motion, metres: float, name: str) -> Spl
     return found if found.domain == data.spans else found.restricted(*data.spans)
 
 
-def _names(file: IgesFile, parts: list[Part], data: list[SurfaceData]) -> list[str]:
+def _names(file: IgesFile, parts: list[Part], properties: list[str]) -> list[str]:
     """Give each surface its name in the file, or a number; none comes twice."""
-    found: list[str] = []
-    for place, (part, each) in enumerate(zip(parts, data, strict=True), start=1):
-        owned = [_property(file, part.surface, each.after)]
+    found: dict[str, None] = {}
+    count: Counter[str] = Counter()
+    for place, (part, owned) in enumerate(zip(parts, properties, strict=True), start=1):
         labels = [file.entries[number].label for number in reversed(part.chain[:2])]
-        name = next((word for word in (*owned, *labels) if word), f"surface {place}")
-        name = "".join(letter for letter in name if letter.isprintable())
-        again = sum(other == name or other.startswith(f"{name} (") for other in found)
-        found.append(f"{name} ({again + 1})" if again else name)
-    return found
+        told = (_readable(word) for word in (owned, *labels))
+        first = name = next((word for word in told if word), f"surface {place}")
+        while name in found:
+            count[first] += 1
+            name = f"{first} ({count[first] + 1})"
+        found[name] = None
+    return list(found)
 
 
-def _property(file: IgesFile, number: int, after: int) -> str:
+def _readable(name: str) -> str:
+    """Give a name as it was meant: the file is taken byte by byte, and a letter may be two."""
+    with contextlib.suppress(UnicodeError):
+        name = name.encode("latin-1").decode("utf-8")
+    return "".join(letter for letter in name if letter.isprintable()).strip()
+
+
+def _property(file: IgesFile, record: Record, after: int) -> str:
     """Give the name that a property, entity 406 of form 15, gives a surface."""
-    record = file.record(number)
     if len(record) <= after + 1:
         return ""
     groups = record.count(after, "the number of groups", len(file.entries))

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -23,6 +24,9 @@ from assoc_hull.io.iges_record import Record
 __all__ = ["CurveData", "SurfaceData", "spline_curve", "spline_surface"]
 
 _MOST_POINTS, _MOST_DEGREE = 100_000, 25
+
+_POINT = 1e-9
+"""A side of this part of the size of a surface is a point."""
 
 
 @attrs.frozen(eq=False)
@@ -76,6 +80,30 @@ class SurfaceData:
     net: FloatArray
     spans: tuple[tuple[float, float], tuple[float, float]]
     after: int
+
+    @property
+    def points(self) -> NDArray[np.bool_]:
+        """Whether it is a point along the sides of least u, greatest u; least v, greatest v.
+
+        Only of surfaces that are not bounded within their knots, which are repeated at the ends.
+        """
+        size = float(np.ptp(self.net.reshape(-1, 3), axis=0).max())
+        rows = ((self.net[0], self.net[-1]), (self.net[:, 0], self.net[:, -1]))
+        found = [
+            [
+                bool(
+                    np.ptp(row, axis=0).max() <= _POINT * size
+                    and each[0] == each[degree]
+                    and each[-1] == each[-1 - degree]
+                    and tuple(span) == (each[0], each[-1])
+                )
+                for row in pair
+            ]
+            for pair, each, degree, span in zip(
+                rows, self.knots, self.degrees, self.spans, strict=True
+            )
+        ]
+        return np.array(found)
 
 
 def spline_curve(record: Record) -> CurveData:

@@ -21,6 +21,7 @@ Examples
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
@@ -40,7 +41,7 @@ _MOST = 10_000
 _AGAIN = "export the file again"
 
 
-def is_box(pieces: list[FloatArray], box: Box) -> bool:
+def is_box(pieces: list[FloatArray], box: Box, points: NDArray[np.bool_] | None = None) -> bool:
     """Tell whether pieces of a closed border are the sides of a box.
 
     Parameters
@@ -49,9 +50,12 @@ def is_box(pieces: list[FloatArray], box: Box) -> bool:
         Control points of each piece.
     box : ((float, float), (float, float))
         The least and greatest u, and v.
+    points : (2, 2) bool or None
+        Whether the surface is a point along the side of least u, greatest u, least v, greatest v:
+        of such a side a border need not speak.
     """
     low, high = (np.array(ends) for ends in zip(*box, strict=True))
-    covered = np.zeros((2, 2))
+    covered = np.zeros((2, 2)) if points is None else points.astype(np.float64)
     for piece in pieces:
         place = (piece - low) / (high - low)
         on = (np.abs(place[:, :, None] - [0.0, 1.0]) < _NEAR).all(axis=0)

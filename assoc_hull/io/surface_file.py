@@ -114,6 +114,8 @@ def _text_of(path: Path) -> str:
         raise BadInputError(what, where, "export fewer surfaces")
     if not data.strip():
         raise BadInputError("there is nothing in the file", where, "give one with surfaces")
+    if looks_like_iges(data[:2000].decode("latin-1")):
+        return data.decode("latin-1")  # columns are bytes there
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

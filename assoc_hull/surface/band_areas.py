@@ -44,7 +44,7 @@ def band_areas(upper: FloatArray, lower: FloatArray) -> FloatArray:
     below = lower[:, 1]
     between = not_above - below - lower[:, 3]
     zero = np.maximum(between, 0.0)
-    unresolved = upper[:, 3] + lower[:, 3] + np.minimum(between, 0.0)
+    unresolved = np.maximum(upper[:, 3] + lower[:, 3] + np.minimum(between, 0.0), 0.0)
     return np.column_stack([
         above, below, zero, unresolved, upper[:, 4], lower[:, 5], upper[:, 6] + lower[:, 6],
         upper[:, 7],

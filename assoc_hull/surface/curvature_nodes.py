@@ -44,6 +44,8 @@ class CurvatureNodes:
         The area that each node stands for.
     gauss : (k, q, q), 1/m2
         Gaussian curvature; nil where there is no normal.
+    mean : (k, q, q), 1/m
+        Mean curvature, positive where the surface bends towards its normal; nil likewise.
     bent : (k, q, q), 1/m
         The larger principal curvature in amount, without sign.
     other : (k, q, q), 1/m
@@ -56,13 +58,14 @@ class CurvatureNodes:
     normal: FloatArray
     area: FloatArray
     gauss: FloatArray
+    mean: FloatArray
     bent: FloatArray
     other: FloatArray
     bending: FloatArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.place, self.normal, self.area, self.gauss)
-        freeze(self.bent, self.other, self.bending)
+        freeze(self.mean, self.bent, self.other, self.bending)
 
 
 def map_value(gauss: FloatArray, k0: float) -> FloatArray:
@@ -106,6 +109,7 @@ def curvature_nodes(patches: Patches, count: int = COUNT) -> CurvatureNodes:
     normal = np.nan_to_num(found.normal) * area[:, None]
     values = (
         found.position, normal, area, np.where(there, found.gauss, 0.0),
+        np.where(there, found.mean, 0.0),
         amount[rows, larger], amount[rows, 1 - larger], bending,
     )  # fmt: skip
     return CurvatureNodes(*(value.reshape(k, count, count, *value.shape[1:]) for value in values))

@@ -64,8 +64,8 @@ def curvature_regions(
     k0 : float, 1/m2
         Half the width of the band of the mode "absolute", which alone uses it.
     delta : float, m
-        What each coordinate of a control point may be off by. In the mode "exact" 1e-9 of the
-        diagonal of each Bezier patch's own box by default, with a band 0.
+        What each coordinate of a control point may be off by; its rounding at least. In the mode
+        "exact" 1e-9 of the diagonal of each Bezier patch's own box by default, with a band 0.
     area_tol : float
         Tolerance of areas, relative to that of each patch (quadrature), 1e-13 to 0.1.
     depth : int

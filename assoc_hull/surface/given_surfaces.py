@@ -70,14 +70,14 @@ def given_surfaces(
     for number, surface in enumerate(surfaces):
         if not isinstance(surface, SplineSurface):
             what = f"surfaces[{number}] is {shown(surface)}"
-            raise WrongTypeError(what, where, "give SplineSurface objects")
+            raise WrongTypeError(what, where, "give SplineSurface objects, or one net as an array")
     return tuple(surfaces)
 
 
 def name_of(surfaces: Sequence[SplineSurface], number: int) -> str:
-    """Give what a surface is called in messages."""
+    """Give what a surface is called in messages: its name, or its number, counted from one."""
     name = surfaces[number].name
-    return f"surface {number} ({name!r})" if name else f"surface {number}"
+    return f"surface {name!r}" if name else f"surface {number + 1}"
 
 
 def batches_of(surfaces: Sequence[SplineSurface]) -> tuple[Batch, ...]:
@@ -118,7 +118,7 @@ def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[Batch]) ->
         for row in np.flatnonzero(normal <= _FLAT * diagonals(batch.patches) ** 2)[:1]:
             which = name_of(surfaces, int(batch.patches.surface[row]))
             raise BadInputError(
-                f"patch {batch.number[row]} has no area: r_u x r_v is nil everywhere",
+                f"patch {batch.number[row] + 1} has no area: r_u x r_v is nil everywhere",
                 f"in {which}",
                 "leave it out, or move control points off the line they lie on",
             )

@@ -67,7 +67,7 @@ class Plate:
         How well the directions of bending agree, 0 to 1; of noise on a flat plate.
     least_radius, largest_radius : float or None, m
         One over the larger principal curvature, where it is most and where it is least; None
-        where it is not bent (above 1,000 km).
+        above 1,000 km, and no largest one where a part is flat.
     total_curvature : float
         The integral of |K| dA, nil for developable plates.
     mean_strain, largest_strain : float
@@ -181,7 +181,8 @@ class Plate:
             axis = "no roll axis"
         else:
             axis = f"roll axis {self.roll_axis:.1f} deg"
+        strain = self.mean_strain if self.mean_strain > 1e-12 else 0.0  # rounding of nil
         return (
             f"{self.name}: {self.length:.2f} x {self.breadth:.2f} m, {self.area:.3f} m2, "
-            f"{self.kind}, order {self.order}, {axis}, mean strain {self.mean_strain:.1e}"
+            f"{self.kind}, order {self.order}, {axis}, mean strain {strain:.1e}"
         )

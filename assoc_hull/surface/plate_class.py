@@ -11,11 +11,9 @@ Examples
 from __future__ import annotations
 
 import attrs
-import numpy as np
-from numpy.typing import NDArray
 
-from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.surface.curvature_nodes import CurvatureNodes
+from assoc_hull.surface.flat_share import flat_share
 from assoc_hull.surface.region_areas import RegionAreas
 
 __all__ = ["KINDS", "Shares", "shares_of"]
@@ -38,8 +36,8 @@ class Shares:
     saddle : float
         Where K < -K0.
     cylinder : float
-        Where |K| <= K0, but bent. Parted from `flat` by samples: off by about 1/24 of a patch's
-        share along the border between both.
+        Where |K| <= K0, but bent. Parted from `flat` by samples, 128 each way on a patch: the
+        border between both may be off by half a step.
     flat : float
         Where |K| <= K0, and no curvature exceeds that of the sagitta which is neglected.
     unresolved : float
@@ -88,20 +86,13 @@ def shares_of(areas: RegionAreas, nodes: CurvatureNodes, k0: float, flat_bend: f
     nodes : CurvatureNodes
         Those of all its patches.
     k0 : float, 1/m2
-        Half the width of the band; with 0 all nodes tell which part of the zero region is flat.
+        Half the width of the band; with 0 all samples tell which part of the zero region is flat.
     flat_bend : float, 1/m
         The principal curvature up to which a plate counts as flat.
     """
-    inside = nodes.area > 0.0 if k0 == 0.0 else abs(nodes.gauss) <= k0
-    flat = _part(nodes.area, inside & (nodes.bent <= flat_bend), inside)
+    flat = flat_share(nodes, k0, flat_bend)
     zero = areas.zero_share
     return Shares(
         areas.positive_share, areas.negative_share, zero * (1.0 - flat), zero * flat,
         areas.unresolved_share,
     )  # fmt: skip
-
-
-def _part(area: FloatArray, these: NDArray[np.bool_], those: NDArray[np.bool_]) -> float:
-    """Give the area of some nodes as a part of that of others, 0 of none."""
-    whole = float((area * those).sum())
-    return float((area * these).sum()) / whole if whole > 0.0 else 0.0

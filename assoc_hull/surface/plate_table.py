@@ -15,7 +15,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import shown
+from assoc_hull.arguments import shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.surface.plate import Plate
 from assoc_hull.surface.plate_options import PlateOptions
@@ -23,6 +23,9 @@ from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.suggestions import CAVEAT
 
 __all__ = ["COLUMNS", "Column", "Plates"]
+
+_NIL = 1e-12
+"""Below this a number is printed as 0."""
 
 
 @attrs.frozen
@@ -128,7 +131,9 @@ class Plates:
         if isinstance(which, str):
             found = [plate for plate in self.rows if plate.name == which]
             if not found:
-                raise UnknownNameError("plate", which, tuple(plate.name for plate in self.rows))
+                raise UnknownNameError(
+                    "plate", shown_name(which), tuple(plate.name for plate in self.rows)
+                )
             if len(found) > 1:
                 what = f"{len(found)} plates are named {which!r}"
                 raise BadInputError(what, where, "give the number of one")
@@ -137,7 +142,7 @@ class Plates:
             raise WrongTypeError(f"a plate is {shown(which)}", where, "give a number or a name")
         if not -len(self.rows) <= which < len(self.rows):
             remedy = f"give 0 to {len(self.rows) - 1}"
-            raise BadInputError(f"there is no plate {which}", where, remedy)
+            raise BadInputError(f"there is no plate {shown(which)}", where, remedy)
         return self.rows[which]
 
     def result_of(self, number: int) -> RegionResult:
@@ -164,10 +169,11 @@ class Plates:
         UnknownNameError
             No such column.
         """
+        wanted = shown_name(name)
         for each in COLUMNS:
-            if each.name == name:
+            if each.name == wanted:
                 return [each.value(plate) for plate in self.rows]
-        raise UnknownNameError("column", str(name), tuple(each.name for each in COLUMNS))
+        raise UnknownNameError("column", wanted, tuple(each.name for each in COLUMNS))
 
     def table(self) -> list[dict[str, Any]]:
         """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
@@ -193,9 +199,11 @@ class Plates:
             yield "  ".join([first, *others]).rstrip()
 
     def _advice(self) -> Iterator[str]:
-        """Write the suggestion of each plate."""
+        """Write the suggestion of each plate, with rulings where no single axis serves."""
         for plate in self.rows:
             yield f"{plate.name}: {plate.suggestion}."
+            if plate.rollable and plate.kind != "flat" and plate.roll_axis is None:
+                yield f"  rulings: {plate.rulings(5)}"
 
     def _band(self) -> str:
         """Say what counted as no curvature."""
@@ -206,6 +214,8 @@ class Plates:
 
 
 def _cell(column: Column, plate: Plate) -> str:
-    """Write a value; a dash where there is none."""
+    """Write a value; a dash where there is none, 0 for what rounding leaves of nil."""
     value = column.value(plate)
+    if isinstance(value, float) and abs(value) < _NIL:
+        value = 0.0
     return "-" if value is None else format(value, column.style)

@@ -15,17 +15,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assoc_hull.arguments import instance
+from assoc_hull.arguments import choice, instance
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.curvature_regions import curvature_regions
-from assoc_hull.surface.given_surfaces import given_surfaces
+from assoc_hull.surface.given_surfaces import batches_of, given_surfaces, require_area
 from assoc_hull.surface.plate_of import Draft, draft, plate_of
 from assoc_hull.surface.plate_options import SAGITTA_TOL, SHARE, PlateOptions, plate_options
 from assoc_hull.surface.plate_table import Plates
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.seams import Seams, cut_at, seams_of
-from assoc_hull.surface.zero_band import BREADTH, STRAIN_TOL
+from assoc_hull.surface.zero_band import BREADTH, MODES, STRAIN_TOL
 
 __all__ = ["plates"]
 
@@ -116,8 +116,8 @@ def plates(
         instance(previous, Plates, "previous", _WHERE)
     drafts = _drafts(given, seams_of(seams, given, _WHERE))
     search = dict[str, Any](
-        zero=zero, strain_tol=strain_tol, k0=k0, delta=delta, area_tol=area_tol, depth=depth,
-        budget=budget, chord_tol=chord_tol,
+        zero=choice(zero, "zero", MODES, _WHERE), strain_tol=strain_tol, k0=k0, delta=delta,
+        area_tol=area_tol, depth=depth, budget=budget, chord_tol=chord_tol,
     )  # fmt: skip
     results = _results(drafts, search, options, previous)
     rows = tuple(
@@ -134,6 +134,8 @@ def _drafts(surfaces: tuple[SplineSurface, ...], seams: tuple[Seams, ...]) -> li
         for surface, own in zip(surfaces, seams, strict=True)
         for plate in cut_at(surface, own)
     ]
+    surfaces = tuple(surface for surface, _ in cut)
+    require_area(surfaces, batches_of(surfaces))
     return [
         draft(surface, surface.name or f"plate {number}", between)
         for number, (surface, between) in enumerate(cut, start=1)

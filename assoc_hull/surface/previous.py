@@ -19,6 +19,7 @@ import numpy as np
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.geometry.patches.gathering import gathered
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.surface.arc_points import ArcPoints
 from assoc_hull.surface.given_surfaces import Batch, Kind, kind_of
 from assoc_hull.surface.region_options import RegionOptions
 from assoc_hull.surface.region_parts import RegionPart, Solution
@@ -81,4 +82,7 @@ def _gathered(tables: Sequence[Solution], rows: IntArray) -> Solution:
     """Give what is known of chosen patches for one level."""
     cells, arcs = gathered([each.cells for each in tables], [each.arcs for each in tables], rows)
     edges = np.concatenate([each.edges for each in tables])[rows]
-    return Solution(tables[0].level, cells, arcs, edges)
+    before = np.cumsum([0, *(len(each.edges) for each in tables[:-1])])
+    patch = [each.cells.patch[each.arcs.cell] + n for each, n in zip(tables, before, strict=True)]
+    points = ArcPoints.gathered([each.points for each in tables], np.concatenate(patch), rows)
+    return Solution(tables[0].level, cells, arcs, points, edges)

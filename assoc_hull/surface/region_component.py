@@ -46,20 +46,27 @@ class Component:
         Of a junction, how many lines lead to it; of an open line 2, else 0.
     tags : tuple of str
         "singular": the surface has no tangent plane there, and the piece is none of the shape.
-        "knot-line": an end lies on a knot, where K jumps.
+        "knot-line": an end lies on a knot, where K jumps. "tangent": a line was followed through
+        cells that were not resolved, and in which it is proven to be one line. "flat": it meets
+        cells in which K has the value throughout, within what control points are known to. "gap":
+        it was followed where K has the value within rounding.
+    spots : (s, 3), m
+        Where unresolved cells, or such in which K counts as nil, belong to it: a point for each
+        group of cells that touch.
     """
 
     kind: str
     level: float
     surface: int
     patches: tuple[int, ...]
-    uv: tuple[FloatArray, ...]
-    xyz: tuple[FloatArray, ...]
+    uv: tuple[FloatArray, ...] = attrs.field(repr=False)
+    xyz: tuple[FloatArray, ...] = attrs.field(repr=False)
     ends: int
     tags: tuple[str, ...]
+    spots: FloatArray = attrs.field(factory=lambda: np.zeros((0, 3)), repr=False)
 
     def __attrs_post_init__(self) -> None:
-        freeze(*self.uv, *self.xyz)
+        freeze(self.spots, *self.uv, *self.xyz)
 
     @property
     def singular(self) -> bool:

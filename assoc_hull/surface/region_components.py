@@ -19,14 +19,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.chains import forward
 from assoc_hull.geometry.patches.components import Component as Joined
 from assoc_hull.geometry.patches.components import ComponentKind
 from assoc_hull.geometry.patches.gathering import rows_of
 from assoc_hull.geometry.patches.joining import joined
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.points import points
-from assoc_hull.geometry.patches.sampling import sampled
+from assoc_hull.geometry.patches.touching import clusters
 from assoc_hull.surface.edge_polylines import edge_polyline
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_options import RegionOptions
@@ -36,9 +35,6 @@ __all__ = ["components_of"]
 
 _SAME = 1e-9
 """In parameters of a patch: ends of arcs that are nearer are one point."""
-
-_MIDDLE = 0.8
-"""Of the tolerance: chords are judged by a point near their middle, not by the farthest one."""
 
 
 def components_of(parts: Sequence[RegionPart], options: RegionOptions) -> tuple[Component, ...]:
@@ -65,40 +61,24 @@ def _pieces(part: RegionPart, solution: Solution, chord_tol: float) -> list[Comp
     lines = joined(patches, solution.cells, solution.arcs, solution.edges)
     if not lines:
         return []
-    samples = _Samples.of(patches, solution, chord_tol)
+    samples = _Samples.of(patches, solution)
     return [_component(part, solution, samples, line, chord_tol) for line in lines]
 
 
 @attrs.frozen(eq=False)
 class _Samples:
-    """Points of all arcs, those of each in the direction of a walk with K above on the left.
-
-    Attributes
-    ----------
-    count : (a,) int
-        How many points each arc has.
-    place : (p, 2)
-        Parameters of the patch.
-    uv, xyz : (p, 2), (p, 3)
-        Parameters of the surface; points in space, m.
-    """
+    """Points of all arcs of a part: how many each has (a,), parameters of the surface, xyz."""
 
     count: IntArray
-    place: FloatArray
     uv: FloatArray
     xyz: FloatArray
 
     @classmethod
-    def of(cls, patches: Patches, solution: Solution, chord_tol: float) -> _Samples:
-        """Sample all arcs as finely as the tolerance wants."""
-        cells, arcs = solution.cells, solution.arcs
-        start, place = sampled(patches, cells, arcs, _MIDDLE * chord_tol)
-        count = np.diff(start)
-        rows, arc = rows_of(count, np.arange(len(arcs)))
-        last = start[arc] + start[arc + 1] - 1
-        place = place[np.where(forward(arcs)[arc], rows, last - rows)]
-        patch = cells.patch[arcs.cell][arc]
-        return cls(count, place, patches.parameters(patch, place), points(patches, patch, place))
+    def of(cls, patches: Patches, solution: Solution) -> _Samples:
+        """Put the points of arcs on their surface."""
+        found = solution.points
+        patch = np.repeat(solution.cells.patch[solution.arcs.cell], found.count)
+        return cls(found.count, patches.parameters(patch, found.place), found.xyz)
 
     def chain(self, arcs: IntArray, loop: bool) -> tuple[FloatArray, FloatArray]:
         """Give the polyline along some arcs; points that two of them share once."""
@@ -120,8 +100,9 @@ def _component(
 ) -> Component:
     """Give one component with its polylines."""
     patches = part.patches
+    spots = _spots(patches, solution, line.cells)
     if line.kind is ComponentKind.ISOLATED:
-        drawn = [_spot(patches, solution, line.cells)]
+        drawn = [(spots[0][:1], spots[1][:1])]
     elif line.kind is ComponentKind.EDGE_LINE:
         drawn = [edge_polyline(patches, *side, chord_tol) for side in _sides(line)]
     else:
@@ -136,6 +117,7 @@ def _component(
         tuple(xyz for _, xyz in drawn),
         _ends(line),
         line.tags,
+        spots[1],
     )
 
 
@@ -149,9 +131,15 @@ def _ends(line: Joined) -> int:
     return line.meetings if line.kind is ComponentKind.JUNCTION else len(line.end_kinds)
 
 
-def _spot(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Give the middle of the cell that is most in the middle of some."""
-    patch, middle = solution.cells.patch[rows], solution.cells.box[rows].mean(axis=2)
-    uv = patches.parameters(patch, middle)
-    best = [int(np.argmin(np.linalg.norm(uv - uv.mean(axis=0), axis=1)))]
-    return uv[best], points(patches, patch[best], middle[best])
+def _spots(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Give a point for each group of cells that touch: the middle of the one most in the middle."""
+    patch, box = solution.cells.patch[rows], solution.cells.box[rows]
+    low, high = (patches.parameters(patch, box[:, :, end]) for end in (0, 1))
+    group = clusters(low, high, _SAME)
+    middle = (low + high) / 2.0
+    sums = [np.bincount(group, middle[:, axis]) for axis in (0, 1)]
+    means = np.stack(sums, axis=1) / np.bincount(group)[:, None]
+    order = np.lexsort((np.linalg.norm(middle - means[group], axis=1), group))
+    best = order[np.unique(group[order], return_index=True)[1]]
+    place = box[best].mean(axis=2)
+    return patches.parameters(patch[best], place), points(patches, patch[best], place)

@@ -1,5 +1,7 @@
 """What is to be known of regions: searches that ended early, spots, knots, borders.
 
+Surfaces are told by their names, or by numbers; these, as those of patches, are counted from one.
+
 Examples
 --------
 >>> from assoc_hull.surface.region_notes import listed
@@ -11,8 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.given_surfaces import name_of
 from assoc_hull.surface.region_areas import RegionAreas
@@ -60,7 +61,7 @@ def _stops(part: RegionPart, number: int, name: str, options: RegionOptions) -> 
     """Tell searches that the budget ended."""
     own = part.patches.surface == number
     for each in part.solutions:
-        patches = part.number[own & each.cells.stopped].tolist()
+        patches = (part.number[own & each.cells.stopped] + 1).tolist()
         if patches:
             yield (
                 f"In {name} the search for K = {each.level:.4g} 1/m2 ended at its budget of "
@@ -83,19 +84,20 @@ def _unresolved(part: RegionPart, number: int, name: str, options: RegionOptions
 
 def _spots(pieces: Sequence[Component], name: str) -> Iterator[str]:
     """Tell spots where the surface has no tangent plane."""
-    spots = [piece for piece in pieces if piece.singular]
-    if spots:
-        places = [_place(piece) for piece in spots]
+    singular = (piece for piece in pieces if piece.singular)
+    # Lines of several levels meet in one spot.
+    places = list(dict.fromkeys(_place(spot) for piece in singular for spot in piece.spots))
+    if places:
         yield (
             f"{name[0].upper()}{name[1:]} has no tangent plane at "
-            f"{_plural(len(spots), 'spot', 'spots')} ({listed(places)}): "
+            f"{_plural(len(places), 'spot', 'spots')} ({listed(places)}): "
             "the lines that end there are none of its shape."
         )
 
 
-def _place(piece: Component) -> str:
+def _place(spot: FloatArray) -> str:
     """Give the place of a spot in space."""
-    x, y, z = np.mean(np.concatenate(piece.xyz), axis=0)
+    x, y, z = spot
     return f"x {x:.3f}, y {y:.3f}, z {z:.3f} m"
 
 
@@ -114,7 +116,7 @@ def _borders(pieces: Sequence[Component], name: str) -> Iterator[str]:
     for level in dict.fromkeys(piece.level for piece in pieces):
         lines = [piece for piece in pieces if piece.kind == "edge_line" and piece.level == level]
         if lines:
-            patches = sorted({patch for piece in lines for patch in piece.patches})
+            patches = sorted({patch + 1 for piece in lines for patch in piece.patches})
             yield (
                 f"In {name} K = {level:.4g} 1/m2 along {_plural(len(lines), 'border', 'borders')} "
                 f"of patches ({listed(patches)}): regions end there without a line of their own."

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.surface.arc_points import ArcPoints
 from assoc_hull.surface.region_areas import RegionAreas
 
 __all__ = ["AREAS", "RegionPart", "Solution"]
@@ -39,6 +40,8 @@ class Solution:
         Where K exceeds the level, where it is below, where neither is known.
     arcs : Arcs
         Where it has this value.
+    points : ArcPoints
+        Points along the arcs.
     edges : (k, 4) bool
         Along which sides of each patch (u = 0, u = 1, v = 0, v = 1) it has this value.
     """
@@ -46,6 +49,7 @@ class Solution:
     level: float
     cells: Cells
     arcs: Arcs
+    points: ArcPoints
     edges: NDArray[np.bool_]
 
     def __attrs_post_init__(self) -> None:

@@ -85,6 +85,11 @@ class Rulings:
     def __attrs_post_init__(self) -> None:
         freeze(self.station, self.angle_deg, self.radius)
 
+    def __str__(self) -> str:
+        """Give station, angle and radius of each stretch in a line."""
+        rows = zip(self.station, self.angle_deg, self.radius, strict=True)
+        return "; ".join(f"at {x:.2f} m {angle:.1f} deg R {r:.2f}" for x, angle, r in rows)
+
 
 def roll_axis(nodes: CurvatureNodes, axes: FloatArray) -> RollAxis:
     """Average the direction of the smaller principal curvature over a plate.

@@ -50,8 +50,9 @@ class ZeroBand:
     breadth : float or None, m
         The breadth of the strip that has this strain; None in other modes.
     delta : float or None, m
-        What a coordinate of a control point may be off by; None where it is 1e-9 of the diagonal
-        of each patch's own box, which is so in the mode "exact" if it is not given.
+        What a coordinate of a control point may be off by, besides its rounding; None where it is
+        1e-9 of the diagonal of each patch's own box, which is so in the mode "exact" if it is not
+        given.
     """
 
     mode: str

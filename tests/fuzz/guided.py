@@ -28,7 +28,15 @@ def _lines(text: str) -> object:
     return read_lines(text + "\n")
 
 
-READERS: dict[str, Callable[[str], object]] = {"offsets": _offsets, "lines": _lines}
+def _iges(text: str) -> object:
+    from assoc_hull.io.iges_read import surfaces_of_iges
+
+    return surfaces_of_iges(text, "file.igs")
+
+
+READERS: dict[str, Callable[[str], object]] = {
+    "offsets": _offsets, "lines": _lines, "iges": _iges
+}  # fmt: skip
 
 
 def main() -> None:

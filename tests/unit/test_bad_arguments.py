@@ -46,6 +46,7 @@ from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.io.classical.read import holds_definition, read_definition
 from assoc_hull.sources import Examples
+from assoc_hull.surface.seams import Seams
 from tests.formed import formed
 
 POINT, LINE, CURVE = "WL 2.5 x ST 3", "WL 2.5", "ST 3"
@@ -237,6 +238,15 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "levels": (-0.2,), "previous": None,
         },
     ),
+    "plates": (
+        ah.plates,
+        {
+            "surfaces": SADDLE, "seams": None, "zero": "absolute", "strain_tol": 1e-3,
+            "breadth": 2.5, "k0": 1e-3, "delta": 1e-9, "sagitta_tol": 0.003,
+            "sagitta_length": None, "share": 0.95, "suggestions": None, "area_tol": 1e-3,
+            "depth": 8, "budget": 600, "chord_tol": 0.1, "previous": None,
+        },
+    ),
     "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
     "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
@@ -369,7 +379,14 @@ MIDSHIP = Midship(8.0, 2.0, 0.2, 1.5)
 KEEL = KeelOutline.make(1, 9, [(0, 2), (1, 0)], [(9, 0), (10, 3)], [(1, 0), (9, 0)])
 SIDE = KnuckleLine.make([0, 10], [(8, 9), (8, 9)], [1])
 FRAME = through_points([(0, 0), (4, 0), (5, 3)])
+SHELL = ah.plates(SADDLE, area_tol=1e-3)
 CLASSICAL: dict[str, tuple[Callable[..., object], Given]] = {
+    "Seams": (Seams, {"u": (0.2, 0.4), "v": 0.5}),
+    "Plate.development": (SHELL[0].development, {"grid": (4, 3)}),
+    "Plate.rulings": (SHELL[0].rulings, {"count": 3}),
+    "Plates.column": (SHELL.column, {"name": "area"}),
+    "Plates.result_of": (SHELL.result_of, {"number": 0}),
+    "Plates.save": (SHELL.save, {"path": "no-such-folder/a.csv"}),
     "OrdinateSection.make": (
         OrdinateSection.make,
         {

@@ -28,7 +28,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.cells import CellKind, Cells
 from assoc_hull.geometry.patches.lattice import Lattice
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.patches.points import stretch
+from assoc_hull.geometry.patches.points import normals, stretch
 from assoc_hull.geometry.patches.touching import clusters, touching
 
 __all__ = ["Clusters", "clusters_of", "singular"]
@@ -37,6 +37,8 @@ TOUCHING = 1e-9
 
 # Where |r_u x r_v| is less than this part of its mean over the patch, the surface is singular.
 _SINGULAR = 1e-4
+# In a cell smaller than this a surface is as good as plane, unless it is singular there.
+_SMALL = 1e-3
 
 # Nil cells that cover less than this part of a patch are no region.
 _NARROW = 1e-4
@@ -92,9 +94,14 @@ class Clusters:
         return found
 
     @property
+    def small(self) -> NDArray[np.bool_]:
+        """Which clusters (n,) are widths of lines, no regions."""
+        return np.asarray(self.size < _NARROW)
+
+    @property
     def narrow(self) -> NDArray[np.bool_]:
-        """Which clusters (n,) are small, and nil throughout: widths of lines, no regions."""
-        return np.asarray(~self.unresolved & (self.size < _NARROW))
+        """Which clusters (n,) are small, and nil throughout."""
+        return np.asarray(~self.unresolved & self.small)
 
     def merged(self, number: IntArray) -> Clusters:
         """Give clusters by new numbers (n,), those of one number made one."""
@@ -188,12 +195,22 @@ def singular(patches: Patches, cells: Cells, found: Clusters) -> NDArray[np.bool
     Returns
     -------
     (n,) bool
-        Whether ``|r_u x r_v|`` falls below 1e-4 of its mean over the patch.
+        Whether in one of the cells ``|r_u x r_v|`` falls below 1e-4 of its mean over the patch, or
+        changes so much from the middle to a corner that it may be nil in between.
     """
-    patch = cells.patch[found.cell]
-    here = stretch(patches, patch, cells.box[found.cell].mean(axis=2))
+    patch, box = cells.patch[found.cell], cells.box[found.cell]
+    middle = normals(patches, patch, box.mean(axis=2))
+    corners = [
+        normals(patches, patch, np.stack([box[:, 0, i], box[:, 1, j]], axis=1))
+        for i in (0, 1)
+        for j in (0, 1)
+    ]
+    here = np.linalg.norm(middle, axis=1)
+    change = np.max([np.linalg.norm(each - middle, axis=1) for each in corners], axis=0)
     concerned, which = np.unique(patch, return_inverse=True)
     low = here < _SINGULAR * _means(patches, concerned)[which.reshape(-1)]
+    small = (box[:, :, 1] - box[:, :, 0]).max(axis=1, initial=0.0) < _SMALL
+    low |= small & (here < 2.0 * change)
     return np.asarray(np.bincount(found.cluster[low], minlength=len(found)) > 0)
 
 

@@ -40,21 +40,16 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches import curvature_terms, rational_terms
-from assoc_hull.geometry.patches.algebra import degrees, elevated, multiply
-from assoc_hull.geometry.patches.curvature_terms import Delta, Steps
+from assoc_hull.geometry.patches.bounded_terms import BoundedTerms, less, margin
+from assoc_hull.geometry.patches.curvature_terms import Delta
 from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = [
     "IsoFunction", "gauss_function", "gauss_functions", "mean_function", "umbilic_function",
 ]  # fmt: skip
 
-_EPS = 2.0**-53
 _CHUNK = 64
 """So many patches at once keep all coefficients in the cache of a processor."""
-
-_ELEVATION = 60.0
-"""Roundings of raising A to the degrees of |S|**4, and of the difference: for degree 7 about 50."""
 
 
 @attrs.frozen(eq=False)
@@ -76,102 +71,15 @@ class IsoFunction:
         freeze(self.b, self.err)
 
 
-@attrs.frozen(eq=False)
-class _Bounded:
-    """Coefficients with their amounts: as the control points are, and as they may be.
-
-    Attributes
-    ----------
-    b : (k, M + 1, N + 1)
-        The coefficients.
-    amount, wide : (k, M + 1, N + 1)
-        The amounts for control points that are exact, and that are off by delta; the same array
-        if all are exact.
-    steps : float
-        The roundings, with a margin.
-    share : (k, 1, 1)
-        What roundings count: 1 for exact control points, 3 for others, as then the difference of
-        both amounts is rounded too.
-    """
-
-    b: FloatArray
-    amount: FloatArray
-    wide: FloatArray
-    steps: float
-    share: FloatArray
-
-    @property
-    def err(self) -> FloatArray:
-        """What each coefficient may be off by."""
-        rounding = self.share * (self.steps * _EPS) * self.wide
-        return rounding if self.wide is self.amount else rounding + (self.wide - self.amount)
-
-    def times(self, other: _Bounded, steps: float) -> _Bounded:
-        """Give the product, with the roundings it has."""
-        amount = multiply(self.amount, other.amount)
-        exact = self.wide is self.amount
-        wide = amount if exact else multiply(self.wide, other.wide)
-        return _Bounded(multiply(self.b, other.b), amount, wide, steps, self.share)
-
-
-def _margin(steps: Steps, least: float) -> float:
-    """Give the factor of the rounding bound: a little above the count, at least that given."""
-    return max(least, 1.15 * steps.count)
-
-
-class _Bases:
-    """The terms of some patches: values, amounts, and amounts of what may be wrong."""
-
-    def __init__(self, patches: Patches, delta: Delta) -> None:
-        self.kind = curvature_terms if patches.weight is None else rational_terms
-        self.values = self.kind.values(patches)
-        self.amounts = self.kind.amounts(patches, 0.0)
-        self.wide = self.kind.amounts(patches, delta) if np.any(delta) else self.amounts
-        self.steps = self.kind.steps(*patches.degrees)
-        self.share = np.where(np.reshape(delta, (-1, 1, 1)) > 0.0, 3.0, 1.0)
-
-    def bounded(self, rule: Callable[..., FloatArray], name: str, least: float) -> _Bounded:
-        """Run a formula on values and amounts."""
-        b, amount = rule(self.values), rule(self.amounts)
-        wide = amount if self.wide is self.amounts else rule(self.wide)
-        return _Bounded(b, amount, wide, _margin(self.steps[name], least), self.share)
-
-    def gauss(self) -> _Bounded:
-        return self.bounded(self.kind.gauss_numerator, "gauss", 200.0)
-
-    def weighted(self, a: _Bounded) -> _Bounded:
-        """Give A times what |S|**4 has as its factor: w**4 on rational patches."""
-        if self.kind is curvature_terms:
-            return a
-        fourth = self.bounded(rational_terms.weight_fourth, "weight", 0.0)
-        return a.times(fourth, _margin(self.steps["gauss"].times(self.steps["weight"]), 0.0))
-
-    def area(self) -> _Bounded:
-        return self.bounded(self.kind.area_squared, "area", 120.0)
-
-    def mean(self) -> _Bounded:
-        return self.bounded(curvature_terms.mean_numerator, "mean", 200.0)
-
-    def quartic(self, area: _Bounded) -> _Bounded:
-        """Give |S|**4 of |S|**2."""
-        steps = self.steps["area"]
-        return area.times(area, _margin(steps.times(steps), 350.0))
-
-
-def _less(a: _Bounded, factor: float, b: _Bounded) -> tuple[FloatArray, FloatArray]:
-    """Give a - factor b, where b is of the higher degrees, and what it may be off by."""
-    m, n = degrees(b.b)
-    off = elevated(a.err, m, n) + _ELEVATION * _EPS * elevated(np.abs(a.b), m, n)
-    return elevated(a.b, m, n) - factor * b.b, off + abs(factor) * b.err
-
-
 def _chunks(
-    patches: Patches, delta: Delta, rule: Callable[[_Bases], list[tuple[FloatArray, FloatArray]]]
+    patches: Patches,
+    delta: Delta,
+    rule: Callable[[BoundedTerms], list[tuple[FloatArray, FloatArray]]],
 ) -> tuple[IsoFunction, ...]:
     """Run a rule on so many patches at once as fit the cache, and put the results together."""
     each = np.broadcast_to(np.asarray(delta, np.float64), len(patches))
     parts = [slice(low, low + _CHUNK) for low in range(0, len(patches), _CHUNK)] or [slice(0)]
-    found = [rule(_Bases(patches[part], each[part])) for part in parts]
+    found = [rule(BoundedTerms(patches[part], each[part])) for part in parts]
     return tuple(
         IsoFunction(*(np.concatenate([pair[i] for pair in column]) for i in (0, 1)))
         for column in zip(*found, strict=True)
@@ -211,12 +119,12 @@ def gauss_functions(
     (-1.0, 1.0)
     """
 
-    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
-        a = bases.gauss()
+    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
+        a = terms.gauss()
         if not any(levels):
             return [(a.b, a.err)] * len(levels)
-        raised, quartic = bases.weighted(a), bases.quartic(bases.area())
-        return [_less(raised, level, quartic) if level else (a.b, a.err) for level in levels]
+        raised, quartic = terms.weighted(a), terms.quartic(terms.area())
+        return [less(raised, level, quartic) if level else (a.b, a.err) for level in levels]
 
     return _chunks(patches, delta, rule)
 
@@ -285,15 +193,15 @@ def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> I
     """
     _require_polynomial(patches)
 
-    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
-        b = bases.mean()
+    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
+        b = terms.mean()
         if level == 0.0:
             return [(b.b, b.err)]
-        area, steps = bases.area(), bases.steps
-        square = b.times(b, _margin(steps["mean"].times(steps["mean"]), 500.0))
+        area, steps = terms.area(), terms.steps
+        square = b.times(b, margin(steps["mean"].times(steps["mean"]), 500.0))
         four = steps["area"].times(steps["area"])
-        sextic = bases.quartic(area).times(area, _margin(four.times(steps["area"]), 600.0))
-        return [_less(square, 4.0 * level**2, sextic)]
+        sextic = terms.quartic(area).times(area, margin(four.times(steps["area"]), 600.0))
+        return [less(square, 4.0 * level**2, sextic)]
 
     return _chunks(patches, delta, rule)[0]
 
@@ -330,11 +238,11 @@ def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
     """
     _require_polynomial(patches)
 
-    def rule(bases: _Bases) -> list[tuple[FloatArray, FloatArray]]:
-        b, steps = bases.mean(), bases.steps
-        square = b.times(b, _margin(steps["mean"].times(steps["mean"]), 500.0))
+    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
+        b, steps = terms.mean(), terms.steps
+        square = b.times(b, margin(steps["mean"].times(steps["mean"]), 500.0))
         both = steps["gauss"].times(steps["area"])
-        product = bases.gauss().times(bases.area(), _margin(both, 500.0))
-        return [_less(square, 4.0, product)]
+        product = terms.gauss().times(terms.area(), margin(both, 500.0))
+        return [less(square, 4.0, product)]
 
     return _chunks(patches, delta, rule)[0]

@@ -38,9 +38,6 @@ _EPS = 2.0**-53
 _POLE = 1e-9
 """Where |S| is below this part of what the control points let expect, there is no curvature."""
 
-_UMBILIC = 1e-9
-"""Principal curvatures that differ by less than this part of the greater one are equal."""
-
 
 @attrs.frozen(eq=False)
 class Curvatures:
@@ -116,7 +113,7 @@ def curvatures(patches: Patches, row: IntArray, uv: FloatArray) -> Curvatures:
     noise = _noise(patches, row, jet, width)
     middle, half = (form[0] + form[2]) / 2.0, np.hypot((form[0] - form[2]) / 2.0, form[1])
     principal = np.stack([middle + half, middle - half], axis=-1)
-    umbilic = half <= _UMBILIC * np.abs(middle) + noise
+    umbilic = half <= noise
     angle = np.where(umbilic, np.nan, 0.5 * np.arctan2(2.0 * form[1], form[0] - form[2]))
     cosine, sine = np.cos(angle), np.sin(angle)
     turned = np.stack([np.stack([cosine, sine], -1), np.stack([-sine, cosine], -1)], axis=1)
@@ -147,7 +144,7 @@ def _frame(jet: Jets, width: FloatArray) -> FloatArray:
 
 
 def _noise(patches: Patches, row: IntArray, jet: Jets, width: FloatArray) -> FloatArray:
-    """Bound the curvature that rounding of control points makes, 1/m."""
+    """Bound the curvature that rounding of control points makes, 1/m: less is no difference."""
     m, n = patches.degrees
     size = np.abs(patches.net).max(axis=(1, 2, 3))[row]
     off = 16.0 * _EPS * size * (m * np.sqrt(inner(jet.rv, jet.rv))) ** 2

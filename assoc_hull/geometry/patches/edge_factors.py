@@ -47,7 +47,7 @@ def _quotients(degree: int) -> FloatArray:
 
 def _leading(dead: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Count the leading true values of each row; none where all are true."""
-    return np.where(dead.all(axis=1), 0, np.argmin(dead, axis=1))
+    return np.asarray(np.argmin(dead, axis=1))
 
 
 def without_edge_lines(pair: FloatArray) -> FloatArray:

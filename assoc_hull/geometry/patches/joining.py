@@ -86,7 +86,8 @@ def _labels(links: Links) -> tuple[IntArray, IntArray, int]:
     clusters = links.landings.clusters
     joints, arcs, count = links.joints, len(links.following), len(links.joints)
     numbers, on = np.arange(arcs), links.following >= 0
-    meets = (links.landings.kind == JUNCTION)[joints.joint] & ~joints.short[:, None]
+    shared = (links.landings.kind == JUNCTION) | (links.landings.cluster >= 0)
+    meets = shared[joints.joint] & ~joints.short[:, None]
     at = np.flatnonzero(links.landings.cluster >= 0)
     pairs = [np.stack([numbers[on], links.following[on]], axis=1)]
     pairs += [np.stack([numbers, arcs + joints.joint[:, i]], axis=1)[meets[:, i]] for i in (0, 1)]

@@ -199,9 +199,7 @@ def pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
     rows = np.repeat(known, degree + 1)
     local = points[rows[:, None] + np.arange(-degree, 1)]
     found = blossom(local, knots, degree, rows, at.reshape(-1, degree))
-    found = found.reshape(len(known), degree + 1, *points.shape[1:]) + 0.0
-    found[1:, 0] = found[:-1, -1]
-    return found
+    return found.reshape(len(known), degree + 1, *points.shape[1:])
 
 
 def _inserted(

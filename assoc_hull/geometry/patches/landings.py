@@ -81,7 +81,9 @@ class Landings:
         kind[cluster >= 0] = JUNCTION
         found = cls(kind, clusters, cluster, np.zeros(len(clusters), bool))
         lost = joints.free & (kind == NOWHERE)
-        return found._over_gaps(lattice, cells, arcs, joints, points, lost) if lost.any() else found
+        if lost.any():
+            found = found._over_gaps(lattice, cells, arcs, joints, points, lost)
+        return found._on_borders(lattice, cells, joints)
 
     @property
     def leads_on(self) -> NDArray[np.bool_]:
@@ -110,6 +112,28 @@ class Landings:
         over_gaps = np.zeros(max(len(clusters), int(cluster.max(initial=-1)) + 1), bool)
         over_gaps[gaps.cluster[gaps.cluster >= 0]] = True
         return Landings(kind, clusters, cluster, over_gaps)
+
+    def _on_borders(self, lattice: Lattice, cells: Cells, joints: Joints) -> Landings:
+        """Let a line that is the only one at a small cluster on a border end on that border."""
+        count = len(self.clusters)
+        at = np.flatnonzero((self.cluster >= 0) & (self.cluster < count))
+        lines = np.bincount(self.cluster[at], (joints.heads + joints.tails)[at], minlength=count)
+        border = _borders(lattice, cells, self.clusters)
+        border[(lines != 1) | ~self.clusters.small] = -1
+        kind = self.kind.copy()
+        kind[at] = np.where(border[self.cluster[at]] >= 0, border[self.cluster[at]], kind[at])
+        return Landings(kind, self.clusters, self.cluster, self.over_gaps)
+
+
+def _borders(lattice: Lattice, cells: Cells, clusters: Clusters) -> IntArray:
+    """Tell on which border each cluster lies: that of a surface, that of patches, or -1."""
+    patch, box = cells.patch[clusters.cell], cells.box[clusters.cell]
+    sides = lattice.sides(box[:, :, 0]) | lattice.sides(box[:, :, 1])
+    found = np.full(len(clusters), -1)
+    inner, outer = sides & lattice.neighbours[patch], sides & ~lattice.neighbours[patch]
+    found[clusters.cluster[inner.any(axis=1)]] = _KNOT_LINE
+    found[clusters.cluster[outer.any(axis=1)]] = _BORDER
+    return found
 
 
 def _kinds(joints: Joints, lattice: Lattice, points: Points) -> IntArray:

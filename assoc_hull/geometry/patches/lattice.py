@@ -71,6 +71,13 @@ class Lattice:
         """Give the places (n, 2) of points, by their patches (n,) and parameters (n, 2) there."""
         return np.asarray(self.corner[patch] + uv)
 
+    def squares(self) -> FloatArray:
+        """Give the sides (k, 4, 2, 2) of patches, walked with them on the left."""
+        corners = self.corner[:, None, :] + np.array(
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        )
+        return np.stack([corners, np.roll(corners, -1, axis=1)], axis=2)
+
     def patch_at(self, places: FloatArray) -> IntArray:
         """Give a patch that has each of some places (n, 2) in it or on its border."""
         codes = _codes(self.corner, self.corner)

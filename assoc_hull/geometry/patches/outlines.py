@@ -10,18 +10,20 @@ Examples
 >>> from assoc_hull.geometry.patches.arcs import arcs_of
 >>> from assoc_hull.geometry.patches.cells import CellKind
 >>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
->>> from assoc_hull.geometry.patches.outlines import outlines
+>>> from assoc_hull.geometry.patches.outlines import Region, outlines
 >>> from assoc_hull.geometry.patches.patches import Patches
 >>> from assoc_hull.geometry.patches.solve import solve
 >>> patches = Patches.single(np.zeros((2, 2, 3)))
 >>> b = np.array([[[-1.0, -1.0], [3.0, 3.0]]])  # 4 u - 1
 >>> cells = solve(IsoFunction(b, 1e-15 + 0.0 * b))
->>> found = outlines(patches, cells, arcs_of(cells), CellKind.POSITIVE)
+>>> found = outlines(patches, Region(cells, arcs_of(cells), CellKind.POSITIVE))
 >>> found.loop(0).tolist(), found.enclosed.tolist()
 ([[0.25, 1.0], [0.25, 0.0], [1.0, 0.0], [1.0, 1.0]], [0.75])
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
@@ -36,7 +38,7 @@ from assoc_hull.geometry.patches.lattice import Lattice
 from assoc_hull.geometry.patches.loops import followers
 from assoc_hull.geometry.patches.patches import Patches
 
-__all__ = ["Outlines", "outlines"]
+__all__ = ["Outlines", "Region", "outlines", "rest"]
 
 
 @attrs.frozen(eq=False)
@@ -68,6 +70,12 @@ class Outlines:
         """Give the corners (k, 2) of one loop."""
         return self.uv[self.start[number] : self.start[number + 1]]
 
+    def chosen(self, rows: IntArray) -> Outlines:
+        """Give some of the loops, in another order."""
+        counts = np.diff(self.start)
+        start = np.concatenate([[0], np.cumsum(counts[rows])])
+        return Outlines(self.uv[rows_of(counts, rows)[0]], start, self.patch[rows])
+
     @property
     def enclosed(self) -> FloatArray:
         """What each loop encloses, in parameters, (n,); negative for a hole."""
@@ -80,48 +88,92 @@ class Outlines:
         return np.asarray(np.add.reduceat(areas, self.start[:-1])) if len(self) else np.zeros(0)
 
 
-def outlines(
-    patches: Patches,
-    cells: Cells,
-    arcs: Arcs,
-    kind: CellKind,
-    samples: tuple[IntArray, FloatArray] | None = None,
-    across: bool = False,
-) -> Outlines:
-    """Give the outlines of a region.
+@attrs.frozen(eq=False)
+class Region:
+    """Part of patches: cells of one kind, with their share of the cells that arcs cut.
 
-    Parameters
+    Attributes
     ----------
-    patches, cells, arcs : Patches, Cells, Arcs
-        The patches, their cells, the arcs in these.
+    cells, arcs : Cells, Arcs
+        The cells of all patches, the arcs in these.
     kind : CellKind
         POSITIVE, NEGATIVE, ZERO (the polynomial is nil in whole cells) or UNRESOLVED.
     samples : (a + 1,) int and (p, 2), optional
         Points of arcs, in parameters of patches, as `sampling.sampled` gives them; without them
         arcs are straight.
+    """
+
+    cells: Cells
+    arcs: Arcs
+    kind: CellKind
+    samples: tuple[IntArray, FloatArray] | None = None
+
+
+def outlines(patches: Patches, region: Region, across: bool = False) -> Outlines:
+    """Give the outlines of a region.
+
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    region : Region
+        What of them.
     across : bool
         Whether regions of one surface are merged across the borders of patches.
 
     Returns
     -------
     Outlines
-        In the order of patches, if they are not merged.
+        In the order of patches, if they are not merged; holes behind what they are holes of.
     """
-    surface, box = patches.surface, patches.box
-    lattice = Lattice.of(surface, box) if across else Lattice.apart(len(patches))
-    lines = _Lines.of(lattice, cells, arcs, kind, samples)
+    lattice = _lattice(patches, across)
+    pieces, lines = _bounds(lattice, region)
+    return _looped(patches, lattice, _Lines.of(lattice, leftover(pieces), [lines]))
+
+
+def rest(patches: Patches, regions: Sequence[Region], across: bool = False) -> Outlines:
+    """Give the outlines of what regions that do not overlap leave of their patches.
+
+    Parameters
+    ----------
+    patches : Patches
+        The patches.
+    regions : sequence of Region
+        What is taken from them; each may be of another polynomial.
+    across : bool
+        As for `outlines`.
+
+    Returns
+    -------
+    Outlines
+        As those of a region.
+    """
+    lattice = _lattice(patches, across)
+    taken = [_bounds(lattice, region) for region in regions]
+    squares = lattice.squares().reshape(-1, 2, 2)
+    pieces = np.concatenate([squares, *(pieces[:, ::-1] for pieces, _ in taken)])
+    lines = [each.reversed() for _, each in taken]
+    return _looped(patches, lattice, _Lines.of(lattice, leftover(pieces), lines))
+
+
+def _lattice(patches: Patches, across: bool) -> Lattice:
+    """Lay out patches: side by side, or apart."""
+    return Lattice.of(patches.surface, patches.box) if across else Lattice.apart(len(patches))
+
+
+def _looped(patches: Patches, lattice: Lattice, lines: _Lines) -> Outlines:
+    """Join lines into loops."""
     chains = chained(followers(lines.ends, *lines.directions()))
     corners, start = lines.along(chains)
+    patch = lines.patch[chains.firsts]
+    found = Outlines(lattice.on_surface(patches.box, corners), start, patch)
     kept = np.flatnonzero(np.diff(start) > 2)
-    corner, owner = rows_of(np.diff(start), kept)
-    start = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=len(kept)))])
-    patch = lines.patch[chains.firsts[kept]]
-    return Outlines(lattice.on_surface(box, corners[corner]), start, patch)
+    return found.chosen(kept[np.lexsort([found.enclosed[kept] < 0.0, patch[kept]])])
 
 
 @attrs.frozen(eq=False)
 class _Lines:
-    """Directed lines with the region on their left: arcs, then pieces of borders of cells.
+    """Directed lines with a region on their left.
 
     Attributes
     ----------
@@ -129,45 +181,38 @@ class _Lines:
         Points of all lines, in the lattice.
     start : (n + 1,) int
         Where the points of each line begin.
-    ends : (n, 2, 2)
-        Where each begins and ends.
     patch : (n,) int
         The patch of each.
     """
 
     points: FloatArray
     start: IntArray
-    ends: FloatArray
     patch: IntArray
 
     @classmethod
-    def of(
-        cls, lattice: Lattice, cells: Cells, arcs: Arcs, kind: CellKind,
-        samples: tuple[IntArray, FloatArray] | None,
-    ) -> _Lines:  # fmt: skip
-        """Gather the lines that bound a region."""
-        patch = cells.patch[arcs.cell]
-        ends = lattice.place(np.repeat(patch, 2), directed(arcs).reshape(-1, 2))
-        joints = joints_of(ends.reshape(-1, 2, 2))
-        # Both arcs that meet in a point have the same one, to the last bit.
-        ends = ends[joints.first][joints.joint]
-        arc_of = np.full(len(cells), -1)
-        arc_of[arcs.cell] = np.arange(len(arcs))
-        pieces = leftover(sides_of(cells, lattice, kind, arc_of, ends))
-        used = np.flatnonzero(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1) > SHORT)
-        if kind not in (CellKind.POSITIVE, CellKind.NEGATIVE):
-            used = used[:0]
-        turned = forward(arcs)[used] != (kind is CellKind.POSITIVE)
-        start, points = _sampled(lattice, patch, arcs, samples)
-        points, start = _turned(points, start, used, turned)
-        ends = np.where((kind is CellKind.POSITIVE), ends, ends[:, ::-1])[used]
-        points[start[:-1]], points[start[1:] - 1] = ends[:, 0], ends[:, 1]
-        behind = start[-1] + 2 * np.arange(1, len(pieces) + 1)
+    def of(cls, lattice: Lattice, pieces: FloatArray, lines: Sequence[_Lines]) -> _Lines:
+        """Put lines behind each other, straight pieces (n, 2, 2) last."""
+        straight = cls(
+            pieces.reshape(-1, 2),
+            2 * np.arange(len(pieces) + 1),
+            lattice.patch_at(pieces.mean(axis=1)),
+        )
+        every = [*lines, straight]
+        counts = np.concatenate([np.diff(each.start) for each in every])
         return cls(
-            np.concatenate([points, pieces.reshape(-1, 2)]), np.concatenate([start, behind]),
-            np.concatenate([ends, pieces]),
-            np.concatenate([patch[used], lattice.patch_at(pieces.mean(axis=1))]),
-        )  # fmt: skip
+            np.concatenate([each.points for each in every]),
+            np.concatenate([[0], np.cumsum(counts)]),
+            np.concatenate([each.patch for each in every]),
+        )
+
+    def reversed(self) -> _Lines:
+        """Give the same lines, walked from their ends, in the opposite order."""
+        return _Lines(self.points[::-1], self.start[-1] - self.start[::-1], self.patch[::-1])
+
+    @property
+    def ends(self) -> FloatArray:
+        """Where each line begins and ends, (n, 2, 2)."""
+        return np.stack([self.points[self.start[:-1]], self.points[self.start[1:] - 1]], axis=1)
 
     def directions(self) -> tuple[FloatArray, FloatArray]:
         """Give the directions (n, 2) in which lines leave and arrive."""
@@ -183,6 +228,28 @@ class _Lines:
         kept = rows != self.start[chains.arcs + 1][line] - 1
         ends = np.cumsum((counts - 1)[chains.arcs])
         return self.points[rows[kept]], np.concatenate([[0], ends])[chains.start]
+
+
+def _bounds(lattice: Lattice, region: Region) -> tuple[FloatArray, _Lines]:
+    """Give the pieces (n, 2, 2) of borders of the cells of a region, and its arcs."""
+    cells, arcs, kind = region.cells, region.arcs, region.kind
+    patch = cells.patch[arcs.cell]
+    ends = lattice.place(np.repeat(patch, 2), directed(arcs).reshape(-1, 2))
+    joints = joints_of(ends.reshape(-1, 2, 2))
+    # Both arcs that meet in a point have the same one, to the last bit.
+    ends = ends[joints.first][joints.joint]
+    arc_of = np.full(len(cells), -1)
+    arc_of[arcs.cell] = np.arange(len(arcs))
+    pieces = sides_of(cells, lattice, kind, arc_of, ends)
+    used = np.flatnonzero(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1) > SHORT)
+    if kind not in (CellKind.POSITIVE, CellKind.NEGATIVE):
+        used = used[:0]
+    positive = kind is CellKind.POSITIVE
+    start, points = _sampled(lattice, patch, arcs, region.samples)
+    points, start = _turned(points, start, used, forward(arcs)[used] != positive)
+    ends = (ends if positive else ends[:, ::-1])[used]
+    points[start[:-1]], points[start[1:] - 1] = ends[:, 0], ends[:, 1]
+    return pieces, _Lines(points, start, patch[used])
 
 
 def _sampled(

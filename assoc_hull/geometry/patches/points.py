@@ -22,7 +22,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.tensor_bernstein import basis
 
-__all__ = ["points", "stretch"]
+__all__ = ["normals", "points", "stretch"]
 
 
 def points(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
@@ -31,8 +31,8 @@ def points(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
     return np.asarray(value[:, :3] / value[:, 3:])
 
 
-def stretch(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
-    """Give the area per area of parameters, ``|r_u x r_v|``, m2, at parameters of some patches."""
+def normals(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
+    """Give the vectors ``r_u x r_v`` (n, 3), m2, at parameters (n, 2) of some patches."""
     net = _homogeneous(patches, patch)
     value = _value(net, uv)
     point, weight = value[:, :3] / value[:, 3:], value[:, 3:]
@@ -40,7 +40,12 @@ def stretch(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
     for axis, degree in zip((1, 2), patches.degrees, strict=True):
         slope = _value(degree * np.diff(net, axis=axis), uv) if degree else 0.0 * value
         slopes.append((slope[:, :3] - point * slope[:, 3:]) / weight)
-    return np.asarray(np.sqrt((np.cross(slopes[0], slopes[1]) ** 2).sum(axis=-1)))
+    return np.cross(slopes[0], slopes[1])
+
+
+def stretch(patches: Patches, patch: IntArray, uv: FloatArray) -> FloatArray:
+    """Give the area per area of parameters, ``|r_u x r_v|``, m2, at parameters of some patches."""
+    return np.asarray(np.sqrt((normals(patches, patch, uv) ** 2).sum(axis=-1)))
 
 
 def _homogeneous(patches: Patches, patch: IntArray) -> FloatArray:

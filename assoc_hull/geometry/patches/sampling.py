@@ -91,7 +91,8 @@ def sampled(
         if not len(chords.arc):
             break
         middle = 0.5 * (chords.t[:, 0] + chords.t[:, 1])
-        place = _places(cells, arcs, chords.arc, middle)
+        rough = 0.5 * (chords.uv[:, 0] + chords.uv[:, 1])
+        place = _places(cells, arcs, chords.arc, middle, rough)
         xyz = points(patches, cells.patch[arcs.cell[chords.arc]], place)
         stray, length = _strays(chords.xyz, xyz)
         open_ = (stray > chord_tol) | ((turn < _LEAST) & (length > chord_tol))
@@ -113,21 +114,27 @@ def _whole(patches: Patches, cells: Cells, arcs: Arcs) -> _Chords:
     return _Chords(number, t, arcs.ends, xyz)
 
 
-def _places(cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray) -> FloatArray:
-    """Find the points (c, 2) of some arcs at local running parameters (c,)."""
+def _places(
+    cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray, rough: FloatArray
+) -> FloatArray:
+    """Find the points (c, 2) of some arcs at local running parameters (c,), near rough ones."""
     found = np.empty((len(arc), 2))
     for across in (0, 1):
         rows = np.flatnonzero(arcs.across[arc] == across)
         for first in range(0, len(rows), _BLOCK):
             some = rows[first : first + _BLOCK]
-            found[some] = _places_over(cells, arcs, arc[some], t[some], across)
+            found[some] = _places_over(cells, arcs, arc[some], t[some], rough[some], across)
     return found
 
 
-def _places_over(cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray, across: int) -> FloatArray:
+def _places_over(
+    cells: Cells, arcs: Arcs, arc: IntArray, t: FloatArray, rough: FloatArray, across: int
+) -> FloatArray:
     """Find points of arcs that run the same way."""
     cell = arcs.cell[arc]
-    height = heights(polynomials_over(cells, cell, across), arcs.rising[arc], t[:, None])[:, 0]
+    b, (low, high) = polynomials_over(cells, cell, across), cells.box[cell, across].T
+    start = (rough[:, across] - low) / (high - low)
+    height = heights(b, arcs.rising[arc], t[:, None], start[:, None])[:, 0]
     found = np.empty((len(arc), 2))
     found[:, 1 - across] = placed(cells.box[cell, 1 - across], t)
     found[:, across] = placed(cells.box[cell, across], height)

@@ -13,6 +13,8 @@ Examples
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +24,7 @@ from assoc_hull.geometry.patches.cells import CellKind
 __all__ = ["changes", "edge_lines", "first_and_last", "kinds", "signs"]
 
 Signs = NDArray[np.int8]
+_Scalar = TypeVar("_Scalar", bound=np.generic)
 
 
 def signs(b: FloatArray, err: FloatArray) -> Signs:
@@ -63,8 +66,9 @@ def edge_lines(b: FloatArray, err: FloatArray) -> NDArray[np.bool_]:
     return np.stack([edge.all(axis=1) for edge in _edges(signs(b, err) == 0)], axis=1)
 
 
-def _edges(dead: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], ...]:
-    return dead[:, 0], dead[:, -1], dead[:, :, 0], dead[:, :, -1]
+def _edges(a: NDArray[_Scalar]) -> tuple[NDArray[_Scalar], ...]:
+    """Give the coefficients on the edges u = 0, u = 1, v = 0 and v = 1."""
+    return a[:, 0], a[:, -1], a[:, :, 0], a[:, :, -1]
 
 
 def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.intp]:
@@ -72,8 +76,7 @@ def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[n
 
     Coefficients of one sign prove that the polynomial has it. Where all differences in u have one
     sign, beyond their error, and each of the edges u = 0 and u = 1 changes sign at most once, a
-    line v = constant meets the zero set at most once, no loop has room, and there is one arc at
-    most; if the edges leave none, the sign is known.
+    line v = constant meets the zero set at most once, no loop has room, and there is one arc.
 
     Coefficients in the dead band prove nothing on an edge that is shared with another cell: the
     two might see an arc cross it in one and not in the other. Elsewhere they do no harm.
@@ -90,62 +93,65 @@ def kinds(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[n
     (c,) int
         A `CellKind` each; UNRESOLVED where nothing is proved.
     """
+    least, most = b - err, b + err
     flat = len(b), b.shape[1] * b.shape[2]
-    above = (b > err).reshape(flat).any(axis=1)
-    below = (b < -err).reshape(flat).any(axis=1)
+    above = (least > 0.0).reshape(flat).any(axis=1)
+    below = (most < 0.0).reshape(flat).any(axis=1)
     found = np.where(above, 1, 0) - np.where(below, 1, 0)
     pure = np.flatnonzero(found)
-    found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED
+    found[pure[_doubtful_edges(least[pure], most[pure], outer[pure])]] = CellKind.UNRESOLVED
     open_ = np.flatnonzero(above & below)
-    found[open_] = _simple(b[open_], err[open_], outer[open_])
+    found[open_] = _simple(least[open_], most[open_], outer[open_])
     return found
 
 
-def _doubtful_edges(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _doubtful_edges(
+    least: FloatArray, most: FloatArray, outer: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Tell where coefficients on a shared edge lie in the dead band."""
-    dead = _edges(np.abs(b) <= err)
-    lines = np.stack([edge.any(axis=1) for edge in dead], axis=1)
-    return np.asarray((lines & ~outer.reshape(-1, 4)).any(axis=1))
+    lines = [
+        ((low <= 0.0) & (high >= 0.0)).any(axis=1)
+        for low, high in zip(_edges(least), _edges(most), strict=True)
+    ]
+    return np.asarray((np.stack(lines, axis=1) & ~outer.reshape(-1, 4)).any(axis=1))
 
 
 def _doubtful_corners(
-    b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]
+    least: FloatArray, most: FloatArray, outer: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Tell where a corner at a shared edge lies in the dead band."""
-    ends = np.ix_([0, b.shape[1] - 1], [0, b.shape[2] - 1])
-    dead = np.abs(b[:, *ends]) <= err[:, *ends]
+    corners = np.ix_([0, least.shape[1] - 1], [0, least.shape[2] - 1])
+    dead = (least[:, *corners] <= 0.0) & (most[:, *corners] >= 0.0)
     alone = outer[:, 0, :, None] & outer[:, 1, None, :]
     return np.asarray((dead & ~alone).any(axis=(1, 2)))
 
 
-def _simple(b: FloatArray, err: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Tell what is proved where both signs occur."""
-    u, u_size = _along(b, err)
-    v, v_size = _along(b.swapaxes(1, 2), err.swapaxes(1, 2))
-    over = (v == CellKind.U_SIMPLE) & (u == CellKind.U_SIMPLE) & (v_size > u_size)
-    v = np.where(v == CellKind.U_SIMPLE, CellKind.V_SIMPLE, v)
-    found = np.where((u == CellKind.UNRESOLVED) | over, v, u)
-    found[_doubtful_corners(b, err, outer)] = CellKind.UNRESOLVED
-    pure = np.flatnonzero(found <= CellKind.POSITIVE)
-    found[pure[_doubtful_edges(b[pure], err[pure], outer[pure])]] = CellKind.UNRESOLVED
+def _simple(least: FloatArray, most: FloatArray, outer: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Tell what is proved where both signs occur: simple the way the polynomial changes more."""
+    u = _change(least, most)
+    v = _change(least.swapaxes(1, 2), most.swapaxes(1, 2))
+    found = np.where(v > u, int(CellKind.V_SIMPLE), int(CellKind.U_SIMPLE))
+    found[np.maximum(u, v) < 0.0] = CellKind.UNRESOLVED
+    found[_doubtful_corners(least, most, outer)] = CellKind.UNRESOLVED
     return found
 
 
-def _along(b: FloatArray, err: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-    """Tell what the differences along the first axis of a cell prove, and how large they are."""
-    found = np.full(len(b), int(CellKind.UNRESOLVED))
-    size = np.zeros(len(b))
-    step, wide = np.diff(b, axis=1), err[:, 1:] + err[:, :-1]
-    rising = np.asarray((step > wide).all(axis=(1, 2)))
-    rows = np.flatnonzero(rising | (step < -wide).all(axis=(1, 2)))
-    if not len(rows):
-        return found, size
-    ends = signs(b[rows][:, [0, -1]], err[rows][:, [0, -1]])
-    once = (changes(ends) <= 1).all(axis=1)
-    rows, ends = rows[once], ends[once]
-    ends = np.where(rising[rows, None, None], ends, ends[:, ::-1])
-    found[rows] = CellKind.U_SIMPLE
-    found[rows[(ends[:, 0] >= 0).all(axis=1)]] = CellKind.POSITIVE
-    found[rows[(ends[:, 1] <= 0).all(axis=1)]] = CellKind.NEGATIVE
-    size[rows] = np.abs(step[rows]).sum(axis=(1, 2))
-    return found, size
+def _change(least: FloatArray, most: FloatArray) -> FloatArray:
+    """Tell how much cells change along their first axis; -1 where they are not simple that way.
+
+    Most cells that are not are known by their first column.
+    """
+    found = np.full(len(least), -1.0)
+    rows = np.flatnonzero(_monotone(least[:, :, :1], most[:, :, :1]))
+    rows = rows[_monotone(least[rows], most[rows])]
+    low, high = least[rows][:, [0, -1]], most[rows][:, [0, -1]]
+    once = (changes((low > 0.0).astype(np.int8) - (high < 0.0).astype(np.int8)) <= 1).all(axis=1)
+    low, high = low[once], high[once]
+    found[rows[once]] = np.abs(low[:, 1] + high[:, 1] - low[:, 0] - high[:, 0]).sum(axis=1)
+    return found
+
+
+def _monotone(least: FloatArray, most: FloatArray) -> NDArray[np.bool_]:
+    """Tell which cells rise, or fall, along their first axis by more than their errors."""
+    rising = (least[:, 1:] > most[:, :-1]).all(axis=(1, 2))
+    return np.asarray(rising | (most[:, 1:] < least[:, :-1]).all(axis=(1, 2)))

@@ -46,8 +46,8 @@ _EPS = 2.0**-53
 # From this level on, cells with no coefficient above so many errors are not cut: round a place
 # where the polynomial is nil by much, thousands would tell where it begins to exceed its error.
 _FINE, _FAINT = 8, 8.0
-# Patches at a time, and cells cut at a time: their coefficients shall stay in the cache.
-_BATCH, _SLICE = 64, 128
+# Patches at a time, and numbers that are cut at a time: they shall stay in the cache.
+_BATCH, _SLICE = 64, 1 << 18
 
 
 def solve(
@@ -148,8 +148,9 @@ def _joined(parts: list[_Part]) -> _Part:
 def _cut(cells: _Part, u: float, v: float) -> _Part:
     """Cut each cell, none of which is pure, in four; elsewhere where a cut lies on the zero set."""
     parts = []
-    for first in range(0, len(cells.patch), _SLICE):
-        rows = slice(first, first + _SLICE)
+    size = 1 + _SLICE // (4 * cells.pair[0].size)
+    for first in range(0, len(cells.patch), size):
+        rows = slice(first, first + size)
         some = _Part(cells.patch[rows], cells.box[rows], cells.kind[rows], cells.pair[rows])
         grown = _grown(some.pair, u, v)
         vain = _on_zero_set(grown)
@@ -245,12 +246,12 @@ def _sorted(found: list[_Part], first: int, stopped: NDArray[np.bool_]) -> Cells
     level = np.repeat(np.arange(len(found)), [len(part.patch) for part in found])
     order = np.lexsort((cells.box[:, 1, 0], cells.box[:, 0, 0], level, cells.patch))
     kept = cells.kind > CellKind.POSITIVE
-    pair = cells.pair[(np.cumsum(kept) - 1)[order[kept[order]]]]
+    rows = (np.cumsum(kept) - 1)[order[kept[order]]]
     kept = kept[order]
     return Cells(
         cells.patch[order] + first, cells.box[order], level[order], cells.kind[order],
         np.where(kept, np.cumsum(kept) - 1, -1),
-        np.ascontiguousarray(pair[:, 0]), np.ascontiguousarray(pair[:, 1]), stopped,
+        cells.pair[rows, 0], cells.pair[rows, 1], stopped,
     )  # fmt: skip
 
 

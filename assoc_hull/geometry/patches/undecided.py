@@ -39,7 +39,9 @@ def sampled_signs(cells: Cells, rows: IntArray) -> tuple[FloatArray, FloatArray,
     -------
     (c,), (c,), (c,) float
         Shares of positive and of negative samples, and of those in doubt: nil to the error of the
-        polynomial, or beside one of another sign.
+        polynomial, or beside one of another sign. A sample that is nil to the error counts as the
+        others of its cell do if these are of one sign, as beside a line without change of sign;
+        else by its value, as the error is a bound far above what rounding does.
     """
     found = np.empty((3, len(rows)))
     for first in range(0, len(rows), _BLOCK):
@@ -60,4 +62,7 @@ def _shares(b: FloatArray, err: FloatArray) -> FloatArray:
     differ = sign[..., 1:] != sign[..., :-1]
     doubt[..., 1:] |= differ
     doubt[..., :-1] |= differ
-    return np.array([part.mean(axis=(1, 2)) for part in (sign > 0, sign < 0, doubt)])
+    above, below = ((sign == side).any(axis=(1, 2))[:, None, None] for side in (1, -1))
+    positive = np.where(above == below, value > 0.0, above)
+    negative = np.where(above == below, value < 0.0, below)
+    return np.array([part.mean(axis=(1, 2)) for part in (positive, negative, doubt)])

@@ -117,6 +117,7 @@ def test_the_scale_of_the_model_is_taken_out() -> None:
     found, notes = read(iges([surface()], scale="0.125"))
     assert np.array_equal(found[0].net, 8.0 * NET)
     assert "model scale of 0.125" in notes[0]
+    assert only(iges([surface()], scale="0.125"), "mm").net == pytest.approx(8e-3 * NET)
 
 
 @pytest.mark.parametrize("marks", [("/", ";"), (",", "#"), ("|", "!")], ids="".join)
@@ -160,11 +161,13 @@ def test_a_ring_of_transformations_is_refused() -> None:
 
 
 def test_a_part_of_a_moved_face_moves_with_it() -> None:
-    """A dependent surface is moved by itself, then with its face."""
+    """A dependent surface is moved by itself, then with its face; an independent one is not."""
     parts = face()
     parts[1] = Entity(144, [1, 0, 0, 0], moved=9)
     parts[4] = matrix(TURN, (0.0, 0.0, 1.0))
     assert only(iges(parts)).net == pytest.approx(NET @ TURN.T + [0.0, 0.0, 1.0])
+    parts[0] = surface(status="00000000")
+    assert np.array_equal(only(iges(parts)).net, NET)
 
 
 def test_the_bounds_of_the_parameters_cut_the_surface() -> None:
@@ -224,6 +227,20 @@ def test_a_border_in_space_only_is_refused() -> None:
         read(iges(parts))
 
 
+def test_a_side_that_is_a_point_needs_no_border() -> None:
+    """Of a sphere some programs write the seam only: its poles are no curves in space."""
+    net = NET.copy()
+    net[0] = net[0, 0]
+    corners = SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3]
+    parts = face(corners)
+    parts[0] = surface(net, status="00010000")
+    parts[3] = Entity(102, [3, *parts[3].values[1:4]], status="00010000")
+    assert np.array_equal(only(iges(parts)).net, net)
+    parts[0] = surface(status="00010000")
+    with pytest.raises(BadInputError, match="is trimmed"):
+        read(iges(parts))
+
+
 def test_a_border_of_one_spline_is_read_piece_by_piece() -> None:
     """A spline of degree 1 through the corners: each leg lies on a side."""
     corners = [value for corner in (*SQUARE, SQUARE[0]) for value in (*corner, 0.0)]
@@ -274,13 +291,23 @@ def test_hidden_surfaces_are_left_out() -> None:
         read(iges([surface(status="01000000")]))
 
 
+def test_a_surface_is_hidden_with_its_face_and_not_without() -> None:
+    """Many programs blank the parts of a face that is to be seen."""
+    parts = face()
+    parts[0] = surface(status="01010000")
+    assert len(read(iges(parts))[0]) == 1
+    parts[1] = Entity(144, [1, 0, 0, 0], status="01000000")
+    with pytest.raises(BadInputError, match="all surfaces are blanked"):
+        read(iges(parts))
+
+
 def test_names_are_those_of_the_property_then_the_label() -> None:
     """A number where there is neither; none comes twice."""
     named = surface(after=[0, 1, 5], label="label")
     parts = [named, surface(label="deck"), Entity(406, [1, "9Hstem, low"], form=15),
-             surface(label="deck"), surface()]  # fmt: skip
+             surface(label="deck"), surface(label="deck"), surface()]  # fmt: skip
     assert [each.name for each in read(iges(parts))[0]] == [
-        "stem, low", "deck", "deck (2)", "surface 4",
+        "stem, low", "deck", "deck (2)", "deck (3)", "surface 5",
     ]  # fmt: skip
 
 

@@ -19,7 +19,7 @@ from assoc_hull.geometry.patches.arcs import arcs_of
 from assoc_hull.geometry.patches.cells import Arcs, Cells
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface import solving
-from tests.curved_patches import graph_plates, patch
+from tests.curved_patches import patch, random_nets
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 
@@ -44,12 +44,12 @@ def test_a_result_says_what_was_asked_for() -> None:
 
 def test_delta_is_that_of_each_patch_without_a_band() -> None:
     """1e-9 of the diagonal of the patch's own box, so that it does not depend on others."""
-    nets = [strip([[0, 0, 0], [0, 4, 0], [3, 0, 0], [3, 4, 1]]), patch("P08_wavy_plate")]
-    surfaces = [SplineSurface.bezier(net) for net in nets]
+    net = strip([[0, 0, 0], [0, 4, 0], [3, 0, 0], [3, 4, 1]])
+    surfaces = [SplineSurface.bezier(each) for each in (net, 2.0 * net, patch("P08_wavy_plate"))]
     result = ah.curvature_regions(surfaces, zero="exact")
-    found = {len(part.patches.net[0]): part.delta.tolist() for part in result.parts}
-    assert found[2] == [pytest.approx(1e-9 * 26**0.5)]
-    assert result.delta == max(max(each) for each in found.values())
+    small, other = (part.delta.tolist() for part in result.parts)
+    assert small == pytest.approx([1e-9 * 26**0.5, 2e-9 * 26**0.5], rel=1e-12)
+    assert result.delta == max(small + other)
 
 
 def test_areas_of_one_surface_and_of_all() -> None:
@@ -103,7 +103,7 @@ def test_polylines_keep_the_chord_tolerance() -> None:
         pytest.param([np.zeros((2, 2, 3))], "surfaces[0] is array", id="nets in a list"),
         pytest.param(np.zeros((4, 4)), "net", id="net without coordinates"),
         pytest.param(np.full((2, 2, 3), np.nan), "", id="points that are no numbers"),
-        pytest.param(np.zeros((2, 2, 3)), "patch 0 has no area", id="point"),
+        pytest.param(np.zeros((2, 2, 3)), "patch 1 has no area", id="point"),
         pytest.param(strip([[0, 0, 0], [1, 1, 1], [2, 2, 2], [5, 5, 5]]), "no area", id="line"),
         pytest.param(strip([[0, 0, 1e5], [1, 1, 1e5], [2, 2, 1e5], [5, 5, 1e5]]), "no area",
                      id="line far away"),
@@ -127,20 +127,23 @@ def test_notes_tell_a_search_that_ended() -> None:
     surface = SplineSurface.bezier(patch("P07_double_cross"), "saddle of the fourth order")
     notes = ah.curvature_regions(surface, zero="exact", delta=0.0, budget=500).notes
     assert len(notes) == 2
-    assert "surface 0 ('saddle of the fourth order')" in notes[0]
-    assert "budget of 500 cells in 1 patch (0)" in notes[0]
+    assert "In surface 'saddle of the fourth order' the" in notes[0]
+    assert "budget of 500 cells in 1 patch (1)" in notes[0]
     assert "unresolved, more than area_tol (1e-06)" in notes[1]
     assert all(note[0].isupper() and note.endswith(".") for note in notes)
 
 
 def test_notes_tell_spots_without_a_tangent_plane() -> None:
-    """A patch pinched inside has a false zero of the curvature there: it is told apart."""
-    net = graph_plates(1, 1)[0].copy()
-    net[1:3, 1:3] = net[1:3, 1:3].mean(axis=(0, 1))
-    net[1, 1:3, 0], net[2, 1:3, 0] = net[2, 1, 0] + 1.2, net[1, 1, 0] - 1.2
-    result = ah.curvature_regions(net, zero="exact", delta=0.0)
+    """K has false zeros there: they are told apart, by their places, once for all levels."""
+    net = random_nets(6, 1)[5]
+    result = ah.curvature_regions(net, zero="exact", delta=0.0, levels=(1.0,))
     singular = [piece for piece in result.components if piece.singular]
-    assert bool(singular) == any("no tangent plane" in note for note in result.notes)
+    assert [(piece.level, piece.kind) for piece in singular] == [(0, "junction"), (1, "junction")]
+    ((x, y, z),) = singular[0].spots
+    (note,) = result.notes
+    assert f"no tangent plane at 1 spot (x {x:.3f}, y {y:.3f}, z {z:.3f} m)" in note
+    ends = np.concatenate([line[[0, -1]] for line in singular[0].xyz])
+    assert np.linalg.norm(ends - [x, y, z], axis=1).min() < 1e-3
 
 
 def test_notes_tell_lines_that_end_at_knots() -> None:
@@ -152,16 +155,35 @@ def test_notes_tell_lines_that_end_at_knots() -> None:
     result = ah.curvature_regions(SplineSurface("bent", (3, 3), *knots, net), zero="exact")
     ends = [piece for piece in result.components if "knot-line" in piece.tags]
     assert ends
-    assert any("at knots" in note and "surface 0 ('bent')" in note for note in result.notes)
+    assert any("at knots" in note and "surface 'bent'" in note for note in result.notes)
 
 
 def test_notes_tell_borders_without_curvature() -> None:
     """K = 0 along the border of a plate is no line, and is told."""
     result = ah.curvature_regions(patch("P18_inflect_edge"), zero="exact")
     assert [piece.kind for piece in result.components] == ["edge_line"]
-    assert any("K = 0 1/m2 along 1 border of patches (0)" in note for note in result.notes)
+    assert any("K = 0 1/m2 along 1 border of patches (1)" in note for note in result.notes)
     (line,) = result.components[0].uv
     assert np.array_equal(line[:, 0], np.zeros(len(line)))
+
+
+@pytest.mark.parametrize("zero", ["strain", "exact"])
+def test_a_pole_is_no_line(zero: str) -> None:
+    """Where a side is drawn together in a point, no border and no line of the curvature is told."""
+    result = ah.curvature_regions(patch("P17_pole_sphere"), zero=zero)
+    assert (result.components, result.notes, result.unresolved) == ((), (), 0.0)
+    assert result.positive == pytest.approx(result.total, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["P14_cyl", "P18_inflect_edge"])
+def test_coordinates_are_known_to_their_rounding(name: str) -> None:
+    """With a delta of 0, what is nil but for the rounding of the net is nil."""
+    result = ah.curvature_regions(patch(name), zero="exact", delta=0.0)
+    assert result.delta == 2.0**-52 * np.abs(patch(name)).max()
+    assert (result.negative, {piece.kind for piece in result.components} - {"edge_line"}) == (
+        0,
+        set(),
+    )
 
 
 def test_a_line_that_breaks_off_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:

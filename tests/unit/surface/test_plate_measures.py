@@ -7,6 +7,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.curvature_nodes import CurvatureNodes, curvature_nodes
+from assoc_hull.surface.flat_share import flat_share
 from assoc_hull.surface.plate_extents import plate_axes, plate_extents, seam_lengths
 from assoc_hull.surface.roll_axis import RollAxis, roll_axis, rulings
 from tests import bent_plates
@@ -183,3 +184,15 @@ def test_extents_are_those_of_the_rectangle() -> None:
 def _normal(nodes: CurvatureNodes) -> FloatArray:
     found = nodes.normal.sum(axis=(0, 1, 2))
     return np.asarray(found / np.linalg.norm(found))
+
+
+def test_the_flat_part_is_that_of_the_developable_region() -> None:
+    """Where a plate is a dome it is neither flat nor bent one way: it does not count at all."""
+    x, y = np.mgrid[0:3, 0:3] / 1.0
+    plane, dome = np.stack([x, y, 0.0 * x], axis=-1), np.stack([x, y, 0.2 * (x + y)], axis=-1)
+    dome[1, 1, 2] += 1.0
+    nodes = curvature_nodes(_batch(np.stack([plane, dome])))
+    assert nodes.gauss[1].min() < 1e-3 < nodes.gauss[1].max()
+    assert flat_share(nodes, 1e-9, 1e-3) == pytest.approx(1.0, abs=0.01)
+    assert 0.2 < flat_share(nodes, 0.0, 1e-3) < 0.6
+    assert flat_share(curvature_nodes(_batch(dome[None])), 1e-3, 1e-9) == 0.0

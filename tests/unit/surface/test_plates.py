@@ -41,7 +41,7 @@ def shell() -> Plates:
         pytest.param("P11_hypar", 0.0, 100.0, 0.0, 0.0, "saddle", 3, id="hypar"),
         pytest.param("P12_bowl", 100.0, 0.0, 0.0, 0.0, "convex", 3, id="bowl"),
         pytest.param("P13_plane", 0.0, 0.0, 0.0, 100.0, "flat", 1, id="plane"),
-        pytest.param("P14_cyl", 0.0, 0.0, 94.0, 6.0, "mixed", 2, id="inflected cylinder"),
+        pytest.param("P14_cyl", 0.0, 0.0, 98.6, 1.4, "cylinder", 2, id="inflected cylinder"),
         pytest.param("P16_cone_rot", 0.0, 0.0, 100.0, 0.0, "cylinder", 2, id="cone"),
     ],
 )
@@ -54,20 +54,27 @@ def test_plates_are_what_their_regions_make_them(
     found = [100.0 * getattr(plate.shares, each) for each in ("convex", "saddle")]
     assert found == pytest.approx([convex, saddle], abs=0.051)
     found = [100.0 * plate.shares.cylinder, 100.0 * plate.shares.flat]
-    assert found == pytest.approx([cylinder, flat], abs=1.0)
+    assert found == pytest.approx([cylinder, flat], abs=0.4)
     assert (plate.kind, plate.order) == (kind, order)
     assert sum(attrs.astuple(plate.shares)) == pytest.approx(1.0, abs=1e-6)
 
 
-def test_an_inflected_cylinder_is_rollable_though_mixed(shell: Plates) -> None:
-    """Flat and bent parts together decide the process: it is rolled, about its long axis."""
-    plate = shell["P14_cyl"]
+def test_an_inflected_cylinder_is_rollable_though_mixed() -> None:
+    """With the curvature 0.064 y over a breadth of 2 m, 6 % lie below 3.84e-3: it is called mixed,
+    but it is rolled, about its long axis.
+    """
+    x, y = np.mgrid[-3:3:2j, -1:1:4j]
+    cubic = 0.064 / 6.0 * np.array([-1.0, 1.0, -1.0, 1.0])
+    plate = ah.plates(np.stack([x, y, cubic + 0.0 * x], axis=-1))[0]
+    assert plate.shares.flat == pytest.approx(0.06, abs=0.008)
+    assert plate.shares.cylinder == pytest.approx(0.94, abs=0.008)
+    assert (plate.kind, plate.order) == ("mixed", 2)
     assert plate.rollable
     assert not plate.heating
     assert plate.roll_axis == pytest.approx(0.0, abs=1e-6)
     assert plate.suggestion == SUGGESTIONS["cylinder"]
-    assert plate.least_radius == pytest.approx(2.5, rel=0.01)
-    assert plate.largest_radius is None or plate.largest_radius > 100.0
+    assert plate.least_radius == pytest.approx(1 / 0.064, rel=0.01)
+    assert plate.largest_radius is None
 
 
 def test_a_bow_plate_is_rollable_in_the_band_only(shell: Plates) -> None:
@@ -103,6 +110,8 @@ def test_a_plate_bent_all_ways_has_no_roll_axis() -> None:
     assert fan.coherence < 0.8
     assert fan.roll_axis is None
     assert fan.suggestion == SUGGESTIONS["cone"]
+    assert f"  rulings: {fan.rulings(5)}" in str(ah.plates(fan.surface))
+    assert str(fan.rulings(5)).count(" deg R ") == 5
 
 
 def test_strain_is_that_of_the_breadth() -> None:
@@ -114,6 +123,19 @@ def test_strain_is_that_of_the_breadth() -> None:
     assert plate.largest_strain == pytest.approx(plate.mean_strain, rel=1e-5)
     assert plate.least_radius == pytest.approx(10.0, rel=1e-4)
     assert plate.heating
+
+
+def test_weights_are_part_of_the_shape() -> None:
+    """A quarter of a tube as a conic: rolled to its radius, laid flat to its girth."""
+    net = np.zeros((3, 2, 3))
+    net[..., :2] = np.array([[2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])[:, None]
+    net[:, 1, 2] = 6.0
+    weights = np.array([[1.0], [np.sqrt(0.5)], [1.0]]) * np.ones((1, 2))
+    plate = ah.plates(SplineSurface.bezier(net, "quarter", weights))[0]
+    assert plate.kind == "cylinder"
+    assert plate.area == pytest.approx(6.0 * np.pi, rel=1e-9)
+    assert [plate.least_radius, plate.largest_radius] == pytest.approx([2.0, 2.0])
+    assert plate.development((9, 9)).size == pytest.approx([6.0, np.pi], rel=1e-4)
 
 
 def test_a_band_for_each_breadth() -> None:
@@ -226,6 +248,7 @@ def test_the_table_has_all_columns_once(shell: Plates) -> None:
     for head in ("plate", "K0", "convex", "class", "axis", "int |K|", "strain", "lines"):
         assert head in printed[0]
     assert all(name in line for name, line in zip(NAMES, printed[2:], strict=False))
+    assert "2.5e-04" in printed[2 + NAMES.index("P09_bow_plate")]
     assert "K0 = 0.00128 1/m2 (strain 0.001 over 2.5 m)" in str(shell)
 
 

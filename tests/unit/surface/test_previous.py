@@ -138,6 +138,20 @@ def test_surfaces_of_other_degrees_are_kept_apart() -> None:
         assert later.of_surface(3 - number) == result.of_surface(number) == alone
 
 
+def test_weights_are_part_of_what_a_patch_is() -> None:
+    """A quarter of a cylinder by weights is developable; with other weights it is another patch."""
+    corner = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    net = np.stack([corner, corner + np.array([0.0, 0.0, 3.0])], axis=1)
+    weights = np.repeat([[1.0], [np.sqrt(0.5)], [1.0]], 2, axis=1)
+    round_one = SplineSurface.bezier(net, weights=weights)
+    result = ah.curvature_regions(round_one)
+    assert abs(result.zero - 1.5 * np.pi) <= result.error_estimate
+    for other in (SplineSurface.bezier(net), SplineSurface.bezier(net, weights=weights**2)):
+        found = ah.curvature_regions([other, round_one], previous=result)
+        assert (found.computed, found.of_surface(1)) == (1, result.areas)
+        assert found.of_surface(0) == ah.curvature_regions(other).areas != result.areas
+
+
 def test_what_is_no_result_is_refused() -> None:
     """`previous` takes a result and nothing else."""
     with pytest.raises(WrongTypeError, match="previous is 3"):

@@ -92,3 +92,17 @@ def test_borders_are_drawn_within_the_tolerance(side: int) -> None:
     along = np.clip(((fine[:, None] - low) * step).sum(-1) / (step**2).sum(-1), 0.0, 1.0)
     off = np.linalg.norm(fine[:, None] - low - along[..., None] * step, axis=-1).min(axis=1)
     assert off.max() <= 1e-3
+
+
+def test_components_stand_in_the_order_of_levels_and_surfaces() -> None:
+    """Whatever their degrees; and patches are counted through all surfaces."""
+    cubic = patch("P08_wavy_plate")
+    raised = graph_plates(2, 4)
+    nets = [cubic, raised[0][:, :3], raised[1], raised[1][:, :3]]
+    result = ah.curvature_regions([SplineSurface.bezier(net) for net in nets])
+    assert len(result.parts) == 2
+    order = [(-piece.level, piece.surface) for piece in result.components]
+    assert order == sorted(order)
+    assert {level for level, _ in order} == {-result.k0, result.k0}
+    assert {surface for _, surface in order} == {0, 1, 2, 3}
+    assert all(piece.patches == (piece.surface,) for piece in result.components)

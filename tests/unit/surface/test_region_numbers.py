@@ -63,3 +63,6 @@ def test_a_spot_that_neither_search_resolves_is_never_zero() -> None:
     lower = np.array([[4.0, 4.0, 0.0, 1.0, 4.5, 4.5, 0.0, 9.0]])
     (found,) = band_areas(upper, lower)
     assert found[:4].tolist() == [4.0, 4.0, 0.0, 1.0]
+    upper[0, 3] = lower[0, 3] = 0.0
+    upper[0, 1] = 4.0 - 1e-15
+    assert band_areas(upper, lower)[0].min() == 0.0

@@ -5,7 +5,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches.arcs import arcs_of
+from assoc_hull.geometry.patches.algebra import multiply
+from assoc_hull.geometry.patches.arcs import arcs_of, placed
 from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
 from assoc_hull.geometry.patches.heights import bernstein_table, heights
@@ -52,6 +53,21 @@ def test_arcs_that_meet_none_end_at_what_is_undecided() -> None:
     keys = free_ends(cells, arcs_of(cells))
     assert len(keys) > 100
     assert touching(cells, keys).all()
+
+
+@pytest.mark.parametrize("factor", [False, True], ids=["one", "product"])
+def test_whole_numbers_leave_no_end_over(factor: bool) -> None:
+    """Polynomials of small whole numbers, nil at corners and edges: no end is unexplained."""
+    draw = np.random.default_rng(5)
+    for m, n in ((1, 3), (2, 2), (4, 3)):
+        b = draw.integers(-1, 2, (60, m + 1, n + 1)).astype(np.float64)
+        if factor:
+            b = multiply(b, draw.integers(-2, 3, (60, 3, 2)).astype(np.float64))
+        cells = solve(IsoFunction(b, np.full(b.shape, 1e-14)), budget=500)
+        arcs = arcs_of(cells)
+        simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
+        assert np.array_equal(arcs.cell, np.flatnonzero(simple))
+        assert touching(cells, free_ends(cells, arcs)).all()
 
 
 def test_ends_lie_on_borders_to_the_bit() -> None:
@@ -145,6 +161,33 @@ def test_polylines_keep_their_chord_tolerance(chord_tol: float) -> None:
     assert np.abs(np.hypot(xyz[:, 0], xyz[:, 1]) - 0.5).max() < 1e-14
     assert (0.5 - np.hypot(middle[:, 0], middle[:, 1])).max() < chord_tol
     assert len(uv) < (70 if chord_tol > 0.01 else 160)
+
+
+def test_an_arc_that_meets_its_chord_in_the_middle_is_followed() -> None:
+    """An arc in the shape of an S has points on both of its bows."""
+    terms = {(1, 0): 1.0, (0, 3): -2.0, (0, 2): 3.0, (0, 1): -1.0, (0, 0): -0.5}
+    cells = solve(function(polynomial(terms, 3)))
+    flat = Patches.single(plate({}, (0.0, 1.0, 0.0, 1.0)))
+    _, uv = sampled(flat, cells, arcs_of(cells), 0.01)
+    assert len(cells) == 1
+    assert len(uv) > 8
+    assert np.ptp(uv[:, 0]) == pytest.approx(0.19, abs=0.01)
+
+
+def test_short_arcs_have_no_points_in_vain() -> None:
+    """Where arcs are shorter than the tolerance, only their ends are given."""
+    patches = Patches.single(patch("P05_cross"))
+    cells = solve(gauss_function(patches, 0.0))
+    start, _ = sampled(patches, cells, arcs_of(cells), 10.0)
+    assert np.diff(start).tolist() == [2] * (len(start) - 1)
+
+
+def test_borders_are_kept_to_the_bit() -> None:
+    """At 0 and 1 of a box its borders are given, not sums that round to another number."""
+    box = np.array([[0.1, 0.7], [2.0**-54, 0.5 + 2.0**-53]])
+    assert box[1, 0] + (box[1, 1] - box[1, 0]) != box[1, 1]
+    assert np.array_equal(placed(box, np.zeros(2)), box[:, 0])
+    assert np.array_equal(placed(box, np.ones(2)), box[:, 1])
 
 
 def test_heights_are_where_the_polynomial_is_nil() -> None:

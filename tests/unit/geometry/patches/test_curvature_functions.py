@@ -125,13 +125,15 @@ def test_rounding_of_mean_curvature_and_umbilics() -> None:
 def test_uncertain_points_stay_within_their_bound(level: float) -> None:
     """1200 nets, each coordinate off by delta up or down: changes reach their bound, not more."""
     delta, rng, reached = 1e-5, np.random.default_rng(6), []
-    for net in (nets()["P17_pole_sphere"], nets()["P12_bowl"], whole_net(1, 3)):
+    sphere = nets()["P17_pole_sphere"]
+    for net in (sphere, sphere.swapaxes(0, 1), whole_net(1, 3)):
         moved = net + delta * rng.choice([-1.0, 1.0], (400, *net.shape))
         many = Patches(moved, np.zeros((400, 2, 2)), np.zeros(400, np.intp))
         truth = gauss_function(Patches.single(net), level, delta)
         change = np.abs(gauss_function(many, level).b - truth.b)
         reached.append((change / truth.err).max())
-    assert 0.85 <= max(reached) <= 1.0
+    assert min(reached[:2]) >= 0.85
+    assert max(reached) <= 1.0
 
 
 def test_a_patch_does_not_depend_on_its_batch() -> None:

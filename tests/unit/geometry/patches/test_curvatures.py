@@ -95,6 +95,15 @@ def test_a_bilinear_patch() -> None:
     assert found.mean == pytest.approx(-x * y / square**1.5, rel=1e-12)
 
 
+def test_far_away_is_as_good_as_here() -> None:
+    """A net of short numbers has the same curvatures, bit for bit, where it is moved by 2**20 m."""
+    net = np.random.default_rng(5).integers(-99, 100, (4, 4, 3)) / 16.0
+    uv, row = np.random.default_rng(6).uniform(size=(30, 2)), np.zeros(30, np.intp)
+    here, there = (curvatures(Patches.single(each), row, uv) for each in (net, net + 2.0**20))
+    assert np.array_equal(here.gauss, there.gauss)
+    assert np.array_equal(here.mean, there.mean)
+
+
 def test_a_point_does_not_depend_on_the_others() -> None:
     """Each of many points on many patches has the bits that it has alone."""
     rng = np.random.default_rng(4)

@@ -18,8 +18,10 @@ from assoc_hull.geometry.patches.curvature_functions import (
 )
 from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.points import normals, points
 from assoc_hull.geometry.patches.pointwise import jets
 from assoc_hull.geometry.patches.solve import solve
+from tests.curved_patches import nets
 from tests.exact_patches import Exact, bernstein, exact_rational, product, total
 from tests.rational_surfaces import arc, revolved
 
@@ -55,14 +57,14 @@ def test_rounding_stays_far_below_its_bound(degrees: tuple[int, int]) -> None:
 
 def sphere(radius: float, up_to: float = 1.2) -> Patches:
     """A patch of a sphere about the origin, from its equator up, exact but for rounding."""
-    points, weights = arc(0.0, up_to)
-    return Patches.single(*revolved(radius * points, weights, 0.1, 1.5))
+    curve, weights = arc(0.0, up_to)
+    return Patches.single(*revolved(radius * curve, weights, 0.1, 1.5))
 
 
 def torus() -> Patches:
     """A patch of a torus, R = 3 and r = 1, with the top of the tube: K = 0 there."""
-    points, weights = arc(np.pi / 6, 5 * np.pi / 6)
-    return Patches.single(*revolved(points + np.array([3.0, 0.0]), weights, 0.0, np.pi / 4))
+    curve, weights = arc(np.pi / 6, 5 * np.pi / 6)
+    return Patches.single(*revolved(curve + np.array([3.0, 0.0]), weights, 0.0, np.pi / 4))
 
 
 def test_a_sphere_has_one_curvature() -> None:
@@ -101,11 +103,19 @@ def test_curvatures_on_a_torus() -> None:
     assert band.b[0, 0, -1] < -band.err[0, 0, -1]
 
 
+def test_points_and_normals_of_polylines() -> None:
+    """What polylines are made of lies on the sphere too, and its normals are as long as it."""
+    uv, row = np.random.default_rng(8).uniform(size=(20, 2)), np.zeros(20, np.intp)
+    found = points(sphere(2.0), row, uv)
+    assert np.sqrt((found**2).sum(axis=1)) == pytest.approx(2.0, rel=4e-16)
+    assert normals(sphere(2.0), row, uv) == pytest.approx(jets(sphere(2.0), row, uv).s, abs=1e-13)
+
+
 def test_a_cylinder_is_nil_to_its_bound() -> None:
     """A rational arc along a straight line, 100 m before the origin, has no curvature K."""
-    points, weights = arc(0.3, 1.3)
+    curve, weights = arc(0.3, 1.3)
     net = np.zeros((3, 2, 3))
-    net[..., 1:] = points[:, None]
+    net[..., 1:] = curve[:, None]
     net[:, 1, 0] = 8.0
     found = gauss_function(Patches.single(net + 100.0, np.stack([weights] * 2, axis=1)), 0.0)
     assert (np.abs(found.b) <= found.err).all()
@@ -124,6 +134,29 @@ def test_equal_weights_are_a_polynomial_patch() -> None:
     assert high[[0, 0, -1, -1], [0, -1, 0, -1]] == pytest.approx(
         256.0 * low[[0, 0, -1, -1], [0, -1, 0, -1]], rel=1e-12
     )
+
+
+def test_derivatives_of_a_rational_patch() -> None:
+    """Second derivatives are the limits of differences of the first."""
+    rng, h = np.random.default_rng(9), 1e-5
+    patch = Patches.single(rng.normal(size=(4, 3, 3)), rng.uniform(0.5, 2.0, (4, 3)))
+    uv, row = rng.uniform(0.1, 0.9, (20, 2)), np.zeros(20, np.intp)
+    found = jets(patch, row, uv)
+    for axis, first, second in ((0, "ru", "ruu"), (1, "rv", "rvv"), (1, "ru", "ruv")):
+        step = h * np.eye(2)[axis]
+        low, high = (getattr(jets(patch, row, uv + s), first) for s in (-step, step))
+        assert np.abs((high - low) / (2 * h) - getattr(found, second)).max() <= 1e-6
+
+
+def test_uncertain_points_of_equal_weights() -> None:
+    """The bound is as close as that of polynomial patches: a pole of a sphere reaches it."""
+    net, delta, rng = nets()["P17_pole_sphere"], 1e-5, np.random.default_rng(10)
+    for each in (net, net.swapaxes(0, 1)):
+        moved = each + delta * rng.choice([-1.0, 1.0], (200, *each.shape))
+        weight = np.full((200, 4, 4), 2.0)
+        many = Patches(moved, np.zeros((200, 2, 2)), np.zeros(200, np.intp), weight)
+        truth = gauss_function(Patches.single(each, weight[0]), 0.0, delta)
+        assert 0.85 <= (np.abs(gauss_function(many, 0.0).b - truth.b) / truth.err).max() <= 1.0
 
 
 @pytest.mark.parametrize("level", [0.0, 0.05])
@@ -170,8 +203,8 @@ def test_areas_on_a_torus_are_exact(level: float) -> None:
 
 def test_area_of_an_octant_of_a_sphere() -> None:
     """With a pole: all of it is positive, and pi / 2."""
-    points, weights = arc(0.0, np.pi / 2)
-    octant = Patches.single(*revolved(points, weights, 0.0, np.pi / 2))
+    curve, weights = arc(0.0, np.pi / 2)
+    octant = Patches.single(*revolved(curve, weights, 0.0, np.pi / 2))
     cells = solve(gauss_function(octant, 0.5, 1e-12))
     area = areas(octant, cells, arcs_of(cells), 1e-10)
     assert area.positive[0] == pytest.approx(np.pi / 2, rel=1e-14)

@@ -1,5 +1,7 @@
 """Cells that cover a patch: what is claimed of each is true, and what is not known is told."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -138,7 +140,7 @@ def test_every_claim_on_random_patches_is_true(draw: object) -> None:
     cells = solve(f)
     arcs = arcs_of(cells)
     assert sorted(arcs.cell) == np.flatnonzero((cells.kind == 2) | (cells.kind == 3)).tolist()
-    cells, arcs = thinned(cells, arcs, 5000)
+    cells, arcs = thinned(cells, arcs, 3000)
     _, place = checked_points(cells)
     place = place.reshape(len(cells), -1, 2)
     value = pointwise(net, cells.patch, place)
@@ -333,3 +335,31 @@ def test_polynomials_that_are_not_finite_are_refused(value: float) -> None:
     b[1, 0, 1] = value
     with pytest.raises(BadInputError, match=r"coefficient 0, 1 .* patch 1;"):
         solve(IsoFunction(b, np.zeros((3, 2, 2))))
+
+
+def test_what_counts_as_nil_moves_no_arc() -> None:
+    """Cells no larger than what is known are nil; those with arcs, and the arcs, stay."""
+    b = polynomial({(2, 0): 1.0, (1, 0): -0.9, (0, 0): 0.14, (0, 4): 0.3}, 6)
+    f = function(b, 1e-12 * b, b)
+    nil = np.full(f.b.shape, 1e-10)
+    plain, known = solve(f), solve(f, nil=nil)
+    assert known.kind[known.patch == 1].tolist() == [CellKind.ZERO]
+    for k in (0, 2):
+        mine, own = (cells.box[cells.patch == k] for cells in (plain, known))
+        assert np.array_equal(mine, own)
+    ends = [arcs_of(cells).ends for cells in (plain, known)]
+    count = int((arcs_of(plain).cell < (plain.patch == 0).sum()).sum())
+    assert count > 1
+    assert np.array_equal(ends[0][:count], ends[1][:count])
+
+
+def test_many_hostile_patches_fit_into_memory() -> None:
+    """Forty patches that use up their budgets take little more memory than what is left open."""
+    f = gauss(patch("P07_double_cross"))
+    rows = np.zeros(40, np.int64)
+    tracemalloc.start()
+    cells = solve(IsoFunction(f.b[rows], f.err[rows]), budget=400)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert cells.stopped.all()
+    assert most < 6 * (cells.b.nbytes + cells.err.nbytes)

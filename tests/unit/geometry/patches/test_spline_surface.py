@@ -124,6 +124,23 @@ def test_a_rational_surface_is_the_quotient() -> None:
     assert np.abs(patches.net[:, 0, -1] - corner).max() <= 5e-15
 
 
+def test_the_border_of_a_patch_is_that_of_its_neighbour() -> None:
+    """Parameters 0 and 1 of patches are those of the surface at both ends, to the last bit."""
+    low = np.random.default_rng(10).uniform(-1.0, 1.0, (200, 2))
+    box = np.stack([low, np.random.default_rng(11).uniform(1.0, 3.0, (200, 2))], axis=2)
+    patches, row = Patches(np.zeros((200, 2, 2, 3)), box, np.zeros(200, np.intp)), np.arange(200)
+    for end in (0, 1):
+        found = patches.parameters(row, np.full((200, 2), float(end)))
+        assert np.array_equal(found, box[..., end])
+
+
+def test_a_part_may_end_where_the_surface_does() -> None:
+    """An end that rounding has put outside is the end."""
+    part = random_surface().restricted((0.0, 4.0 + 1e-13), (-1.0, 2.0))
+    assert part.domain == ((0.0, 4.0), (-1.0, 2.0))
+    assert np.array_equal(part.net, random_surface().net)
+
+
 def test_equal_weights_are_none() -> None:
     """A surface whose weights are all equal is a polynomial one."""
     net = np.random.default_rng(8).normal(size=(3, 3, 3))
