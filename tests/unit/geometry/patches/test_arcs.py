@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.algebra import multiply
 from assoc_hull.geometry.patches.arcs import arcs_of, placed
 from assoc_hull.geometry.patches.cells import Arcs, CellKind, Cells
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
@@ -52,6 +53,21 @@ def test_arcs_that_meet_none_end_at_what_is_undecided() -> None:
     keys = free_ends(cells, arcs_of(cells))
     assert len(keys) > 100
     assert touching(cells, keys).all()
+
+
+@pytest.mark.parametrize("factor", [False, True], ids=["one", "product"])
+def test_whole_numbers_leave_no_end_over(factor: bool) -> None:
+    """Polynomials of small whole numbers, nil at corners and edges: no end is unexplained."""
+    draw = np.random.default_rng(5)
+    for m, n in ((1, 3), (2, 2), (4, 3)):
+        b = draw.integers(-1, 2, (60, m + 1, n + 1)).astype(np.float64)
+        if factor:
+            b = multiply(b, draw.integers(-2, 3, (60, 3, 2)).astype(np.float64))
+        cells = solve(IsoFunction(b, np.full(b.shape, 1e-14)), budget=500)
+        arcs = arcs_of(cells)
+        simple = (cells.kind == CellKind.U_SIMPLE) | (cells.kind == CellKind.V_SIMPLE)
+        assert np.array_equal(arcs.cell, np.flatnonzero(simple))
+        assert touching(cells, free_ends(cells, arcs)).all()
 
 
 def test_ends_lie_on_borders_to_the_bit() -> None:
