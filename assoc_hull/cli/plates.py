@@ -49,6 +49,10 @@ def add(commands: Commands) -> None:
         "--development", type=Path, metavar="FLAT",
         help="lay the plates flat, and write nodes and strains to a .csv file",
     )  # fmt: skip
+    parser.add_argument(
+        "--surfaces", type=Path, metavar="NETS",
+        help="write the surfaces, cut at seams, in m: .csv (Bezier only), .json or .igs",
+    )  # fmt: skip
     add_json(parser)
 
 
@@ -115,7 +119,8 @@ def _check_targets(arguments: argparse.Namespace) -> None:
     from assoc_hull.io.whole_file import require_no_hull_file
 
     targets = ((arguments.out, _OUT), (arguments.picture, PICTURE_ENDINGS),
-               (arguments.development, (".csv",)))  # fmt: skip
+               (arguments.development, (".csv",)),
+               (arguments.surfaces, (".csv", ".json", ".igs", ".iges")))  # fmt: skip
     known = {arguments.file.resolve()}
     for path, endings in targets:
         if path is None:
@@ -171,6 +176,11 @@ def _saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
             text = development_csv([plate.development() for plate in found])
         write_whole(arguments.development, text.encode())
         saved.append(arguments.development)
+    if arguments.surfaces is not None:
+        from assoc_hull.io.surface_file import write_surfaces
+
+        write_surfaces([plate.surface for plate in found], arguments.surfaces)
+        saved.append(arguments.surfaces)
     return [str(each) for each in saved]
 
 

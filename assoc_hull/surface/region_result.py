@@ -18,11 +18,12 @@ from functools import cached_property
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import integer
+from assoc_hull.arguments import choice, integer
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.region_areas import RegionAreas
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_options import RegionOptions
+from assoc_hull.surface.region_outlines import REGIONS, Outline, outlines_of
 from assoc_hull.surface.region_parts import RegionPart
 from assoc_hull.surface.zero_band import ZeroBand
 
@@ -84,6 +85,43 @@ class RegionResult:
         which = integer(number, "number", where, least=0, most=len(self.surfaces) - 1)
         rows = [part.areas[part.patches.surface == which] for part in self.parts]
         return RegionAreas.added(np.concatenate(rows).tolist())
+
+    def outlines(self, region: str) -> tuple[Outline, ...]:
+        """Give the outlines of a region, over the borders of patches.
+
+        Parameters
+        ----------
+        region : str
+            "positive": K > K0. "negative": K < -K0. "zero": all that is left between them (without
+            a band, cells in which K is nil).
+
+        Returns
+        -------
+        tuple of Outline
+            Closed polygons, surface by surface; chords keep the tolerance of polylines.
+
+        Raises
+        ------
+        BadInputError
+            Another region.
+
+        Examples
+        --------
+        >>> import assoc_hull as ah
+        >>> import numpy as np
+        >>> u, v = np.mgrid[0:3, 0:3] / 2.0
+        >>> net = np.stack([2 * u, v, 0.3 * u * v], axis=-1)
+        >>> [outline.surface for outline in ah.curvature_regions(net).outlines("negative")]
+        [0]
+        """
+        choice(region, "region", REGIONS, "in RegionResult.outlines")
+        tol, banded = self.options.chord_tol, len(self.band.levels) > 1
+        found = [
+            outline
+            for part in self.parts
+            for outline in outlines_of(self.surfaces, part, region, banded, tol)
+        ]
+        return tuple(sorted(found, key=lambda outline: outline.surface))
 
     @property
     def positive(self) -> float:

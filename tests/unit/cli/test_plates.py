@@ -85,6 +85,16 @@ def test_notes_on_the_file_are_told(
     assert note in capsys.readouterr().out
 
 
+def test_surfaces_are_turned_into_another_form(shell: Path, facts: Json, tmp_path: Path) -> None:
+    """Those that were read, cut at the seams that are given."""
+    path = tmp_path / "cut.igs"
+    assert facts("plates", shell, "--surfaces", path, "--seams-u", 0.5)["saved"] == [str(path)]
+    found = ah.read_surfaces(path)
+    assert len(found) == 12
+    assert found[0].name == "flat of side 1"
+    assert found[0].domain == ((0.0, 0.5), (0.0, 1.0))
+
+
 def test_a_map_and_a_sheet_are_drawn(facts: Json, tmp_path: Path) -> None:
     """A picture of the ending that is asked for; a PDF in place of the table."""
     path, plate = tmp_path / "map.svg", tmp_path / "plate.csv"
@@ -111,6 +121,9 @@ def test_plates_that_ship_are_written(facts: Json, tmp_path: Path) -> None:
         pytest.param(["-o", "plates.xls"], "end the name in .csv or .json or .pdf", id="table"),
         pytest.param(["--picture", "map.txt"], "end the name in .pdf or .svg", id="picture"),
         pytest.param(["--development", "flat.json"], "end the name in .csv", id="flat"),
+        pytest.param(
+            ["--surfaces", "nets.stp"], "end the name in .csv or .json or .igs", id="nets"
+        ),
         pytest.param(["-o", "no/plates.csv"], "make the folder first", id="folder"),
         pytest.param(["-o", "shell.csv"], "another file of this command", id="itself"),
         pytest.param(["-o", "a.pdf", "--picture", "a.pdf"], "another file of this", id="twice"),
