@@ -46,9 +46,10 @@ class Component:
         Of a junction, how many lines lead to it; of an open line 2, else 0.
     tags : tuple of str
         "singular": the surface has no tangent plane there, and the piece is none of the shape.
-        "knot-line": an end lies on a knot, where K jumps. "flat": it touches cells in which K
-        counts as nil. "tangent": it was followed through unresolved cells in which it is proven
-        to be one line. "gap": it was followed where K has the value within rounding.
+        "knot-line": an end lies on a knot, where K jumps. "tangent": a line was followed through
+        cells that were not resolved, and in which it is proven to be one line. "flat": it meets
+        cells in which K has the value throughout, within what control points are known to. "gap":
+        it was followed where K has the value within rounding.
     spots : (s, 3), m
         Where unresolved cells, or such in which K counts as nil, belong to it: a point for each
         group of cells that touch.

@@ -18,7 +18,8 @@ def value(a: FloatArray, u: FloatArray = U, v: FloatArray = V) -> FloatArray:
     m, n = algebra.degrees(a)
     rows = [math.comb(m, i) * u**i * (1 - u) ** (m - i) for i in range(m + 1)]
     columns = [math.comb(n, j) * v**j * (1 - v) ** (n - j) for j in range(n + 1)]
-    return np.einsum("...ij,ip,jp->...p", a, np.array(rows), np.array(columns))
+    found: FloatArray = np.einsum("...ij,ip,jp->...p", a, np.array(rows), np.array(columns))
+    return found
 
 
 def some(seed: int, *shape: int) -> FloatArray:
