@@ -11,6 +11,8 @@ from assoc_hull.geometry.patches.components import Component, ComponentKind, End
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
 from assoc_hull.geometry.patches.joining import joined
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.refining import refined
+from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from tests.curved_patches import graph_plates, patch, random_nets, references
 from tests.unit.geometry.patches.isolines import function, monkey, plate, polynomial
@@ -246,7 +248,10 @@ def test_loops_are_lost_in_undecided_cells_only(radius: float, kind: str) -> Non
     assert only.kind.value == kind
 
 
-def test_neighbours_are_not_links() -> None:
+@pytest.mark.parametrize(
+    ("grid", "links", "pairs"), [(16, 62, 66), (32, 118, 119)], ids=["16 x 16", "32 x 32"]
+)
+def test_neighbours_are_not_links(grid: int, links: int, pairs: int) -> None:
     """Of cells of a grid that the loop of P08 runs through, more are neighbours than linked.
 
     So lines are joined by ends that coincide, not cell by neighbouring cell: the loop passes from
@@ -254,13 +259,31 @@ def test_neighbours_are_not_links() -> None:
     """
     found = join_nets(patch("P08_wavy_plate")[None])
     (loop,) = found.components
-    uv = found.polyline(loop, 0, 1e-5)
-    walked = np.floor(uv * 16).astype(int)
-    steps = np.abs(np.diff(walked, axis=0, append=walked[:1])).sum(axis=1)
-    cells = {(int(i), int(j)) for i, j in walked}
+    line = found.polyline(loop, 0, 1e-5)
+    line = np.concatenate([line, line[:1]])
+    along = np.linspace(0.0, len(line) - 1.0, 100_001)
+    uv = np.stack([np.interp(along, np.arange(len(line)), line[:, i]) for i in (0, 1)], axis=1)
+    walked = np.floor(uv * grid).astype(int)
+    steps = np.abs(np.diff(walked, axis=0)).sum(axis=1)
+    cells = {(int(i), int(j)) for i, j in np.unique(walked, axis=0)}
     neighbours = sum(((i + 1, j) in cells) + ((i, j + 1) in cells) for i, j in cells)
-    assert steps.sum() == 62
-    assert neighbours == 66
+    assert steps.sum() == links
+    assert neighbours == pairs
+
+
+def test_cells_made_anew_do_not_depend_on_the_batch() -> None:
+    """Of discs that touch a cut and such that do not, each has the cells that it has alone."""
+    discs = [_circle(u, 0.53, 0.2) for u in (0.6871, 0.5, 0.2871)]
+    whole = function(*discs)
+    cells = refined(whole, solve(whole))
+    assert cells.kind.max() < CellKind.UNRESOLVED
+    for k, disc in enumerate(discs):
+        one = function(disc)
+        alone = refined(one, solve(one))
+        mine = cells.patch == k
+        assert cells.box[mine].tobytes() == alone.box.tobytes()
+        held = cells.row[mine][cells.row[mine] >= 0]
+        assert cells.b[held].tobytes() == alone.b[alone.row[alone.row >= 0]].tobytes()
 
 
 def test_a_double_line_is_one_cluster() -> None:
