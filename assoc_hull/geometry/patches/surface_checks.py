@@ -28,7 +28,7 @@ the last that floating-point numbers hold exactly. Surfaces of ships are of degr
 _FARTHEST = 1e6
 
 _WIDEST = 1e4
-"""Weights of one surface differ by this factor at most: bounds of errors grow with a power of it."""
+"""Weights differ by this factor at most: bounds of errors grow with a power of it."""
 
 _SAME = 1e-12
 
