@@ -1,7 +1,7 @@
 r"""Control nets as a table: a row a point, ``patch,i_u,j_v,x,y,z``, and ``w`` for weights.
 
 Each patch is a Bezier surface; its rows may come in any order. Rows that begin with ``#`` are
-comments.
+comments. Semicolons or tabs may stand for commas, and then commas for decimal points.
 
 Examples
 --------
@@ -54,8 +54,18 @@ def looks_like_nets(text: str) -> bool:
     >>> looks_like_nets("# plates\npatch,i_u,j_v,x,y,z,w"), looks_like_nets("station,wl_0")
     (True, False)
     """
-    head = next((line for line in text.splitlines() if not _is_comment(line)), "")
-    return tuple(_cell(each) for each in head.split(","))[:3] == COLUMNS[:3]
+    head = _head(text)
+    return tuple(_cell(each) for each in head.split(_mark(head)))[:3] == COLUMNS[:3]
+
+
+def _head(text: str) -> str:
+    """Give the first line that is no comment."""
+    return next((line for line in io.StringIO(text) if not _is_comment(line)), "")
+
+
+def _mark(head: str) -> str:
+    """Tell what stands between cells."""
+    return max(",;\t", key=head.count)
 
 
 def nets_of_table(
@@ -97,7 +107,8 @@ def nets_of_table(
 
 def _rows(text: str, source: str) -> Iterator[_Row]:
     """Take the table apart."""
-    reader = csv.reader(io.StringIO(text), strict=True)
+    mark = _mark(_head(text))
+    reader = csv.reader(io.StringIO(text), delimiter=mark, strict=True)
     head: list[str] | None = None
     try:
         for cells in reader:
@@ -106,7 +117,8 @@ def _rows(text: str, source: str) -> Iterator[_Row]:
             if head is None:
                 head = _header(cells, f"{source}, line {reader.line_num}")
                 continue
-            yield _row(cells, len(head), reader.line_num, source)
+            numbers = cells if mark == "," else [each.replace(",", ".") for each in cells]
+            yield _row([cells[0], *numbers[1:]], len(head), reader.line_num, source)
     except csv.Error as error:
         where = f"{source}, line {reader.line_num}"
         raise BadInputError(f"this is no table ({error})", where, "mend the quotation") from None

@@ -91,7 +91,7 @@ def sections_of(text: str, source: str) -> Sections:
         if place < 0:
             raise _unknown_line(number, line, source)
         if place < last:
-            what = f"section {letter} comes again after section {_LETTERS[last]}"
+            what = f"a line of section {letter} comes after section {_LETTERS[last]}"
             raise _damaged(what, f"{source}, line {number}")
         last = place
         _require_next(line, letter, len(found[letter]) + 1, number, source)

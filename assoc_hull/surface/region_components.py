@@ -133,6 +133,8 @@ def _ends(line: Joined) -> int:
 
 def _spots(patches: Patches, solution: Solution, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Give a point for each group of cells that touch: the middle of the one most in the middle."""
+    if not len(rows):
+        return np.zeros((0, 2)), np.zeros((0, 3))
     patch, box = solution.cells.patch[rows], solution.cells.box[rows]
     low, high = (patches.parameters(patch, box[:, :, end]) for end in (0, 1))
     group = clusters(low, high, _SAME)

@@ -37,6 +37,7 @@ def test_areas_are_those_of_the_reference(name: str) -> None:
     within = 1e-9 * truth.total
     if name == ENDED_EARLY:
         assert areas.positive_estimate == pytest.approx(truth.positive, rel=0, abs=1e-8)
+        assert areas.negative_estimate == pytest.approx(truth.negative, rel=0, abs=1e-8)
         # The table has 13 decimals.
         assert areas.negative <= truth.negative <= areas.negative + areas.unresolved + 1e-13
         return

@@ -211,6 +211,13 @@ def test_a_trimmed_face_is_refused(kind: int, corners: tuple[tuple[float, float]
         read(iges(face(corners, kind)))
 
 
+def test_a_piece_of_border_across_the_surface_cuts_it() -> None:
+    """Also where the sides are covered besides."""
+    parts = face((*SQUARE, SQUARE[0], (0.5, 0.5)))
+    with pytest.raises(BadInputError, match="is trimmed"):
+        read(iges(parts))
+
+
 def test_a_face_with_a_hole_is_refused() -> None:
     """Also where its outer border is that of the surface."""
     parts = face()
@@ -340,10 +347,17 @@ def instead(old: str, new: str) -> Change:
     return lambda text: text.replace(old, new, 1)
 
 
+def directory_last(text: str) -> str:
+    """Put the directory behind the parameters."""
+    lines = text.splitlines(keepends=True)
+    return "".join(sorted(lines, key=lambda line: "SGPDT".index(line[72])))
+
+
 DAMAGED: dict[str, tuple[Change, str]] = {
     "cut short": (lambda text: text[:-81], "section T, is missing"),
     "cut short in a line": (lambda text: text[:600], "no letter of a section"),
     "no directory": (without("D      "), "directory section is missing"),
+    "sections out of order": (directory_last, "of section D comes after section P"),
     "a line is missing": (without("P      2"), "is numbered"),
     "another count": (instead("P      3   ", "P      4   "), "section T says 4"),
     "a letter that is none": (instead("P      1", "Q      1"), "no letter of a section"),

@@ -56,6 +56,13 @@ def test_units_and_weights_are_taken() -> None:
     assert found.weights.ravel().tolist() == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
 
 
+@pytest.mark.parametrize("mark", [";", "\t"], ids=["semicolons", "tabs"])
+def test_other_marks_part_cells_too(mark: str) -> None:
+    """As spreadsheets write them where the comma is the decimal point."""
+    text = table(*ROWS).replace(",", mark).replace("0.5", "0,5")
+    assert np.array_equal(nets_of(text)[0].net, NET)
+
+
 def test_reference_patches_come_back_to_the_last_bit() -> None:
     """Written with all digits, and read."""
     given = [SplineSurface.bezier(net, name) for name, net in nets().items()]
@@ -205,6 +212,7 @@ CONTENTS: dict[str, tuple[Callable[[], bytes], str]] = {
     "csv": (lambda: table(*ROWS).encode(), "csv"),
     "csv with a mark of its coding": (lambda: b"\xef\xbb\xbf" + table(*ROWS).encode(), "csv"),
     "csv of Windows": (lambda: table(*ROWS).replace("\n", "\r\n").encode(), "csv"),
+    "csv of semicolons": (lambda: table(*ROWS).replace(",", ";").encode(), "csv"),
     "json": (lambda: b"\n " + json.dumps(document()).encode(), "json"),
     "iges": (lambda: iges([surface()]).encode(), "iges"),
 }

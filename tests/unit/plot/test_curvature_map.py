@@ -108,6 +108,22 @@ def test_signs_stand_in_their_regions(wavy: RegionResult, picture: Figure, boxes
             assert np.hypot(*(places - middle).T).min() > 1.0
 
 
+def test_signs_are_those_of_the_colour_they_stand_on(picture: Figure, boxes_of: Boxes) -> None:
+    """The tile that was painted last below each has the tint of the sign."""
+    corner, colour = tiles(picture, "P08_wavy_plate/plan/tiles")
+    edge = np.roll(corner, -1, axis=1) - corner
+    looked = 0
+    for name, box in boxes_of(picture).items():
+        if "/plan/sign/" in name:
+            off = 0.5 * (box[:2] + box[2:]) - corner
+            turn = edge[..., 0] * off[..., 1] - edge[..., 1] * off[..., 0]
+            top = np.flatnonzero((turn >= 0.0).all(axis=1))[-1]
+            sign = int(name.split("/sign/")[1].split()[0])
+            assert colour[top] == pytest.approx(to_rgb(TINTS[sign]))
+            looked += 1
+    assert looked >= 5
+
+
 def test_borders_are_the_lines_that_were_found(
     wavy: RegionResult, picture: Figure, lines_of: Lines
 ) -> None:
@@ -186,6 +202,12 @@ def test_a_continuous_map_is_symmetric_and_names_its_lines() -> None:
     """The bar reaches equally far on both sides; further levels bear their curvature."""
     found = ah.curvature_regions(bezier("P20_five_arcs"), levels=(-0.01,))
     figure = curvature_figure(found, views=["parameters"], quantity="curvature")
+    corner, colour = tiles(figure, "P20_five_arcs/parameters/tiles")
+    low, high = corner.min(axis=(0, 1)), corner.max(axis=(0, 1))
+    share = (corner.mean(axis=1) - low) / (high - low)
+    for place, red in (((0.1, 0.7), True), ((0.6, 0.2), False)):  # convex, and saddle
+        near = np.abs(share - place).sum(axis=1).argmin()
+        assert bool(colour[near, 0] > colour[near, 2]) == red
     marks = words(figure, "label/bar")
     assert {"0", "K0", "−K0"} <= set(marks)
     high = next(mark for mark in marks if f"−{mark}" in marks and mark != "K0")

@@ -124,6 +124,13 @@ def test_a_plate_laid_flat_is_to_scale_and_says_what_it_is_not(
         (line,) = (each for each in figure.axes[0].lines if each.get_gid() == f"{name}/outline")
         size = np.ptp(np.asarray(line.get_xydata()), axis=0)
         assert size * scale / 1e3 == pytest.approx(flat.size)
+        (drawn,) = (
+            each for each in figure.axes[0].collections if each.get_gid() == f"{name}/tiles"
+        )
+        corner = np.array([path.vertices for path in drawn.get_paths()])
+        first, second = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
+        area = 0.5 * np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
+        assert area.sum() * scale**2 / 1e6 == pytest.approx(flat.flat_area, rel=1e-3)
     for box in boxes_of(figure).values():
         assert (box[:2] > 0.0).all()
         assert (box[2:] < (PAPERS["A4"].width, PAPERS["A4"].height)).all()
