@@ -268,3 +268,13 @@ def test_no_order_of_hashes_is_seen() -> None:
         check=True, cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": "4711"},
     ).stdout  # fmt: skip
     assert other.strip() == here["text"]
+
+
+def test_notes_tell_parts_that_count_as_nil() -> None:
+    """Part of a patch that points off by delta could make developable is told, with its K."""
+    net = patch("P07_double_cross")
+    (note,) = (n for n in ah.curvature_regions(net, zero="exact").notes if "count as K = 0" in n)
+    assert "parts of patches, count as K = 0, since points that are off by delta" in note
+    assert "1/m2 there: a smaller delta" in note
+    notes = ah.curvature_regions(net, zero="exact", delta=0.0).notes
+    assert not any("count as K = 0" in each for each in notes)
