@@ -242,7 +242,8 @@ def test_parts_are_the_whole_of_any_net(m: int, n: int, seed: int, zero: str, sc
     areas = result.areas
     parts = areas.positive, areas.negative, areas.zero, areas.unresolved
     assert min(parts) >= 0.0
-    assert sum(parts) == pytest.approx(areas.total, rel=1e-4)
+    # The total is found by another rule: within ten times area_tol.
+    assert sum(parts) == pytest.approx(areas.total, rel=1e-3)
     again = ah.curvature_regions(net.copy(), zero=zero, area_tol=1e-4, depth=8)
     assert again.areas == areas
     assert [piece.xyz[0].tobytes() for piece in again.components] == [
