@@ -29,7 +29,7 @@ settings.register_profile(
     "ci",
     settings.get_profile("default"),
     derandomize=True,
-    max_examples=25,
+    max_examples=18,
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")

@@ -94,8 +94,16 @@ def parameter_curves(file: IgesFile, number: int, met: tuple[int, ...] = ()) -> 
     if entry.kind == 102:
         count = record.count(1, "the number of curves", _MOST)
         parts = record.pointers(2, count, "the curves")
-        found = [parameter_curves(file, each, (*met, number)) for each in parts]
-        return [piece for each in found for piece in each] if all(found) else []
+        found: list[FloatArray] = []
+        for each in parts:
+            more = parameter_curves(file, each, (*met, number))
+            if not more:
+                return []
+            found += more
+            if len(found) > _MOST:  # chains of chains grow without end, and no border has so many
+                what = f"a border has more than {_MOST} pieces"
+                raise BadInputError(what, record.where, _AGAIN)
+        return found
     pieces = _pieces(record, entry.kind, entry.form)
     motion = motion_of(file, entry.transformation)
     return [motion.of(piece)[:, :2] for piece in pieces]

@@ -84,9 +84,10 @@ def curvature_figure(
         instance(found, RegionResult, "found", _WHERE)
     shown = views_of(views, _WHERE)
     continuous = choice(quantity, "quantity", ("regions", "curvature"), _WHERE) == "curvature"
+    named = text(title, "title", _WHERE)
     sheet, picture = Sheet(paper), picture_of(found)
     frame(sheet, MARGIN * sheet.paper.factor)
-    low = region_block(sheet, picture, text(title, "title", _WHERE))
+    low = region_block(sheet, picture, named)
     low = legend(sheet, picture, low, filled=not continuous)
     look = valued(sheet, picture.entries, low) if continuous else regions
     draw_plates(sheet, picture.entries, field_beside(sheet, BLOCK), shown, look)

@@ -21,6 +21,9 @@ __all__ = ["REGIONS", "Entry", "Picture", "area_words", "picture_of", "shares_of
 REGIONS = {1: "convex", 0: "developable", -1: "saddle"}
 """The regions by their sign."""
 
+_ROUNDING = 1e-12
+"""m: what control points are off by, if it is no more than this, is rounding."""
+
 _STEPS_OF_MANY = 20
 """Tiles along a side of a plate that is one of several: it is drawn small."""
 
@@ -152,7 +155,7 @@ def _facts(
         own = f"{first.breadth:g} m" if one else "its own"
         yield "K0 = 8 ε/b²", f"ε {first.strain_tol:g}, b {own}"
     delta = max(each.delta for each in results)
-    if delta > 0.0:
+    if delta > _ROUNDING:
         yield "Control points known to", f"{delta:.1e} m"
     yield "Lines and spots", _counted([each for result in results for each in result.components])
 

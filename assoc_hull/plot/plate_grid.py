@@ -15,7 +15,7 @@ from assoc_hull.plot.view import scale_of
 __all__ = ["Cell", "Field", "Sight", "lay_plates"]
 
 _GAP = 4.0  # mm at A3, between plates and between views of one
-_CAPTION = 5.0
+_CAPTION = 7.5
 
 
 @attrs.frozen(eq=False)

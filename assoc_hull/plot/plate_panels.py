@@ -134,9 +134,10 @@ def _plate(
     field, factor = cell.field, sheet.paper.factor
     words = [entry.name] if entry.name else []
     words += [_told(sight, cell.denominator) for sight in plate]
-    lines = wrapped(sheet, " · ".join(words), field.right - field.left, 1.1)
-    sheet.text((field.left, field.top - 1.0 * factor), lines[0], size=1.1, bold=True, across="left",
-               up="top", name="label/plate")  # fmt: skip
+    lines = wrapped(sheet, " · ".join(words), field.right - field.left, 1.15)[:2]
+    for k, line in enumerate(lines):
+        top = (field.left, field.top - (1.0 + k * _WORD) * factor)
+        sheet.text(top, line, size=1.1, bold=True, across="left", up="top", name="label/plate")
 
 
 def _told(sight: Sight, denominator: float) -> str:
@@ -186,12 +187,16 @@ def _below(sheet: Sheet, cell: Cell, words: str) -> None:
 
 
 def _scale(sheet: Sheet, field: Field, denominator: float) -> None:
-    """Draw the scale of the plans."""
-    if denominator:
-        factor = sheet.paper.factor
-        view = View("plan", (0, 1), denominator, (0.0, 0.0))
-        place = (field.left, field.low + 3.0 * factor)
-        scale_bar(sheet, view, place, 60.0 * factor, f"plan 1:{denominator:g}")
+    """Draw the scale of the plans; of plates too small for a bar it is written."""
+    if not denominator:
+        return
+    factor, words = sheet.paper.factor, f"plan 1:{denominator:g}"
+    view = View("plan", (0, 1), denominator, (0.0, 0.0))
+    place = (field.left, field.low + 3.0 * factor)
+    if 0.5 * view.unit < field.right - field.left:
+        scale_bar(sheet, view, place, 60.0 * factor, words)
+    else:
+        sheet.text(place, words, across="left", up="bottom", name="label/bar")
 
 
 def field_beside(sheet: Sheet, block: float) -> Field:

@@ -143,11 +143,11 @@ def test_the_convex_part_shrinks_as_the_level_rises() -> None:
     assert np.all(np.diff([above[level] for level in sorted(above)]) < 0.0)
 
 
-def saddle_with_a_convex_disc(radius: float) -> FloatArray:
-    """x**3 - 3 x y**2 + 3 radius (x**2 + y**2): K > 0 in a disc about (0.1, 0.07), m."""
+def saddle_with_a_convex_disc(radius: float, across: float = 0.1) -> FloatArray:
+    """x**3 - 3 x y**2 + 3 radius (x**2 + y**2): K > 0 in a disc about (across, 0.07), m."""
     at = np.linspace(-1.0, 1.0, 4)
     x, y = np.meshgrid(at, at, indexing="ij")
-    a, b = x - 0.1, y - 0.07
+    a, b = x - across, y - 0.07
     heights = a**3 - 3.0 * a * b**2 + 3.0 * radius * (a**2 + b**2)
     to_net = np.linalg.inv(basis(3, (at + 1.0) / 2.0))
     return np.stack([x, y, to_net @ heights @ to_net.T], axis=-1)
@@ -161,6 +161,14 @@ def test_a_small_loop_is_found(radius: float) -> None:
     )
     assert [each.kind for each in result.components] == ["closed"]
     assert result.positive == pytest.approx(np.pi * radius**2, rel=1e-3, abs=1e-9)
+
+
+def test_a_loop_that_touches_a_cut_is_closed() -> None:
+    """Where the search cuts first, at u = 0.4871, a line may touch: it is one loop all the same."""
+    net = saddle_with_a_convex_disc(0.3, 2.0 * 0.4871 - 1.0 + 0.3)
+    result = ah.curvature_regions(net, zero="exact", delta=0.0)
+    assert [each.kind for each in result.components] == ["closed"]
+    assert (result.unresolved, result.notes) == (0.0, ())
 
 
 def test_a_loop_below_the_resolution_is_told() -> None:

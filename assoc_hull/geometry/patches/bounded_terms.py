@@ -26,14 +26,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.patches import curvature_terms, rational_terms
+from assoc_hull.geometry.patches import curvature_terms
 from assoc_hull.geometry.patches.algebra import degrees, elevated, multiply
 from assoc_hull.geometry.patches.curvature_terms import Delta, Steps
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.running_bounds import EPS, Running
 
 __all__ = ["Bounded", "BoundedTerms", "less", "margin"]
-
-_EPS = 2.0**-53
 
 _ELEVATION = 60.0
 """Roundings of raising A to the degrees of |S|**4, and of the difference: for degree 7 about 50."""
@@ -66,7 +65,7 @@ class Bounded:
     @property
     def err(self) -> FloatArray:
         """What each coefficient may be off by."""
-        rounding = self.share * (self.steps * _EPS) * self.wide
+        rounding = self.share * (self.steps * EPS) * self.wide
         return rounding if self.wide is self.amount else rounding + (self.wide - self.amount)
 
     def times(self, other: Bounded, steps: float) -> Bounded:
@@ -91,22 +90,22 @@ def margin(steps: Steps, least: float) -> float:
 
 
 class BoundedTerms:
-    """The terms of some patches: values, amounts, and amounts of what may be wrong.
+    """The terms of polynomial patches: values, amounts, and amounts of what may be wrong.
 
     Parameters
     ----------
     patches : Patches
-        The patches, polynomial or rational.
+        The patches, polynomial.
     delta : float or (k,), m
         How far each coordinate of a control point may be off.
     """
 
     def __init__(self, patches: Patches, delta: Delta) -> None:
-        self.kind = curvature_terms if patches.weight is None else rational_terms
-        self.values = self.kind.values(patches)
-        self.amounts = self.kind.amounts(patches, 0.0)
-        self.wide = self.kind.amounts(patches, delta) if np.any(delta) else self.amounts
-        self.steps = self.kind.steps(*patches.degrees)
+        self.values = curvature_terms.values(patches)
+        self.amounts = curvature_terms.amounts(patches, 0.0)
+        off = np.any(delta)
+        self.wide = curvature_terms.amounts(patches, delta) if off else self.amounts
+        self.steps = curvature_terms.steps(*patches.degrees)
         self.share = np.where(np.reshape(delta, (-1, 1, 1)) > 0.0, 3.0, 1.0)
 
     def bounded(self, rule: Callable[..., FloatArray], name: str, least: float) -> Bounded:
@@ -116,22 +115,15 @@ class BoundedTerms:
         return Bounded(b, amount, wide, margin(self.steps[name], least), self.share)
 
     def gauss(self) -> Bounded:
-        """Give A, or A* of rational patches."""
-        return self.bounded(self.kind.gauss_numerator, "gauss", 200.0)
-
-    def weighted(self, a: Bounded) -> Bounded:
-        """Give A times what |S|**4 has as its factor: w**4 on rational patches."""
-        if self.kind is curvature_terms:
-            return a
-        fourth = self.bounded(rational_terms.weight_fourth, "weight", 0.0)
-        return a.times(fourth, margin(self.steps["gauss"].times(self.steps["weight"]), 0.0))
+        """Give A."""
+        return self.bounded(curvature_terms.gauss_numerator, "gauss", 200.0)
 
     def area(self) -> Bounded:
-        """Give |S|**2, or |S*|**2 of rational patches."""
-        return self.bounded(self.kind.area_squared, "area", 120.0)
+        """Give |S|**2."""
+        return self.bounded(curvature_terms.area_squared, "area", 120.0)
 
     def mean(self) -> Bounded:
-        """Give B of polynomial patches."""
+        """Give B."""
         return self.bounded(curvature_terms.mean_numerator, "mean", 200.0)
 
     def quartic(self, area: Bounded) -> Bounded:
@@ -140,12 +132,14 @@ class BoundedTerms:
         return area.times(area, margin(steps.times(steps), 350.0))
 
 
-def less(a: Bounded, factor: float, b: Bounded) -> tuple[FloatArray, FloatArray]:
+def less(
+    a: Bounded | Running, factor: float, b: Bounded | Running
+) -> tuple[FloatArray, FloatArray]:
     """Give a - factor b, where b is of the higher degrees, and what it may be off by.
 
     Parameters
     ----------
-    a, b : Bounded
+    a, b : Bounded or Running
         The polynomials.
     factor : float
         Taken as exact.
@@ -156,5 +150,5 @@ def less(a: Bounded, factor: float, b: Bounded) -> tuple[FloatArray, FloatArray]
         Coefficients, and their errors.
     """
     m, n = degrees(b.b)
-    off = elevated(a.err, m, n) + _ELEVATION * _EPS * elevated(np.abs(a.b), m, n)
+    off = elevated(a.err, m, n) + _ELEVATION * EPS * elevated(np.abs(a.b), m, n)
     return elevated(a.b, m, n) - factor * b.b, off + abs(factor) * b.err

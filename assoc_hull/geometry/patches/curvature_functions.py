@@ -40,13 +40,18 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.patches.bounded_terms import BoundedTerms, less, margin
+from assoc_hull.geometry.patches.bounded_terms import Bounded, BoundedTerms, less, margin
 from assoc_hull.geometry.patches.curvature_terms import Delta
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.patches.rational_terms import RationalTerms
+from assoc_hull.geometry.patches.running_bounds import Running
 
 __all__ = [
     "IsoFunction", "gauss_function", "gauss_functions", "mean_function", "umbilic_function",
 ]  # fmt: skip
+
+Pair = tuple[FloatArray, FloatArray]
+"""Coefficients, and what each may be off by."""
 
 _CHUNK = 64
 """So many patches at once keep all coefficients in the cache of a processor."""
@@ -74,16 +79,30 @@ class IsoFunction:
 def _chunks(
     patches: Patches,
     delta: Delta,
-    rule: Callable[[BoundedTerms], list[tuple[FloatArray, FloatArray]]],
+    rule: Callable[[Patches, FloatArray], list[Pair]],
 ) -> tuple[IsoFunction, ...]:
     """Run a rule on so many patches at once as fit the cache, and put the results together."""
     each = np.broadcast_to(np.asarray(delta, np.float64), len(patches))
     parts = [slice(low, low + _CHUNK) for low in range(0, len(patches), _CHUNK)] or [slice(0)]
-    found = [rule(BoundedTerms(patches[part], each[part])) for part in parts]
+    found = [rule(patches[part], each[part]) for part in parts]
     return tuple(
         IsoFunction(*(np.concatenate([pair[i] for pair in column]) for i in (0, 1)))
         for column in zip(*found, strict=True)
     )
+
+
+def _gauss_terms(
+    patches: Patches, delta: FloatArray, banded: bool
+) -> tuple[Pair, tuple[Bounded | Running, Bounded | Running] | None]:
+    """Give A; where a level is asked for, A and |S|**4 too, whose quotient is K."""
+    if patches.weight is None:
+        terms = BoundedTerms(patches, delta)
+        a = terms.gauss()
+        return (a.b, a.err), (a, terms.quartic(terms.area())) if banded else None
+    rational = RationalTerms.of(patches, delta)
+    found = rational.gauss()
+    both = (rational.weighted(found), rational.quartic(rational.area())) if banded else None
+    return (found.b, found.err), both
 
 
 def gauss_functions(
@@ -119,12 +138,9 @@ def gauss_functions(
     (-1.0, 1.0)
     """
 
-    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
-        a = terms.gauss()
-        if not any(levels):
-            return [(a.b, a.err)] * len(levels)
-        raised, quartic = terms.weighted(a), terms.quartic(terms.area())
-        return [less(raised, level, quartic) if level else (a.b, a.err) for level in levels]
+    def rule(part: Patches, off: FloatArray) -> list[Pair]:
+        a, both = _gauss_terms(part, off, any(levels))
+        return [less(both[0], level, both[1]) if both and level else a for level in levels]
 
     return _chunks(patches, delta, rule)
 
@@ -193,7 +209,8 @@ def mean_function(patches: Patches, level: float = 0.0, delta: Delta = 0.0) -> I
     """
     _require_polynomial(patches)
 
-    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
+    def rule(part: Patches, off: FloatArray) -> list[Pair]:
+        terms = BoundedTerms(part, off)
         b = terms.mean()
         if level == 0.0:
             return [(b.b, b.err)]
@@ -238,7 +255,8 @@ def umbilic_function(patches: Patches, delta: Delta = 0.0) -> IsoFunction:
     """
     _require_polynomial(patches)
 
-    def rule(terms: BoundedTerms) -> list[tuple[FloatArray, FloatArray]]:
+    def rule(part: Patches, off: FloatArray) -> list[Pair]:
+        terms = BoundedTerms(part, off)
         b, steps = terms.mean(), terms.steps
         square = b.times(b, margin(steps["mean"].times(steps["mean"]), 500.0))
         both = steps["gauss"].times(steps["area"])

@@ -26,7 +26,10 @@ HIGHEST_DEGREE = 7
 the last that floating-point numbers hold exactly. Surfaces of ships are of degree 3, rarely 5."""
 
 _FARTHEST = 1e6
-_WIDEST = 1e6
+
+_WIDEST = 1e4
+"""Weights differ by this factor at most: bounds of errors grow with a power of it."""
+
 _SAME = 1e-12
 
 Limits = tuple[float, float]

@@ -248,6 +248,16 @@ def test_a_side_that_is_a_point_needs_no_border() -> None:
         read(iges(parts))
 
 
+def test_chains_of_chains_come_to_an_end() -> None:
+    """Twenty of them, ten times the next each, would be more pieces than there are numbers."""
+    parts, first = face()[:3], 7
+    for level in range(18):
+        parts.append(Entity(102, [10, *[first + 2 * level + 2] * 10], status="00010000"))
+    parts.append(Entity(110, [0, 0, 0, 1, 0, 0], status="00010000"))
+    with pytest.raises(BadInputError, match="more than 10000 pieces"):
+        read(iges(parts))
+
+
 def test_a_border_of_one_spline_is_read_piece_by_piece() -> None:
     """A spline of degree 1 through the corners: each leg lies on a side."""
     corners = [value for corner in (*SQUARE, SQUARE[0]) for value in (*corner, 0.0)]

@@ -148,11 +148,16 @@ def test_block_and_legend_tell_areas_and_band(wavy: RegionResult, picture: Figur
         assert each in block
 
 
-@pytest.mark.parametrize("paper", ["A4", "A1"])
-def test_all_lies_on_the_sheet(shell: Plates, boxes_of: Boxes, paper: str) -> None:
-    """Words and tiles of several plates, on any paper."""
-    figure = curvature_figure(shell, paper=paper)  # type: ignore[arg-type]
-    size = PAPERS[paper]
+@pytest.mark.parametrize("name", ["several", "tiny"])
+def test_all_lies_on_the_sheet(shell: Plates, boxes_of: Boxes, name: str) -> None:
+    """Words, lines and tiles of several plates, and of one that needs no scale bar."""
+    found = shell if name == "several" else ah.curvature_regions(1e-3 * patch("P12_bowl"))
+    figure = curvature_figure(found, paper="A1")
+    size = PAPERS["A1"]
+    for line in figure.axes[0].lines:
+        places = np.asarray(line.get_xydata())
+        assert np.nanmin(places) > 0.0
+        assert (np.nanmax(places, axis=0) < (size.width, size.height)).all()
     for box in boxes_of(figure).values():
         assert (box[:2] > 0.0).all()
         assert (box[2:] < (size.width, size.height)).all()

@@ -15,7 +15,7 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.plot.development import development_figure
 from assoc_hull.plot.paper import PAPERS
-from assoc_hull.plot.plate_sheet import plate_pdf, plate_sheet, plate_sheets
+from assoc_hull.plot.plate_sheet import plate_sheet, plate_sheets
 from assoc_hull.plot.sheet import Sheet
 from assoc_hull.surface.development import LABEL, Development
 from assoc_hull.surface.plate_table import COLUMNS, Plates
@@ -74,8 +74,9 @@ def test_advice_conditions_and_notes_stand_there(shell: Plates, pages: list[Shee
 
 def test_maps_of_six_plates_to_a_page(shell: Plates, pages: list[Sheet]) -> None:
     """All plates once, the title and the number on each page, the colours told."""
-    drawn = [len(words(page, "label/plate")) for page in pages]
-    assert drawn == [0, 6, 1]
+    told = [" ".join(words(page, "label/plate")) for page in pages]
+    assert [each.count("strake") for each in told] == [0, 6, 1]
+    assert told[1].count("heights") + told[1].count("in space") >= 6
     assert [words(page, "label/page") for page in pages] == [[f"{k} / 3"] for k in (1, 2, 3)]
     assert all(words(page, "label/title") == ["Fore body"] for page in pages)
     assert "convex, K > K0" in words(pages[1], "label/legend")
@@ -95,13 +96,14 @@ def test_words_lie_on_the_page_and_apart(pages: list[Sheet], boxes_of: Boxes) ->
             assert ((across > 0.0) & (up > 0.6)).sum() == 1  # itself
 
 
-def test_a_book_is_a_pdf_with_the_same_bytes_each_time(shell: Plates, tmp_path: Path) -> None:
+def test_a_book_is_a_pdf(shell: Plates, tmp_path: Path) -> None:
     """A page for each plate laid flat is added where this is asked; another ending is refused."""
     one = attrs.evolve(shell, rows=shell.rows[:1])
     plate_sheet(one, tmp_path / "book.PDF")
     data = (tmp_path / "book.PDF").read_bytes()
-    assert data == plate_pdf(one)
+    assert data.startswith(b"%PDF-")
     assert b"/Count 2 " in data
+    assert b"CreationDate" not in data  # the same bytes each time
     assert len(plate_sheets(one, developments=True)) == 3
     for given, told in (("book.png", ".pdf"), (7, "path")):
         with pytest.raises(BadInputError, match=told):

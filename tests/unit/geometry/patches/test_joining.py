@@ -95,11 +95,14 @@ def test_a_surface_of_no_curvature_has_no_components() -> None:
 
 
 def test_no_end_is_lost_on_random_plates_and_nets() -> None:
-    """Of 120 plates and 60 nets anywhere in space, folded and pierced, no line breaks off."""
+    """Of 120 plates and 20 nets anywhere in space, folded and pierced, no line breaks off.
+
+    More of these nets are tried through the public function.
+    """
     plates = join_nets(graph_plates(120, 1)).components
     assert counts(plates) == (67, 207, 0, 0)
-    wild = join_nets(random_nets(60, 2)).components
-    assert sum(counts(wild)) > 200
+    wild = join_nets(random_nets(20, 2)).components
+    assert sum(counts(wild)) > 60
     crossed = [each for each in wild if each.kind is ComponentKind.JUNCTION]
     # A point where the surface has no normal makes all odd things that these nets have.
     assert all("singular" in each.tags for each in crossed)
@@ -109,8 +112,8 @@ def test_no_end_is_lost_on_random_plates_and_nets() -> None:
 @pytest.mark.parametrize("known_to", [1e-9, 1e-6], ids=["to 1 nm", "to 1 um"])
 def test_no_end_is_lost_where_points_are_known_to_less(known_to: float) -> None:
     """Where curvature is nil within what is known, lines end at nil cells or run on unseen."""
-    join_nets(graph_plates(40, 5), known_to)
-    join_nets(random_nets(20, 6), known_to)
+    join_nets(graph_plates(20, 5), known_to)
+    join_nets(random_nets(8, 6), known_to)
 
 
 def test_error_bands_are_followed() -> None:
@@ -189,7 +192,7 @@ def _kinds(found: Joined) -> list[tuple[int, ...]]:
 
 def test_what_leaves_a_surface_as_it_is_leaves_its_lines() -> None:
     """Exchange and reversal of parameters, and a mirror, give each patch the same components."""
-    some = np.concatenate([graph_plates(20, 8), random_nets(4, 9)])
+    some = np.concatenate([graph_plates(20, 8), random_nets(2, 9)])
     plain = _kinds(join_nets(some))
     assert _kinds(join_nets(some.transpose(0, 2, 1, 3))) == plain
     assert _kinds(join_nets(some[:, ::-1])) == plain

@@ -31,7 +31,7 @@ def enclosed(found: Joined, kind: CellKind) -> FloatArray:
 
 @pytest.mark.parametrize(
     "nets",
-    [graph_plates(40, 1), random_nets(20, 2), patch("P07_double_cross")[None]],
+    [graph_plates(20, 1), random_nets(6, 2), patch("P07_double_cross")[None]],
     ids=["plates", "nets", "a line of undecided cells"],
 )
 @pytest.mark.parametrize("known_to", [0.0, 1e-9], ids=["to rounding", "to 1 nm"])
