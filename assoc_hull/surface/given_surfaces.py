@@ -34,6 +34,9 @@ Kind = tuple[int, int, bool]
 _FLAT = 1e-12
 """A patch whose |S| stays below this part of the square of its diagonal has no area: rounding."""
 
+_SMALLEST = 1e-6
+"""m: what is smaller is no plate, and powers of its size may be too small for numbers."""
+
 
 @attrs.frozen(eq=False)
 class Batch:
@@ -110,8 +113,14 @@ def require_area(surfaces: Sequence[SplineSurface], batches: Sequence[Batch]) ->
     Raises
     ------
     BadInputError
-        The first such patch.
+        The first such patch; the first surface smaller than a micrometre.
     """
+    for number, surface in enumerate(surfaces):
+        size = float(np.ptp(surface.net.reshape(-1, 3), axis=0).max())
+        if size < _SMALLEST:
+            which = f"in {name_of(surfaces, number)}"
+            what = f"it measures {size:.3g} m, and has no area to speak of"
+            raise BadInputError(what, which, f"give metres; {_SMALLEST:g} m is the least")
     for batch in batches:
         r = batch.patches.components
         normal = np.abs(cross(u_derivative(r), v_derivative(r))).max(axis=(1, 2, 3))

@@ -13,17 +13,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.cells import CellKind
+from assoc_hull.geometry.patches.curvatures import curvatures
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.given_surfaces import name_of
 from assoc_hull.surface.region_areas import RegionAreas
 from assoc_hull.surface.region_component import Component
 from assoc_hull.surface.region_options import RegionOptions
-from assoc_hull.surface.region_parts import RegionPart
+from assoc_hull.surface.region_parts import AREAS, RegionPart
 
 __all__ = ["listed", "region_notes"]
 
 _SHOWN = 5
+# Where in a cell curvature is looked at.
+_NODES = np.stack(np.meshgrid([0.1, 0.5, 0.9], [0.1, 0.5, 0.9]), axis=-1).reshape(-1, 2)
 
 
 def region_notes(
@@ -40,6 +46,7 @@ def region_notes(
         pieces = [piece for piece in components if piece.surface == number]
         found += _stops(own, number, name, options)
         found += _unresolved(own, number, name, options)
+        found += _nil(own, number, name, options)
         found += _spots(pieces, name)
         found += _jumps(pieces, name)
         found += _borders(pieces, name)
@@ -80,6 +87,28 @@ def _unresolved(part: RegionPart, number: int, name: str, options: RegionOptions
             f"unresolved, more than area_tol ({options.area_tol:g}) of its {areas.total:.6g} m2: "
             "the estimates share them out by samples."
         )
+
+
+def _nil(part: RegionPart, number: int, name: str, options: RegionOptions) -> Iterator[str]:
+    """Tell parts of patches that count as K = 0 because of what points are known to."""
+    total = part.areas[part.patches.surface == number].sum(axis=0)[AREAS.index("total")]
+    for cells in (each.cells for each in part.solutions if each.level == 0.0):
+        own = part.patches.surface[cells.patch] == number
+        rows = np.flatnonzero((cells.kind == CellKind.ZERO) & (cells.level > 0) & own)
+        if not len(rows):
+            continue
+        box = cells.box[rows]
+        uv = box[:, None, :, 0] + _NODES * (box[:, None, :, 1] - box[:, None, :, 0])
+        found = curvatures(part.patches, cells.patch[rows].repeat(len(_NODES)), uv.reshape(-1, 2))
+        size = (box[..., 1] - box[..., 0]).prod(axis=1)
+        area = float((found.element.reshape(len(rows), -1).mean(axis=1) * size).sum())
+        if area > options.area_tol * total:
+            yield (
+                f"Of {name} {area:.3g} m2, parts of patches, count as K = 0, since points that are "
+                f"off by delta = {part.delta[cells.patch[rows]].max():.2g} m may make it so; K as "
+                f"given reaches {np.nanmax(np.abs(found.gauss), initial=0.0):.2g} 1/m2 there: a "
+                "smaller delta, or a band, tells more."
+            )
 
 
 def _spots(pieces: Sequence[Component], name: str) -> Iterator[str]:

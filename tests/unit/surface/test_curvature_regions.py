@@ -103,7 +103,8 @@ def test_polylines_keep_the_chord_tolerance() -> None:
         pytest.param([np.zeros((2, 2, 3))], "surfaces[0] is array", id="nets in a list"),
         pytest.param(np.zeros((4, 4)), "net", id="net without coordinates"),
         pytest.param(np.full((2, 2, 3), np.nan), "", id="points that are no numbers"),
-        pytest.param(np.zeros((2, 2, 3)), "patch 1 has no area", id="point"),
+        pytest.param(np.zeros((2, 2, 3)), "it measures 0 m, and has no area", id="point"),
+        pytest.param(1e-100 * patch("P08_wavy_plate"), "it measures 6e-100 m", id="dust"),
         pytest.param(strip([[0, 0, 0], [1, 1, 1], [2, 2, 2], [5, 5, 5]]), "no area", id="line"),
         pytest.param(strip([[0, 0, 1e5], [1, 1, 1e5], [2, 2, 1e5], [5, 5, 1e5]]), "no area",
                      id="line far away"),
@@ -267,3 +268,13 @@ def test_no_order_of_hashes_is_seen() -> None:
         check=True, cwd=REPOSITORY, env={**os.environ, "PYTHONHASHSEED": "4711"},
     ).stdout  # fmt: skip
     assert other.strip() == here["text"]
+
+
+def test_notes_tell_parts_that_count_as_nil() -> None:
+    """Part of a patch that points off by delta could make developable is told, with its K."""
+    net = patch("P07_double_cross")
+    (note,) = (n for n in ah.curvature_regions(net, zero="exact").notes if "count as K = 0" in n)
+    assert "parts of patches, count as K = 0, since points that are off by delta" in note
+    assert "1/m2 there: a smaller delta" in note
+    notes = ah.curvature_regions(net, zero="exact", delta=0.0).notes
+    assert not any("count as K = 0" in each for each in notes)
