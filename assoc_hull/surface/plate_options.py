@@ -26,6 +26,9 @@ SAGITTA_TOL = 0.003
 SHARE = 0.95
 """The part of a plate that makes its class."""
 
+_SHORTEST = 1e-6
+"""m: nothing that is shorter is a plate, or a part of one."""
+
 
 @attrs.frozen(eq=False)
 class PlateOptions:
@@ -77,9 +80,18 @@ def plate_options(
         remedy = "give a part of the area above 0.5, up to 1"
         raise BadInputError(f"share is {part:g}", where, remedy)
     return PlateOptions(
-        None if breadth is None else positive(breadth, "breadth", where),
+        None if breadth is None else _length(breadth, "breadth", where),
         positive(sagitta_tol, "sagitta_tol", where),
-        None if sagitta_length is None else positive(sagitta_length, "sagitta_length", where),
+        None if sagitta_length is None else _length(sagitta_length, "sagitta_length", where),
         part,
         suggestions_with(suggestions, where),
     )
+
+
+def _length(value: object, name: str, where: str) -> float:
+    """Take a length whose square can be divided by."""
+    found = positive(value, name, where)
+    if found < _SHORTEST:
+        remedy = f"give {_SHORTEST:g} m or more"
+        raise BadInputError(f"{name} is {found:g} m", where, remedy)
+    return found

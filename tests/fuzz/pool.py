@@ -46,6 +46,8 @@ class Item:
 
 def _serve(ours: Connection) -> None:
     """Try what comes, until nothing more does."""
+    import tests.fuzz.all_kinds  # noqa: F401  # before it starts: no input pays for it
+
     with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
         ours.send(None)
         while (item := ours.recv()) is not None:

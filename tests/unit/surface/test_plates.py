@@ -294,7 +294,8 @@ def test_slivers_squares_and_poles_are_told() -> None:
     "options",
     [
         {"share": 0.5}, {"share": 1.1}, {"breadth": 0.0}, {"sagitta_tol": -1.0},
-        {"sagitta_length": "long"}, {"previous": 3}, {"zero": "absolute"},
+        {"sagitta_length": "long"}, {"sagitta_length": 1e-308},
+        {"zero": "absolute", "k0": 1e-3, "breadth": 1e-308}, {"previous": 3}, {"zero": "absolute"},
         {"k0": 1e-3}, {"zero": "exact", "strain_tol": 2e-3},
     ],
     ids=str,
