@@ -11,7 +11,7 @@ Examples
 >>> from assoc_hull.io.iges_write import iges_text
 >>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
 >>> print(iges_text([plate]).splitlines()[-1])
-S      1G      3D      4P      3                                        T0000001
+S      1G      3D      4P      3                                        T      1
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Polynomials of curvature together with what each of their coefficients may be off by.
 
-A coefficient is off by at most (number of roundings) x 2**-53 x its amount, and by the change of
-its amount where the control points may be off by delta; amounts are those of `curvature_terms`.
+A coefficient is off by at most (number of roundings) x 2**-53 x its amount, and by what its formula
+gains in size where the control points may be off by delta; both as in `curvature_terms`.
 The number of roundings follows from the degrees; for bicubic patches 200, 120 and 350 cover A,
 |S|**2 and |S|**4. In exact arithmetic rounding was found to use less than 3 % of these bounds, and
 uncertain points to reach theirs.
@@ -47,8 +47,8 @@ class Bounded:
     b : (k, M + 1, N + 1)
         The coefficients.
     amount, wide : (k, M + 1, N + 1)
-        The amounts for control points that are exact, and that are off by delta; the same array
-        if all are exact.
+        The amount, and the amount with what control points off by delta do to the coefficient; the
+        same array if all are exact.
     steps : float
         The roundings, with a margin.
     share : (k, 1, 1)
@@ -102,16 +102,20 @@ class BoundedTerms:
 
     def __init__(self, patches: Patches, delta: Delta) -> None:
         self.values = curvature_terms.values(patches)
-        self.amounts = curvature_terms.amounts(patches, 0.0)
-        off = np.any(delta)
-        self.wide = curvature_terms.amounts(patches, delta) if off else self.amounts
+        self.amounts = curvature_terms.amounts(self.values)
+        self.sizes = self.wide = None
+        if np.any(delta):
+            self.sizes = curvature_terms.reaches(self.values, 0.0)
+            self.wide = curvature_terms.reaches(self.values, delta)
         self.steps = curvature_terms.steps(*patches.degrees)
         self.share = np.where(np.reshape(delta, (-1, 1, 1)) > 0.0, 3.0, 1.0)
 
     def bounded(self, rule: Callable[..., FloatArray], name: str, least: float) -> Bounded:
         """Run a formula on values and amounts."""
         b, amount = rule(self.values), rule(self.amounts)
-        wide = amount if self.wide is self.amounts else rule(self.wide)
+        wide = amount
+        if self.wide is not None:
+            wide = amount + np.maximum(rule(self.wide) - rule(self.sizes), 0.0)
         return Bounded(b, amount, wide, margin(self.steps[name], least), self.share)
 
     def gauss(self) -> Bounded:

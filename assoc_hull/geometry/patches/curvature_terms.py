@@ -9,8 +9,8 @@ of degrees (6m - 4, 6n - 4), (4m - 2, 4n - 2) and (5m - 3, 5n - 3) for a patch o
 The same formulas are run twice: on values, and on amounts. An amount bounds the sum of the sizes of
 all terms that a coefficient is summed of: every difference becomes a sum, every coefficient its
 size. What rounding does to a coefficient is at most (number of roundings one after the other) x
-2**-53 x its amount; and what a change of the control points does to it is at most its amount with
-all differences enlarged, less its amount. These two bounds are our own.
+2**-53 x its amount. What a change of the control points does to it is at most the formula of the
+sizes of all differences, enlarged by it, less that of the sizes. These two bounds are our own.
 
 Examples
 --------
@@ -20,7 +20,7 @@ Examples
 >>> net = np.zeros((2, 2, 3))
 >>> net[1, :, 0], net[:, 1, 1] = 2.0, 1.0
 >>> patch = Patches.single(net)
->>> area_squared(values(patch)).ravel(), area_squared(amounts(patch, 0.0)).ravel()
+>>> area_squared(values(patch)).ravel(), area_squared(amounts(values(patch))).ravel()
 (array([4., 4., 4., 4., 4., 4., 4., 4., 4.]), array([4., 4., 4., 4., 4., 4., 4., 4., 4.]))
 """
 
@@ -42,7 +42,7 @@ from assoc_hull.geometry.patches.patches import Patches
 
 __all__ = [
     "Delta", "Steps", "Terms", "amounts", "area_squared", "gauss_numerator", "less",
-    "mean_numerator", "steps", "sums", "values",
+    "mean_numerator", "reaches", "steps", "sums", "values",
 ]  # fmt: skip
 
 Delta = float | FloatArray
@@ -113,29 +113,52 @@ def sums(a: FloatArray, axis: int) -> FloatArray:
     return np.asarray(degree * (low + high))
 
 
-def amounts(patches: Patches, delta: Delta) -> Terms:
-    """Give the amounts of terms, with control points that may be wrong.
+def amounts(exact: Terms) -> Terms:
+    """Give the amounts of terms, for bounds of rounding.
 
     Parameters
     ----------
-    patches : Patches
-        The patches.
+    exact : Terms
+        Values.
+
+    Returns
+    -------
+    Terms
+        Amounts; those of second derivatives are sums of the amounts of first ones, since these
+        are what rounding goes into.
+    """
+    ru, rv = np.abs(exact.ru), np.abs(exact.rv)
+    ruu = None if exact.ruu is None else sums(ru, -2)
+    rvv = None if exact.rvv is None else sums(rv, -1)
+    return Terms(False, ru, rv, ruu, sums(ru, -1), rvv, _normal(ru, rv, False))
+
+
+def reaches(exact: Terms, delta: Delta) -> Terms:
+    """Give how large terms may be in size, with control points that may be wrong.
+
+    A formula of these sizes, less the same formula with a delta of nil, is what uncertain points
+    do to its coefficients: in every product at least one factor is a change.
+
+    Parameters
+    ----------
+    exact : Terms
+        Values.
     delta : float or (k,), m
         How far each coordinate of a control point may be off.
 
     Returns
     -------
     Terms
-        Amounts; those of second derivatives are sums of the amounts of first ones, since these
-        are what rounding and uncertainty go into.
+        Amounts; second derivatives are differences before their size is taken, as a change of
+        points adds to these and no more: on flat plates they are far less than sums.
     """
-    r = patches.components
-    m, n = patches.degrees
+    m, n = exact.rv.shape[-2] - 1, exact.ru.shape[-1] - 1
     off = np.asarray(delta, np.float64).reshape(-1, 1, 1, 1)
-    ru, rv = np.abs(u_derivative(r)) + 2 * m * off, np.abs(v_derivative(r)) + 2 * n * off
-    ruu = sums(ru, -2) if m > 1 else None
-    rvv = sums(rv, -1) if n > 1 else None
-    return Terms(False, ru, rv, ruu, sums(ru, -1), rvv, _normal(ru, rv, False))
+    ru, rv = np.abs(exact.ru) + 2 * m * off, np.abs(exact.rv) + 2 * n * off
+    ruu = None if exact.ruu is None else np.abs(exact.ruu) + 4 * m * (m - 1) * off
+    rvv = None if exact.rvv is None else np.abs(exact.rvv) + 4 * n * (n - 1) * off
+    ruv = np.abs(exact.ruv) + 4 * m * n * off
+    return Terms(False, ru, rv, ruu, ruv, rvv, _normal(ru, rv, False))
 
 
 def gauss_numerator(terms: Terms) -> FloatArray:

@@ -279,3 +279,22 @@ def test_notes_tell_parts_that_count_as_nil() -> None:
     assert "1/m2 there: a smaller delta" in note
     notes = ah.curvature_regions(net, zero="exact", delta=0.0).notes
     assert not any("count as K = 0" in each for each in notes)
+
+
+@pytest.mark.parametrize("seed", [2, 9, 13])
+def test_regions_do_not_know_where_a_plate_lies(seed: int) -> None:
+    """Turned and moved 100 m, with points known to the usual delta: areas and lines stay."""
+    rng = np.random.default_rng(seed)
+    knots = np.array([0.0, 0, 0, 0, 1, 2, 3, 3, 3, 3])
+    x, y = np.meshgrid(np.linspace(0.0, 12.0, 6), np.linspace(0.0, 5.0, 6), indexing="ij")
+    plate = SplineSurface(
+        "plate", (3, 3), knots, knots, np.stack([x, y, 0.2 * rng.standard_normal(x.shape)], -1)
+    )
+    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    moved = attrs.evolve(plate, net=plate.net @ turn.T + [100.0, 20.0, 5.0])
+    here, there = (
+        ah.curvature_regions(each, zero="exact", area_tol=1e-9) for each in (plate, moved)
+    )
+    assert abs(here.positive - there.positive) <= 1e-12 * here.total
+    assert here.zero == there.zero == 0.0
+    assert [each.kind for each in here.components] == [each.kind for each in there.components]
