@@ -388,7 +388,7 @@ def next_edits_work(hull: ah.Hull, failed: int) -> None:
     assert hull.state.failed == (failed,)
 
 
-def test_a_sample_of_120_nodes_of_series_60(series60_70: ah.Hull) -> None:
+def test_a_sample_of_80_nodes_of_series_60(series60_70: ah.Hull) -> None:
     """Both policies and every stage, on a pull that reaches some 700 nodes.
 
     A node fails before or after it is evaluated, under one policy or the other, turn about; the
@@ -402,7 +402,7 @@ def test_a_sample_of_120_nodes_of_series_60(series60_70: ah.Hull) -> None:
 
     reach, before, there = reach_of(hull, change), whole(hull), tables(hull)
     every = sorted({*reach.evaluated, *reach.changed})
-    sample = set(rng.sample(every, 120))
+    sample = set(rng.sample(every, 80))
     for stage in _STAGES:
         one, other = turn_about(sample & set(reach.of(stage)))
         for node in () if stage == "evaluated" else one:
