@@ -2,9 +2,9 @@
 
 The truth is the path of every meeting in steps of 1 mm (`net_branches`), along which it can
 be followed without doubt. Shifts of 1 and 50 cm must attach each crossing to the branch that this
-path leads to. The steps of 50 cm go along the whole ranges, those of 1 cm where events are closest
-together; ``ASSOC_HULL_LONG=1`` takes all along the whole ranges, in steps of 10 cm as well, and the
-shifts also in steps of 1 mm round every event, in a quarter of an hour.
+path leads to. The steps of 50 cm go along the whole ranges, those of 1 cm where events at the bulb
+are closest together; ``ASSOC_HULL_LONG=1`` takes all along the whole ranges, in steps of 10 cm as
+well, and the shifts also in steps of 1 mm round every event, in a quarter of an hour.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ RANGES = {
 """Group and range (m); by 3 mm beside the planes that other lines have."""
 
 WITHIN = {
-    0.5: RANGES,
-    0.01: {
-        "bulb": ("waterlines", 14.093, 14.253),
-        "bossing": ("waterlines", 5.803, 6.003),
-        "buttock": ("buttocks", 2.103, 2.223),
-    },
+    (0.5, "bulb"): RANGES["bulb"],
+    (0.5, "bossing"): RANGES["bossing"],
+    (0.5, "buttock"): RANGES["buttock"],
+    (0.01, "bulb"): ("waterlines", 14.093, 14.253),
 }
-"""For each step: the range on its own, some of its 12, 7 and 25 events, the closest of them."""
+"""For each step and place: the range on its own; of the bulb some of its 12 events, the closest."""
+
+STEPS = [(step, where) for step in (0.5, 0.1, 0.01) for where in RANGES] if LONG else list(WITHIN)
 
 
 Truth = Callable[[str], dict[str, list[Branch]]]
@@ -82,13 +82,12 @@ def watch(
     return watched
 
 
-@pytest.mark.parametrize("step", [0.5, 0.1, 0.01] if LONG else [0.5, 0.01], ids="{} m".format)
-@pytest.mark.parametrize("where", list(RANGES))
+@pytest.mark.parametrize(("step", "where"), STEPS, ids=[f"{w}-{s} m" for s, w in STEPS])
 def test_no_crossing_is_attached_wrongly_against_the_path_of_1_mm(
     dtc: ah.Hull, truth: Truth, where: str, step: float
 ) -> None:
     """There and back: every crossing keeps its branch, and every branch its crossing."""
-    low, high = (RANGES if LONG else WITHIN[step])[where][1:]
+    low, high = (RANGES[where] if LONG else WITHIN[step, where])[1:]
     with taken_back(dtc) as hull:
         watched = watch(hull, where, truth(where), steps(low, high, step))
     assert watched.wrong == []

@@ -26,7 +26,7 @@ from tests.properties.test_i09_topology import (
 from tests.properties.test_i10_both_directions import assert_both_directions
 from tests.properties.test_rebuild import FINGERPRINTS, run_script
 
-STEPS = 16
+STEPS = 12
 """Accepted edits in each walk; every walk has a seed of its own."""
 
 

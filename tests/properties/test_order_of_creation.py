@@ -48,7 +48,7 @@ else:
 
 @pytest.fixture(scope="module")
 def printed() -> list[list[str]]:
-    """Four processes with hash seeds of their own, in each four shuffles of examples and one more."""
+    """Four processes with hash seeds of their own, in each five shuffles of examples."""
     running = [
         subprocess.Popen(
             [sys.executable, "-c", SHUFFLES, str(seed)],
