@@ -1,5 +1,6 @@
 """What all tests share: the hypothesis profiles and the folder of published hulls."""
 
+import gc
 import os
 import shutil
 import tempfile
@@ -29,7 +30,7 @@ settings.register_profile(
     "ci",
     settings.get_profile("default"),
     derandomize=True,
-    max_examples=18,
+    max_examples=15,
     print_blob=True,
 )
 settings.load_profile("ci" if os.environ.get("CI") else "default")
@@ -53,6 +54,13 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["TMPDIR"] = tempfile.tempdir = _folder(config, "files", IN_MEMORY)
     if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
         os.environ["PYTHONPYCACHEPREFIX"] = _folder(config, "pycache")
+
+
+def pytest_collection_finish() -> None:
+    """Take tests and modules out of what the garbage collector goes through, thousands of times."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
 
 
 def _room(folder: Path) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,8 @@ from tests.properties.test_i09_topology import (
 )
 from tests.properties.test_i10_both_directions import assert_both_directions
 from tests.properties.test_rebuild import FINGERPRINTS, run_script
+
+LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 
 STEPS = 12
 """Accepted edits in each walk; every walk has a seed of its own."""
@@ -104,10 +107,12 @@ print(hull.fingerprint, *(hull.fingerprint for _ in walk(hull, 5, 8)))
 """
 
 
-def test_another_process_comes_to_the_same_bits(dtc: ah.Hull, data_folder: Path) -> None:
-    """I5: read anew with another hash seed, the lines handed over in another order, and edited."""
-    found = [dtc.fingerprint, *(dtc.fingerprint for _ in walk(dtc, 5, 8))]
-    assert run_script(ANEW, f"{data_folder.resolve()}\n", "4711") == found
+if LONG:  # Series 60 does it always
+
+    def test_another_process_comes_to_the_same_bits(dtc: ah.Hull, data_folder: Path) -> None:
+        """I5: read anew with another hash seed, lines in another order, and edited."""
+        found = [dtc.fingerprint, *(dtc.fingerprint for _ in walk(dtc, 5, 8))]
+        assert run_script(ANEW, f"{data_folder.resolve()}\n", "4711") == found
 
 
 def test_the_definition_alone_gives_the_edited_ship(dtc: ah.Hull) -> None:
