@@ -3,8 +3,8 @@
 What is true follows from the function of the hull (`true_branches`). The lines of the net
 may pass the true ones by the tolerance of adoption; so where the truth has an event within
 that distance of a place, the line is shifted there but nothing is compared until the next.
-Steps of 1 cm are taken with the buttock where events are closest; with ``ASSOC_HULL_LONG=1`` both from
-before the neck.
+Steps of 1 cm are taken by the buttock, where events are closest together; with
+``ASSOC_HULL_LONG=1`` by both, from before the neck.
 """
 
 from __future__ import annotations
