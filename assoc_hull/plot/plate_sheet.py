@@ -152,13 +152,11 @@ def _table(book: _Book, plates: Plates) -> None:
 
 
 def _cell(column: Column, plate: Plate) -> str:
-    """Write a value; a dash where there is none."""
-    value = column.value(plate)
-    return (
-        "–"
-        if value is None
-        else format(value, column.style).replace("-", "−" if column.style != "s" else "-")
-    )
+    """Write a value as in the table of text, with signs of print: a minus, a dash for none."""
+    words = column.printed(plate)
+    if column.style == "s":
+        return words
+    return "–" if words == "-" else words.replace("-", "−")
 
 
 def _fitting(sheet: Sheet, words: str, room: float) -> str:

@@ -52,6 +52,13 @@ class Column:
     style: str
     value: Callable[[Plate], Any]
 
+    def printed(self, plate: Plate) -> str:
+        """Write the value: a dash where there is none, 0 for what rounding leaves of nil."""
+        value = self.value(plate)
+        if isinstance(value, float) and abs(value) < _NIL:
+            value = 0.0
+        return "-" if value is None else format(value, self.style)
+
 
 def _share(name: str) -> Callable[[Plate], float]:
     """Give what takes a share, in per cent."""
@@ -189,7 +196,7 @@ class Plates:
         seen = [each for each in COLUMNS if each.head]
         heads = [each.head for each in seen]
         units = [each.unit for each in seen]
-        body = [[_cell(each, plate) for each in seen] for plate in self.rows]
+        body = [[each.printed(plate) for each in seen] for plate in self.rows]
         wide = [max(map(len, column)) for column in zip(heads, units, *body, strict=True)]
         for row in (heads, units, *body):
             first, *others = (
@@ -211,11 +218,3 @@ class Plates:
             return f"{self.results[0].band}; strains are those of each plate's own breadth b."
         tol = self.results[0].band.strain_tol
         return f"K0 by strain {tol:g} over the breadth b of each plate; strains likewise."
-
-
-def _cell(column: Column, plate: Plate) -> str:
-    """Write a value; a dash where there is none, 0 for what rounding leaves of nil."""
-    value = column.value(plate)
-    if isinstance(value, float) and abs(value) < _NIL:
-        value = 0.0
-    return "-" if value is None else format(value, column.style)

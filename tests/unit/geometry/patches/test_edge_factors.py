@@ -10,11 +10,11 @@ from assoc_hull.geometry.patches.cells import CellKind
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction, gauss_function
 from assoc_hull.geometry.patches.edge_factors import without_edge_lines
 from assoc_hull.geometry.patches.heights import bernstein_table
-from assoc_hull.geometry.patches.parts import restricted
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.signs import edge_lines
 from assoc_hull.geometry.patches.solve import solve
 from tests.curved_patches import patch
+from tests.polynomial_parts import restricted
 from tests.unit.geometry.patches.isolines import function, plate, polynomial
 
 U, V = np.array([[0.0], [1.0]]), np.array([[0.0, 1.0]])

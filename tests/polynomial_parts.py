@@ -1,16 +1,4 @@
-"""Polynomials on parts of their square, each on its own box.
-
-Examples
---------
->>> import numpy as np
->>> from assoc_hull.geometry.patches.curvature_functions import IsoFunction
->>> from assoc_hull.geometry.patches.parts import restricted
->>> b = np.array([[[-1.0, -1.0], [3.0, 3.0]]])  # 4 u - 1
->>> box = np.array([[[0.25, 0.5], [0.0, 1.0]]])
->>> restricted(IsoFunction(b, 0.0 * b), np.array([0]), box).b[0]
-array([[0., 0.],
-       [1., 1.]])
-"""
+"""Polynomials on parts of their square, each on its own box."""
 
 from __future__ import annotations
 
@@ -20,8 +8,6 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.algebra import binomials
 from assoc_hull.geometry.patches.curvature_functions import IsoFunction
 from assoc_hull.geometry.patches.roots import powers
-
-__all__ = ["restricted"]
 
 _EPS = 2.0**-53
 
