@@ -23,7 +23,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"io"}),
     frozenset({"examples"}),
     frozenset({"hull"}),
-    frozenset({"sources", "studies", "variants", "shifts", "production", "plating"}),
+    frozenset({"sources", "studies", "variants", "shifts", "production", "plating", "shell"}),
     frozenset({"plot"}),
     frozenset({"page"}),
     frozenset({"cli"}),

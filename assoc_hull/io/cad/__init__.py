@@ -1,0 +1,1 @@
+"""Surfaces for and from CAD programs through OpenCASCADE, the extra ``cad``."""
