@@ -48,14 +48,14 @@ from assoc_hull.geometry.patches.refining import refined
 from assoc_hull.geometry.patches.running_bounds import Running
 from assoc_hull.geometry.patches.solve import solve
 
-__all__ = ["CutAreas", "Signed", "signed_area"]
+__all__ = ["TOL", "CutAreas", "Signed", "signed_area"]
 
 _DEPTH = 12
 """How often a patch is halved: what stays undecided at a crossing is 2**-12 of it wide."""
 
 _BUDGET = 4000
 
-_TOL = 1e-6
+TOL = 1e-6
 """Of areas, in parts of that of a patch."""
 
 
@@ -91,7 +91,7 @@ def signed_area(ground: AreaGround, function: Running) -> Signed:
     asked = IsoFunction(np.array(function.b), np.array(function.err))
     cells = solve(asked, _DEPTH, _BUDGET)
     cells = refined(asked, cells, _DEPTH, _BUDGET)
-    found = areas(ground.patches, cells, arcs_of(cells), _TOL, ground)
+    found = areas(ground.patches, cells, arcs_of(cells), TOL, ground)
     off = found.unresolved + found.zero + found.error_estimate
     return Signed(found.positive_estimate - found.negative_estimate, off)
 
@@ -154,7 +154,7 @@ class CutAreas:
         off = np.array(self.off)
         rows = np.flatnonzero((least <= 0.0).any(axis=(1, 2)) & (most >= 0.0).any(axis=(1, 2)))
         if len(rows):
-            ground = AreaGround.of(self.ground.patches[rows], _TOL)
+            ground = AreaGround.of(self.ground.patches[rows], TOL)
             chosen = Running(level.b[rows], level.err[rows])
             alone = signed_area(ground, chosen)
             parts = [

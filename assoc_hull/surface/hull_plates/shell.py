@@ -14,6 +14,7 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Self
 
 import attrs
@@ -38,7 +39,7 @@ NODES = 9
 """Nodes each way on a patch: a plate of 10 by 2.5 m has a thousand of them."""
 
 
-@attrs.frozen(eq=False)
+@attrs.frozen(eq=False, slots=False)
 class Shell:
     """A surface of k Bezier patches.
 
@@ -65,6 +66,14 @@ class Shell:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.margin)
+
+    @cached_property
+    def extremes(self) -> dict[str, tuple[FloatArray, FloatArray]]:
+        """The least and greatest coefficient of each patch, (k,) and (k,) m, by axis."""
+        return {
+            axis: (place.b.min(axis=(1, 2)), place.b.max(axis=(1, 2)))
+            for axis, place in self.places.items()
+        }
 
     @classmethod
     def of(
@@ -101,11 +110,14 @@ class Shell:
         found = curvature_nodes(patches, NODES)
         return cls(tuple(surfaces), patches, found, margins(patches, singular), places)
 
-    def at_nodes(self, axis: str) -> FloatArray:
-        """Give x, z or girth at the nodes, (k, q, q), m."""
-        b = self.places[axis].b
-        (p, q), (at, _) = (b.shape[1] - 1, b.shape[2] - 1), lobatto(NODES)
-        return np.asarray(basis(p, at) @ b @ basis(q, at).T)
+    @cached_property
+    def at_nodes(self) -> dict[str, FloatArray]:
+        """x, z and, where it is asked for, girth at the nodes, (k, q, q), m."""
+        at, _ = lobatto(NODES)
+        return {
+            axis: basis(place.b.shape[1] - 1, at) @ place.b @ basis(place.b.shape[2] - 1, at).T
+            for axis, place in self.places.items()
+        }
 
 
 def _exact(coordinate: FloatArray) -> Running:
