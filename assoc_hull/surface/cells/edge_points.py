@@ -52,8 +52,8 @@ class Pieces:
 
     def chosen(self, which: IntArray) -> Pieces:
         """Give some of the pieces."""
-        parts = (each[which] for each in (self.curve, self.at, self.along, self.shift))
-        return Pieces(self.batch, *parts)
+        curve, at, along, shift = self.curve, self.at, self.along, self.shift
+        return Pieces(self.batch, curve[which], at[which], along[which], shift[which])
 
     def points(self, part: FloatArray) -> FloatArray:
         """Give points on the pieces.
@@ -72,8 +72,8 @@ class Pieces:
         t = self._parameters(part)
         place = evaluate(self.batch, self.curve.repeat(t.shape[1]), t.ravel())
         first, last = (1.0 - part)[..., None], part[..., None]
-        found: FloatArray = place.reshape(*t.shape, 3)
-        return found + first * self.shift[:, None, 0] + last * self.shift[:, None, 1]
+        moved = first * self.shift[:, None, 0] + last * self.shift[:, None, 1]
+        return np.asarray(place.reshape(*t.shape, 3) + moved)
 
     def _parameters(self, part: FloatArray) -> FloatArray:
         """Give the parameters at parts of the length of each piece, (e, k), m."""
