@@ -72,6 +72,8 @@ class FittedBlock:
         Spans of knots in u and in v.
     smoothing : float, m3
         The factor of the penalty.
+    limit : float, m
+        What 95 % of its residuals should keep.
     notes : tuple of str
         What is to be known of it.
     """
@@ -86,7 +88,18 @@ class FittedBlock:
     singular: tuple[tuple[float, float], ...]
     spans: tuple[int, int]
     smoothing: float
+    limit: float
     notes: tuple[str, ...]
+
+    @property
+    def fitted(self) -> Residuals:
+        """The residuals on the lines that it was fitted to."""
+        return self.residuals[0]
+
+    @property
+    def left_out(self) -> Residuals | None:
+        """The residuals on lines that were left out, if there are any on it."""
+        return self.residuals[1] if len(self.residuals) > 1 else None
 
 
 @attrs.frozen(eq=False)
@@ -105,6 +118,8 @@ class Border:
         Median, 95 % and largest angle between the normals as published.
     place : (3,), m
         Where the largest angle is.
+    limit : float, degrees
+        What the angle should keep.
     """
 
     names: tuple[str, str]
@@ -112,6 +127,7 @@ class Border:
     joined_gap: float
     angle: FloatArray
     place: FloatArray
+    limit: float
 
     def __attrs_post_init__(self) -> None:
         freeze(self.gap, self.angle, self.place)
@@ -131,6 +147,8 @@ class NetSurface:
         From aft forward, each once.
     borders : tuple of Border
         Where they meet.
+    left_out : tuple of str
+        The lines that nothing was fitted to.
     refitted : tuple of str
         The blocks that this call has fitted; the others were taken over from an earlier result.
     notes : tuple of str
@@ -141,6 +159,7 @@ class NetSurface:
     net: Net = attrs.field(repr=False)
     blocks: tuple[FittedBlock, ...]
     borders: tuple[Border, ...]
+    left_out: tuple[str, ...]
     refitted: tuple[str, ...]
     notes: tuple[str, ...]
 
