@@ -82,7 +82,6 @@ COLUMNS: tuple[HullColumn, ...] = (
     HullColumn("total_curvature", "", "", "", _own("total_curvature")),
     HullColumn("largest_strain", "", "", "", _own("largest_strain")),
     HullColumn("area_error", "m2", "", "", _own("area_error")),
-    HullColumn("blocks", "", "", "", lambda plate: ", ".join(plate.blocks)),
     HullColumn("suggestion", "", "", "", _own("suggestion")),
 )
 """The columns, in the order of files; those with a head are printed."""
@@ -185,7 +184,7 @@ class HullPlates:
 
     def __str__(self) -> str:
         """Write the table, and what is to be known."""
-        advice = (f"{plate.name} ({plate.range}): {plate.suggestion}." for plate in self.rows)
+        advice = (f"{plate.name}, {plate.range}: {plate.suggestion}." for plate in self.rows)
         return "\n".join([*self._printed(), "", *advice, CAVEAT, *self._facts(), *self.notes])
 
     def _printed(self) -> Iterator[str]:

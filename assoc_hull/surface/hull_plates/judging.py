@@ -124,7 +124,7 @@ def _shares(tallied: Tally, nodes: CurvatureNodes, k0: float, flat_bend: float) 
 def _contested(tallied: Tally) -> float:
     """Give the part with K0/2 <= |K| <= 2 K0."""
     half, minus_half, double, minus_double = tallied.above[2:].tolist()
-    return max(half - double + minus_double - minus_half, 0.0) / tallied.area
+    return float(max(half - double + minus_double - minus_half, 0.0) / tallied.area)
 
 
 def _advice(

@@ -23,9 +23,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.geometry.tensor_bernstein import basis
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.patches import Patches
+from assoc_hull.geometry.tensor_bernstein import basis
 
 __all__ = ["margins"]
 

@@ -22,12 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.tensor_bernstein import basis
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.running_bounds import EPS, Running
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.quadrature import lobatto
+from assoc_hull.geometry.tensor_bernstein import basis
 from assoc_hull.surface.curvature_nodes import CurvatureNodes, curvature_nodes
 from assoc_hull.surface.given_surfaces import batches_of
 from assoc_hull.surface.hull_plates.girth import girth_of

@@ -87,7 +87,7 @@ class _Pairs:
 
 
 def patches_in(shell: Shell, wanted: PlateRange) -> tuple[IntArray, IntArray]:
-    """Give the patches with a part in a range, (p,), and how each is cut, (p,): 0 for whole ones."""
+    """Give the patches with a part in a range, (p,), and how each is cut, (p,); 0 for whole."""
     there, cut = np.ones(len(shell.patches), np.bool_), np.zeros(len(shell.patches), np.intp)
     for number, axis in enumerate(AXES):
         low, high = getattr(wanted, axis)
