@@ -12,8 +12,8 @@ Examples
 >>> from assoc_hull.surface.hull_plates.hull_seams import HullSeams
 >>> x, z = np.mgrid[0:30:2j, 0:3:2j]
 >>> side = SplineSurface.bezier(np.stack([x, 8.0 + 0.0 * x, z], axis=-1), "body")
->>> print(hull_plates_csv(hull_plates((side,), HullSeams(x=12.0))).splitlines()[2][:30])
-1,x below 12 m,36.0,12.0,3.0,0
+>>> print(hull_plates_csv(hull_plates((side,), HullSeams(x=12.0))).splitlines()[0][:30])
+name,range,area,length,breadth
 """
 
 from __future__ import annotations

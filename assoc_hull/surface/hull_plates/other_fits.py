@@ -5,7 +5,7 @@ Examples
 >>> import assoc_hull as ah
 >>> from assoc_hull.surface.hull_plates.other_fits import every_second_waterline
 >>> every_second_waterline(ah.examples.wigley().state)[:2]
-('WL 0.5', 'WL 2.5')
+('WL 0.625', 'WL 1.875')
 """
 
 from __future__ import annotations
