@@ -11,8 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.errors import OpenMeshError
+from assoc_hull.arguments import flag, integer, positive
+from assoc_hull.errors import BadInputError, OpenMeshError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
 from assoc_hull.geometry.triangles import Triangles
 from assoc_hull.surface.cells.closing import cover, mirrored
 from assoc_hull.surface.cells.faces import cells
@@ -20,7 +23,27 @@ from assoc_hull.surface.cells.filling import fill_cells
 from assoc_hull.surface.cells.mesh_report import MeshReport, examined
 from assoc_hull.surface.cells.net_graph import net_graph
 
-__all__ = ["ClosedMesh", "closed_mesh"]
+__all__ = ["BelowDraught", "ClosedMesh", "mesh_of_net", "require_closed"]
+
+_WHERE = "in a closed mesh"
+_MOST_POINTS = 64
+
+
+@attrs.frozen
+class BelowDraught:
+    """What a closed mesh has below a waterplane at even keel.
+
+    Attributes
+    ----------
+    volume : float, m3
+        Of both sides.
+    lcb, vcb : float, m
+        Of its centroid: x from the aft perpendicular, z from the base line.
+    """
+
+    volume: float
+    lcb: float
+    vcb: float
 
 
 @attrs.frozen(eq=False)
@@ -79,6 +102,34 @@ class ClosedMesh:
         require_closed(self.report, "the volume", self.half)
         return float(self.report.fluxes.mean())
 
+    def below(self, draught: float) -> BelowDraught:
+        """Give volume and centroid below a waterplane: a check of `assoc_hull.hydrostatics`.
+
+        Parameters
+        ----------
+        draught : float, m
+            At even keel.
+
+        Raises
+        ------
+        OpenMeshError
+            It is a half, or does not close.
+        BadInputError
+            The draught is no positive number, or nothing lies below it.
+        """
+        require_closed(self.report, "the volume below a draught", self.half)
+        height = positive(draught, "draught", _WHERE)
+        if height <= float(self.xyz[:, 2].min()):
+            raise BadInputError(
+                f"a draught of {height:g} m, below which nothing lies", _WHERE, "give a larger one"
+            )
+        level = Planes(np.array([height]), np.zeros(1), np.zeros(1))
+        found = immersed_triangles(make_body(self.triangles), level)
+        volume = float(found.volume[0])
+        return BelowDraught(
+            volume, float(found.moment_x[0]) / volume, float(found.moment_z[0]) / volume
+        )
+
     @property
     def area(self) -> float:
         """The area of all triangles, m2."""
@@ -111,7 +162,7 @@ def require_closed(report: MeshReport, asked: str, half: bool) -> None:
     )  # fmt: skip
 
 
-def closed_mesh(
+def mesh_of_net(
     net: Net,
     *,
     half: bool = False,
@@ -138,6 +189,8 @@ def closed_mesh(
 
     Raises
     ------
+    BadInputError
+        `points` is odd or out of its range.
     OpenNetError
         The lines do not part the hull into cells.
     OpenMeshError
@@ -147,11 +200,17 @@ def closed_mesh(
     --------
     >>> import assoc_hull as ah
     >>> from assoc_hull.analysis.net.gather import gather
-    >>> from assoc_hull.surface.cells.closed_mesh import closed_mesh
-    >>> found = closed_mesh(gather(ah.examples.wigley().state), points=2)
+    >>> from assoc_hull.surface.cells.closed_mesh import mesh_of_net
+    >>> found = mesh_of_net(gather(ah.examples.wigley().state), points=2)
     >>> found.names, found.report.euler, round(found.volume, 1)
-    (('shell', 'deck'), 2, 4854.8)
+    (('shell', 'deck'), 2, 4854.7)
     """
+    half = flag(half, "half", _WHERE)
+    points = integer(points, "points", _WHERE, least=2, most=_MOST_POINTS)
+    if points % 2:
+        raise BadInputError(
+            f"{points} points to an edge", _WHERE, "give an even number: cells meet at middles"
+        )
     filled = fill_cells(cells(net_graph(net, leave_out=leave_out)), points)
     sheets = cover(filled)
     if not half:

@@ -11,7 +11,7 @@ from assoc_hull.geometry.vectors import dot
 
 __all__ = ["MeshReport", "examined"]
 
-_NIL = 1e-12
+_NIL = 1e-14
 """Triangles of an area this part of the square of the length of the mesh are nil."""
 _ALIKE = 1e-9
 """Volumes by x, by y and by z of a closed mesh agree to this part."""
@@ -123,4 +123,4 @@ def _slenderness(mesh: Triangles, area: FloatArray) -> FloatArray:
     side = corner - np.roll(corner, 1, axis=1)
     longest = dot(side, side).max(axis=1)
     ratio = np.divide(longest, 2.0 * area, out=np.full(len(area), np.inf), where=area > 0.0)
-    return np.quantile(ratio, [0.5, 0.95, 0.99], method="higher")
+    return np.asarray(np.quantile(ratio, [0.5, 0.95, 0.99], method="higher"))
