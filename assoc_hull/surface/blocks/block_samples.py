@@ -67,6 +67,8 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
     weight = np.where(edges.border[owner], _BORDER * weight, weight)
     line = graph.curve[edges.edge][owner]
     good = weight > 0.0
+    low, high = found.reach.T
+    uv = np.clip(uv, low, high)
     samples = Samples.of(uv[good], point[good], weight[good], line[good], edges.held[owner][good])
     return samples, edges.inside[owner][good]
 
