@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.state import Particulars
+from assoc_hull.surface.blocks.block import Block
 
 __all__ = ["Border", "FittedBlock", "NetSurface", "Residuals"]
 
@@ -60,6 +61,8 @@ class FittedBlock:
         Its surface, as published: cut at its borders, and joined.
     fit : SplineSurface
         As it was fitted, with the overlap and before it was joined.
+    laid : Block
+        As it was laid out on its rectangle, before any fit.
     samples : Samples
         What it was fitted to, with their parameters at the end.
     residuals : tuple of Residuals
@@ -82,6 +85,7 @@ class FittedBlock:
     kind: str
     surface: SplineSurface
     fit: SplineSurface
+    laid: Block
     samples: Samples
     residuals: tuple[Residuals, ...]
     least_element: float
@@ -153,6 +157,8 @@ class NetSurface:
         The blocks that this call has fitted; the others were taken over from an earlier result.
     notes : tuple of str
         Warnings and what is to be known of the whole.
+    whole : tuple of Residuals
+        Of all blocks together, on the lines fitted to and on those left out.
     """
 
     particulars: Particulars
@@ -162,6 +168,7 @@ class NetSurface:
     left_out: tuple[str, ...]
     refitted: tuple[str, ...]
     notes: tuple[str, ...]
+    whole: tuple[Residuals, ...]
 
     @cached_property
     def patches(self) -> tuple[SplineSurface, ...]:

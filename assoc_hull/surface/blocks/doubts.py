@@ -18,6 +18,9 @@ _KNUCKLE = 5.0
 """So many times as large as p95 the p99 is where a bend was smoothed that is a knuckle."""
 
 _LEAST = 0.02
+_ROUNDING = 1e-10
+"""Borders that agree to this, m, have control points that agree to the last bits."""
+
 _STEM = 4.0
 """A largest residual over so many limits, beside the centre plane, tells of a stem too sharp for its lines."""
 
@@ -93,7 +96,7 @@ def doubts_of_border(border: Border) -> Iterator[str]:
         Where they meet.
     """
     name = " | ".join(border.names)
-    if border.joined_gap > 0.0:
+    if border.joined_gap > _ROUNDING:
         yield f"{name}: a gap of {1e3 * border.joined_gap:.2g} mm is left"
     if border.angle[2] > border.limit:
         yield (

@@ -9,9 +9,11 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.fit import Fit
+from assoc_hull.geometry.fitting.foot_points import foot_points
 from assoc_hull.geometry.fitting.held_controls import HeldControls
 from assoc_hull.geometry.fitting.joints import joined, joint_at
 from assoc_hull.geometry.fitting.refining import fit_refined
+from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.fitting.strips import Strip, strip_of
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
@@ -20,7 +22,12 @@ from assoc_hull.surface.net_surface import Border
 
 __all__ = ["Made", "fitted", "held_on_centre", "joined_to_masters"]
 
-_PASSES = 2
+_PASSES = 4
+_STEPS = 8
+_ENOUGH = 0.75
+"""With 95 % of the residuals below this part of the limit a fit has knots enough: more of them would
+follow the lines more closely, and what is between less."""
+
 _Y = 1
 
 
@@ -35,7 +42,8 @@ class Made:
     fit : Fit
         Over all of its reach, before it was cut and joined.
     part : Fit
-        As published: cut at its borders and joined to its masters; with the points between.
+        As published: cut at its borders and joined to its masters; with the points of its own
+        lines, and how far these lie from it.
     borders : tuple of Border
         Where it meets its masters.
     """
@@ -65,14 +73,16 @@ def fitted(block: Block, options: FitOptions, known: Mapping[str, Breaks]) -> Fi
         Where spans of its masters meet.
     """
     breaks = breaks_of(block, options.girth_span, options.length, known)
+    limit = options.limit(block.kind)
     return fit_refined(
         block.name,
         block.samples,
         *breaks,
-        options.smoothing,
-        options.limit(block.kind),
+        options.smoothing_of(block.kind),
+        limit,
         held=lambda u, v: held_on_centre(block, u, v),
         passes=_PASSES,
+        enough=lambda fit: bool(np.percentile(fit.residual, 95.0) <= _ENOUGH * limit),
     )
 
 
@@ -121,6 +131,7 @@ def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
     strips = dict(_strips(block, made))
     (u0, u1), (v0, v1) = block.extent.tolist()
     part = joined(fit, ((u0, u1), (v0, v1)), strips, lambda u, v: held_on_centre(block, u, v))
+    part = _measured(block, fit, part)
     borders = []
     for stretch, side in _with_masters(block):
         master = made[stretch.master].block
@@ -132,6 +143,16 @@ def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
             )
         )
     return Made(block, fit, part, tuple(borders))
+
+
+def _measured(block: Block, fit: Fit, part: Fit) -> Fit:
+    """Give the published surface with the points of the block itself, and their distances from it.
+
+    Parameters that the fit has held are free here: a distance is that to the nearest place.
+    """
+    own = Samples(*(each[block.inside] for each in attrs.astuple(fit.samples, recurse=False)))
+    uv, away = foot_points(part.surface, own.point, own.uv, steps=_STEPS)
+    return Fit(part.surface, attrs.evolve(own, uv=uv), away, part.smoothing)
 
 
 def _with_masters(block: Block) -> Iterator[tuple[Stretch, str]]:

@@ -23,6 +23,9 @@ SMOOTHING = 2.4e-10
 """The penalty over the cube of the length."""
 
 _BODY, _ENDS, _MEDIAN = 0.008, 0.015, 0.0015
+_END_SMOOTHING = 1.0 / 3.0
+"""The penalty of bow and stern blocks, as a part of that of the body: their radii are smaller."""
+
 _BODY_ANGLE, _END_ANGLE = 0.1, 0.5
 
 
@@ -35,7 +38,7 @@ class FitOptions:
     length : float, m
         Of the ship, between perpendiculars.
     smoothing : float, m3
-        The factor of the penalty.
+        The factor of the penalty of the body.
     body_limit : float, m
         What 95 % of the residuals of the body should keep; bulb and stern have 15/8 of it.
     cutoff : float, m
@@ -56,6 +59,10 @@ class FitOptions:
     def median_limit(self) -> float:
         """What the median of the residuals should keep, m."""
         return self.body_limit * _MEDIAN / _BODY
+
+    def smoothing_of(self, kind: str) -> float:
+        """Give the factor of the penalty of a kind of block, m3."""
+        return self.smoothing * (1.0 if kind == "body" else _END_SMOOTHING)
 
     def limit(self, kind: str) -> float:
         """Give what 95 % of the residuals of a kind of block should keep, m."""
@@ -90,7 +97,7 @@ def fit_options(
     length : float, m
         Of the ship.
     smoothing : float, m3, optional
-        The factor of the penalty; ``2.4e-10 length**3`` if None.
+        The factor of the penalty of the body; ``2.4e-10 length**3`` if None.
     tolerance : float, m, optional
         What 95 % of the residuals of the body should keep; 8 mm at 300 m if None.
     cutoff : float, m

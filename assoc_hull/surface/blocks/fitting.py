@@ -11,7 +11,7 @@ from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.fitting.folds import elements
 from assoc_hull.model.state import HullState
 from assoc_hull.surface.blocks.block import Block
-from assoc_hull.surface.blocks.body_stub import lay_out
+from assoc_hull.surface.blocks.layout import lay_out
 from assoc_hull.surface.blocks.doubts import doubts_of_border, doubts_of_fit, doubts_of_shape
 from assoc_hull.surface.blocks.fit_block import Made, fitted, joined_to_masters
 from assoc_hull.surface.blocks.fit_options import FitOptions
@@ -46,7 +46,7 @@ def surface_of_net(
         raise BadInputError("a curve has failed", _WHERE, "mend it, or take back the edit")
     net = gather(state)
     omitted = _left_out(net, leave_out)
-    blocks = lay_out(net, options.length, left_out=frozenset(leave_out))
+    blocks = lay_out(net, options.length, omitted)
     made = _made(blocks, options)
     surfaces = [each.part.surface for each in made]
     misses = misses_of(surfaces, net, omitted, options.point_step)
@@ -56,7 +56,10 @@ def surface_of_net(
     borders = tuple(border for each in made for border in each.borders)
     notes = tuple(note for border in borders for note in doubts_of_border(border))
     names = tuple(block.name for block in found)
-    return NetSurface(state.particulars, net, found, borders, tuple(leave_out), names, notes)
+    return NetSurface(
+        state.particulars, net, found, borders, tuple(leave_out), names, notes,
+        _of_all(made, misses, net),
+    )  # fmt: skip
 
 
 def _left_out(net: Net, names: Sequence[str]) -> np.typing.NDArray[np.bool_]:
@@ -75,13 +78,14 @@ def _left_out(net: Net, names: Sequence[str]) -> np.typing.NDArray[np.bool_]:
 
 
 def _made(blocks: Sequence[Block], options: FitOptions) -> tuple[Made, ...]:
-    """Fit and join blocks, masters first; give them from aft forward."""
+    """Fit and join blocks, which come masters first; give them from aft forward."""
     made: dict[str, Made] = {}
-    for block in sorted(blocks, key=lambda each: (each.rank, each.name)):
+    for block in blocks:
         known = {name: each.breaks for name, each in made.items()}
         fit = fitted(block, options, known)
         made[block.name] = joined_to_masters(block, fit, made)
-    return tuple(made[block.name] for block in blocks)
+    forward = sorted(blocks, key=lambda each: (float(each.corners[:, 0].mean()), each.name))
+    return tuple(made[block.name] for block in forward)
 
 
 def _published(
@@ -100,10 +104,23 @@ def _published(
     )
     spans = tuple(len(np.unique(knots)) - 1 for knots in (surface.knots_u, surface.knots_v))
     return FittedBlock(
-        block.name, block.kind, surface, made.fit.surface, made.fit.samples, (on_lines, *others),
+        block.name, block.kind, surface, made.fit.surface, made.block, made.fit.samples, (on_lines, *others),
         shape.least, shape.singular, (spans[0], spans[1]), made.fit.smoothing,
         options.limit(block.kind), notes,
     )  # fmt: skip
+
+
+def _of_all(made: Sequence[Made], misses: Misses, net: Net) -> tuple[Residuals, ...]:
+    """Sum up all blocks together."""
+    parts = [each.part for each in made]
+    distance = np.concatenate([part.residual for part in parts])
+    point = np.concatenate([part.samples.point for part in parts])
+    line = np.concatenate([part.samples.line for part in parts])
+    fitted = residuals_of("fitted", distance, point, line, net.name)
+    if not len(misses.distance):
+        return (fitted,)
+    others = misses.distance, misses.point, misses.line
+    return fitted, residuals_of("left out", *others, net.name)
 
 
 def _left_out_of(misses: Misses, number: int, net: Net) -> tuple[Residuals, ...]:

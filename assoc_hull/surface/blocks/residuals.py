@@ -104,13 +104,18 @@ def misses_of(
         return Misses(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros(0, np.int64), none)
     point = np.concatenate(parts)
     line = np.repeat(np.array(curves, np.int64), [len(each) for each in parts])
-    home, start = _starts(surfaces, point)
-    distance = np.zeros(len(point))
-    for number, surface in enumerate(surfaces):
-        mine = home == number
-        if mine.any():
-            distance[mine] = foot_points(surface, point[mine], start[mine], steps=_STEPS)[1]
-    return Misses(home, point, line, distance)
+    every = np.stack([_distance(surface, point) for surface in surfaces])
+    home = every.argmin(axis=0)
+    return Misses(home, point, line, every[home, np.arange(len(point))])
+
+
+def _distance(surface: SplineSurface, point: FloatArray) -> FloatArray:
+    """Give how far points lie from a surface, (k,), m."""
+    from scipy.spatial import cKDTree
+
+    uv = _grid(surface)
+    start = uv[cKDTree(surface.at(*uv.T)).query(point)[1]]
+    return foot_points(surface, point, start, steps=_STEPS)[1]
 
 
 def _along(net: Net, curve: int, step: float) -> FloatArray:
@@ -123,17 +128,6 @@ def _along(net: Net, curve: int, step: float) -> FloatArray:
     parts = max(int(np.ceil(arc[-1] / step)), 2)
     places = np.interp(np.linspace(0.0, arc[-1], parts + 1), arc, t)
     return evaluate(net.batch, np.full(parts + 1, curve), places)
-
-
-def _starts(surfaces: Sequence[SplineSurface], point: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Give for each point the surface of the nearest place of a grid, and the parameters there."""
-    from scipy.spatial import cKDTree
-
-    grids = [_grid(surface) for surface in surfaces]
-    places = np.concatenate([each.at(*uv.T) for each, uv in zip(surfaces, grids, strict=True)])
-    home = np.repeat(np.arange(len(grids)), [len(uv) for uv in grids])
-    nearest = cKDTree(places).query(point)[1]
-    return home[nearest], np.concatenate(grids)[nearest]
 
 
 def _grid(surface: SplineSurface) -> FloatArray:

@@ -26,6 +26,12 @@ _LONGEST = 0.05
 _NEAR = 0.2
 """Places so near to a neighbour, as a part of the spans that are wanted, are not worth a knot."""
 
+_FEWEST = 20
+"""Spans along a side that has no stations, at least."""
+
+_END_SPAN = 0.6
+"""How much shorter spans of bow and stern are."""
+
 _SAME = 1e-9
 _ALONG = {"u0": 1, "u1": 1, "v0": 0, "v1": 0}
 """The parameter that runs along each side: 0 for u, 1 for v."""
@@ -47,8 +53,16 @@ def breaks_of(
     known : mapping of str to (breaks in u, breaks in v)
         Those of its masters.
     """
-    own = _along_ship(block.knots_u, length, girth_span), _along_girth(block.knots_v, girth_span)
-    return _with_masters(block, 0, own[0], known), _with_masters(block, 1, own[1], known)
+    (u0, u1), (v0, v1) = block.reach.tolist()
+    if block.kind == "body":
+        inner = block.stations[(block.stations > u0) & (block.stations < u1)]
+        places = np.unique(np.concatenate([[u0], inner, block.extent[0], [u1]]))
+        along = _along_ship(places, length, girth_span)
+    else:
+        along = _evenly(u0, u1, _END_SPAN * girth_span)
+        girth_span *= _END_SPAN
+    across = _evenly(v0, v1, girth_span)
+    return _with_masters(block, 0, along, known), _with_masters(block, 1, across, known)
 
 
 def _along_ship(places: FloatArray, length: float, least: float) -> FloatArray:
@@ -59,10 +73,9 @@ def _along_ship(places: FloatArray, length: float, least: float) -> FloatArray:
     return subdivided(kept, np.where(short, 1, parts))
 
 
-def _along_girth(places: FloatArray, span: float) -> FloatArray:
-    """Part the girth evenly; a place given twice keeps its two knots."""
-    low, high = places[0], places[-1]
-    return np.linspace(low, high, max(round((high - low) / span), 2) + 1)
+def _evenly(low: float, high: float, span: float) -> FloatArray:
+    """Part a side evenly."""
+    return np.linspace(low, high, max(round((high - low) / span), _FEWEST) + 1)
 
 
 def _thinned(places: FloatArray, least: float) -> FloatArray:
