@@ -75,7 +75,7 @@ def parse_lines(text: str, source: str, book: Notebook) -> RawLines:
 def _parser(text: str) -> Parse | None:
     """Tell by the content what reads a text; None if it holds no digitised lines."""
     forms: tuple[tuple[Callable[[str], bool], Parse], ...] = (
-        (_is_csv, _parse_csv), (_is_dxf, _parse_dxf), (is_britfair, parse_britfair),
+        (_is_csv, _parse_csv), (_is_dxf, parse_dxf), (is_britfair, parse_britfair),
         (is_delftship, parse_delftship), (is_gf, parse_gf),
         (is_delftship_offsets, parse_delftship_offsets),  # tells by one row: a title may look alike
     )  # fmt: skip
@@ -92,10 +92,6 @@ def _is_csv(text: str) -> bool:
         word.strip().lower().strip('"') for word in re.split(r"[,;\t]", first.lstrip("\ufeff"))
     }
     return set(_COLUMNS) <= names
-
-
-def _parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
-    return RawLines(parse_dxf(text, source, book))
 
 
 def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:
