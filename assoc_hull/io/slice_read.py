@@ -13,6 +13,7 @@ from assoc_hull.io.mesh import read_mesh
 from assoc_hull.io.mesh_file import is_mesh_name
 from assoc_hull.io.offset_units import check_argument
 from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slice_bottom import refuse_bottomless
 from assoc_hull.io.slice_features import FeatureRules
 from assoc_hull.io.slice_net import SliceReport, net_from_slices
 from assoc_hull.io.slice_places import Places
@@ -104,7 +105,8 @@ def read_slices(
     Raises
     ------
     BadInputError, NoMeetingError, MissingExtraError
-        As for `read_mesh`, `read_lines` and `net_from_slices`; or planes or axes for lines.
+        As for `read_mesh`, `read_lines` and `net_from_slices`; planes or axes for lines; a mesh
+        or surfaces whose bottom is missing.
     """
     for name, value in (
         ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
@@ -126,6 +128,7 @@ def read_slices(
     else:
         _refuse_cuts(path, list(cuts))
         slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
+    refuse_bottomless(slices)
     size = slices.high - slices.low
     depth = float(size[2])
     ship = Particulars(

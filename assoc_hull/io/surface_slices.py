@@ -52,9 +52,6 @@ _SHIP = 50.0
 
 _LONGEST, _SHORTEST = 600.0, 1.0
 
-_REFUSED = 0.1
-"""Loose ends farther apart than are joined, and up to this (m), are refused."""
-
 _FINE = 1e-5
 """Triangles lie off their surface by at most this part of the length of the hull."""
 
@@ -199,7 +196,7 @@ def small(size: float) -> float:
 
 
 def _gaps(size: float) -> Gaps:
-    return Gaps(small(size) * Gaps().join, small(size) * _REFUSED)
+    return Gaps(small(size) * Gaps().join, small(size) * Gaps().refuse)
 
 
 def _size(faces: Faces, scale: float, book: Notebook) -> float:
@@ -251,8 +248,12 @@ def _settled(
     offset = np.repeat([_place(line) for line, _ in pieces], count)
     places, sine, good = _on_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
     if not good.all():
-        what = f"{int((~good).sum())} of {len(good)} points stay on triangles: surfaces are tangent"
-        book.suspect("tangent", "the lines", f"{what} to their planes there, or end")
+        x, y, z = xyz[np.argmin(good)].tolist()
+        what = (
+            f"{int((~good).sum())} of {len(good)} points stay on triangles, first ({x:.4g}, "
+            f"{y:.4g}, {z:.4g}) m: surfaces end there, or are nearly in the plane of the line"
+        )
+        book.assume("on triangles", "the lines", what, int((~good).sum()))
     split = np.cumsum(count)[:-1]
     found = iter(zip(np.split(places, split), np.split(sine, split), strict=True))
     settled = [_replaced(line, found) for line in lines]
