@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import assoc_hull.examples  # else its first import would bind this name again
 import assoc_hull.study  # likewise
+import assoc_hull.surface  # likewise
 
 if TYPE_CHECKING:
     from assoc_hull.analysis.appendage import Appendage
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.plating import plates, read_surfaces
     from assoc_hull.production import production_arcs
+    from assoc_hull.shell import HullSurface, surface
     from assoc_hull.shifts import shift_sections, swing
     from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
@@ -86,6 +88,7 @@ __all__ = [
     "FreedomError",
     "Group",
     "Hull",
+    "HullSurface",
     "Line",
     "LineSource",
     "NoMeetingError",
@@ -134,6 +137,7 @@ __all__ = [
     "shift_sections",
     "stability",
     "study",
+    "surface",
     "swing",
     "vary",
     "vary_by",
@@ -184,6 +188,7 @@ _HOMES = {
     "model.state": ("Association", "Ends", "Particulars"),
     "plating": ("plates", "read_surfaces"),
     "production": ("production_arcs",),
+    "shell": ("HullSurface", "surface"),
     "shifts": ("shift_sections", "swing"),
     "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),
@@ -200,7 +205,7 @@ _HOMES = {
 if not TYPE_CHECKING:
     # What only lofts and cuts does not wait for the modules of whole hulls.
     _home = {name: module for module, names in _HOMES.items() for name in names}
-    del assoc_hull, examples, study  # the subpackages; below the names mean other things
+    del assoc_hull, examples, study, surface  # the subpackages; below the names mean other things
 
     def __getattr__(name: str) -> object:
         """Import a public name when it is first used."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
@@ -31,13 +32,27 @@ class Triangles:
         Places of the vertices.
     face : (f, 3) int
         Vertices of each triangle.
+    origin : (f,) int or None
+        Which triangle of another surface each is a part of, where that matters.
     """
 
     xyz: FloatArray
     face: IntArray
+    origin: IntArray | None = None
 
     def __attrs_post_init__(self) -> None:
         freeze(self.xyz, self.face)
+        if self.origin is not None:
+            freeze(self.origin)
+
+    def moved(self, xyz: FloatArray) -> Triangles:
+        """Give the same triangles of vertices elsewhere, (v, 3)."""
+        return Triangles(xyz, self.face, self.origin)
+
+    def part(self, rows: IntArray | NDArray[np.bool_]) -> Triangles:
+        """Give some of the triangles, by their numbers or a mask, of the same vertices."""
+        origin = None if self.origin is None else self.origin[rows]
+        return Triangles(self.xyz, self.face[rows], origin)
 
     @property
     def corners(self) -> FloatArray:
@@ -68,14 +83,14 @@ class Triangles:
         return float((a * np.cross(b, c)).sum() / 6.0)
 
 
-def merge_vertices(xyz: FloatArray, face: IntArray) -> Triangles:
+def merge_vertices(xyz: FloatArray, face: IntArray, origin: IntArray | None = None) -> Triangles:
     """Make equal places one vertex; the order of the vertices is that of their places."""
     places = xyz + 0.0
     order = np.lexsort(places.T[::-1])
     new = np.append(True, (np.diff(places[order], axis=0) != 0.0).any(axis=1))
     number = np.empty(len(places), np.int64)
     number[order] = np.cumsum(new) - 1
-    return Triangles(places[order[new]], number[face])
+    return Triangles(places[order[new]], number[face], origin)
 
 
 def grid_triangles(grid: FloatArray) -> Triangles:
@@ -182,4 +197,4 @@ def weld_edges(mesh: Triangles, reach: float) -> tuple[Triangles, int]:
     low, high = pairs.min(axis=1), pairs.max(axis=1)
     order = np.argsort(-low, kind="stable")
     xyz[high[order]] = mesh.xyz[low[order]]
-    return merge_vertices(xyz, mesh.face), len(np.unique(high))
+    return merge_vertices(xyz, mesh.face, mesh.origin), len(np.unique(high))

@@ -14,7 +14,8 @@ BoolArray = np.typing.NDArray[np.bool_]
 
 def turned(mesh: Triangles, flip: BoolArray) -> Triangles:
     """Turn some triangles, (f,) bool, the other way round."""
-    return Triangles(mesh.xyz, np.where(flip[:, None], mesh.face[:, ::-1], mesh.face))
+    face = np.where(flip[:, None], mesh.face[:, ::-1], mesh.face)
+    return Triangles(mesh.xyz, face, mesh.origin)
 
 
 def against_neighbours(mesh: Triangles) -> BoolArray:

@@ -21,6 +21,7 @@ BTK 2.5 ('deck edge', 'deck edge')
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -38,7 +39,7 @@ from assoc_hull.io.slice_order import tell_crossings, tell_joins
 from assoc_hull.io.slice_places import Places, places_of
 from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 
-__all__ = ["read_mesh", "slice_mesh"]
+__all__ = ["cut_placed", "read_mesh", "slice_mesh"]
 
 _PREFIX = {"sections": "ST", "waterlines": "WL", "buttocks": "BTK"}
 
@@ -132,31 +133,61 @@ def slice_mesh(
     book = Notebook()
     scaled = scale_mesh(mesh, scale, unit, book)
     placed = place_mesh(mend_mesh(scaled, book), axes, book)
+    wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
+    return cut_placed(placed, wanted, limits, name, book, tell)
+
+
+def cut_placed(
+    placed: Triangles,
+    wanted: Mapping[str, Places],
+    gaps: Gaps,
+    name: str,
+    book: Notebook,
+    tell: Tell = silent,
+) -> Slices:
+    """Cut a mesh that lies in ship axes.
+
+    Parameters
+    ----------
+    placed : Triangles
+        In ship axes, m, outward.
+    wanted : mapping of str to int or sequence of float, m
+        Planes of each group: "sections", "waterlines", "buttocks".
+    gaps : Gaps
+        What is joined.
+    name : str
+        Name of the hull.
+    book : Notebook
+        Takes what was found.
+    tell : callable
+        Hears which line is being cut.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError
+        As for `slice_mesh`.
+    """
     shell = make_shell(placed, book)
     low, high = shell.mesh.xyz.min(axis=0), shell.mesh.xyz.max(axis=0)
     joins: list[Join] = []
     lines: list[SliceLine] = []
     places = [
         (group, place)
-        for group, label, wanted in (
-            ("sections", "stations", stations),
-            ("waterlines", "waterlines", waterlines),
-            ("buttocks", "buttocks", buttocks),
-        )
-        for place in _places(label, wanted, low[AXES[group]], high[AXES[group]], group)
+        for group, planes in wanted.items()
+        for place in _places(group, planes, low[AXES[group]], high[AXES[group]])
     ]
     for i, (group, place) in enumerate(places):
         tell("cutting lines", i, len(places))
-        lines.append(_cut(shell, group, place, limits, joins, book))
+        lines.append(_cut(shell, group, place, gaps, joins, book))
     tell_joins(joins, book)
     return Slices(
-        name, tuple(lines), tuple(_boundaries(shell, limits, joins, book)), tuple(joins),
-        book.report(), True, low, high, facet_depth(shell.mesh), limits,
+        name, tuple(lines), tuple(_boundaries(shell, gaps, joins, book)), tuple(joins),
+        book.report(), True, low, high, facet_depth(shell.mesh), gaps,
     )  # fmt: skip
 
 
-def _places(label: str, wanted: Places, low: float, high: float, group: str) -> list[float]:
-    dense = group == "sections"
+def _places(group: str, wanted: Places, low: float, high: float) -> list[float]:
+    label, dense = ("stations" if group == "sections" else group), group == "sections"
     return [float(each) for each in places_of(label, wanted, float(low), float(high), dense=dense)]
 
 
@@ -212,8 +243,7 @@ def _boundaries(shell: Shell, gaps: Gaps, joins: list[Join], book: Notebook) -> 
     found: list[SliceLine] = []
     for kind in (Rim.PROFILE, Rim.DECK, Rim.TRANSOM):
         name = Rim.NAMES[kind]
-        chains = [Piece(points) for points in rim_pieces(shell, kind)]
-        chains, made = join_pieces(name, chains, gaps)
+        chains, made = join_pieces(name, rim_pieces(shell, kind), gaps)
         joins += made
         if not chains:
             continue

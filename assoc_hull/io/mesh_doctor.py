@@ -57,7 +57,7 @@ def _drop_degenerate(mesh: Triangles, book: Notebook) -> Triangles:
     bad = int((~good).sum())
     if bad:
         book.repair("degenerate", _WHERE, f"{bad} triangles of two corners left out", bad)
-    return Triangles(mesh.xyz, mesh.face[good]) if bad else mesh
+    return mesh.part(good) if bad else mesh
 
 
 def _drop_duplicates(mesh: Triangles, book: Notebook) -> Triangles:
@@ -72,7 +72,7 @@ def _drop_duplicates(mesh: Triangles, book: Notebook) -> Triangles:
     if not twice:
         return mesh
     book.repair("duplicate", _WHERE, f"{twice} triangles occur twice; each is kept once", twice)
-    return Triangles(mesh.xyz, mesh.face[np.sort(first)])
+    return mesh.part(np.sort(first))
 
 
 def _labels(mesh: Triangles) -> IntArray:

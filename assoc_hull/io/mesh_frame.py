@@ -61,7 +61,7 @@ def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Tria
             f"the mesh is only {length:.4g} m long in {chosen} at scale {scale:g}", f"in {_WHERE}",
             "are these metres? give unit='m', or the scale of the model",
         )  # fmt: skip
-    return Triangles(mesh.xyz * (scale * _UNITS[chosen]), mesh.face)
+    return mesh.moved(mesh.xyz * (scale * _UNITS[chosen]))
 
 
 def _known_units() -> str:
@@ -118,7 +118,8 @@ def _parse(axes: str) -> FloatArray:
 def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
     """Turn the places; a reflection turns the triangles round."""
     xyz = np.stack([(mesh.xyz * row).sum(axis=1) for row in turn], axis=1) + 0.0
-    return Triangles(xyz, mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy())
+    face = mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy()
+    return Triangles(xyz, face, mesh.origin)
 
 
 def _centred(mesh: Triangles, book: Notebook) -> Triangles:
@@ -136,7 +137,7 @@ def _centred(mesh: Triangles, book: Notebook) -> Triangles:
         xyz[:, 1] -= middle
     elif side is None:
         _tell_asymmetry(mesh, size, book)
-    moved = Triangles(xyz, mesh.face)
+    moved = mesh.moved(xyz)
     if _is_starboard(moved):
         book.repair("mirrored", _WHERE, "the half at negative y was mirrored to port")
     kind = "half" if side is not None else "whole"
@@ -244,4 +245,4 @@ def _grounded(mesh: Triangles, book: Notebook) -> Triangles:
     if not shift.any():
         what = f"x = 0 and z = 0 as in the file; x from {low[0]:.6g} m, z from {low[2]:.6g} m"
         book.assume("origin", _WHERE, what)
-    return Triangles(mesh.xyz + shift, mesh.face)
+    return mesh.moved(mesh.xyz + shift)

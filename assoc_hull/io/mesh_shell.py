@@ -68,7 +68,7 @@ def make_shell(mesh: Triangles, book: Notebook) -> Shell:
     deck, transom = _find_deck(mesh), _find_transom(mesh)
     deck &= ~transom
     _tell_caps(mesh, deck, transom, book)
-    shell = Triangles(mesh.xyz, mesh.face[~(deck | transom)])
+    shell = mesh.part(~(deck | transom))
     rim = boundary_edges(shell)
     sort = _sort(mesh, rim, mesh.face[deck], mesh.face[transom])
     loose = int((sort == Rim.LOOSE).sum())
@@ -92,16 +92,19 @@ def _half(mesh: Triangles) -> Triangles:
         # No cap on the centre plane, but corners of the hull whose three corners lie in it.
         whole |= flat
     across = (side > 0).any(axis=1) & (side < 0).any(axis=1)
-    cut, extra = _cut_faces(xyz, mesh.face[across])
+    cut, extra, parent = _cut_faces(xyz, mesh.face[across])
     face = np.concatenate([mesh.face[whole], cut])
+    origin = mesh.origin
+    if origin is not None:
+        origin = np.concatenate([origin[whole], origin[across][parent]])
     if not len(face):
         raise BadInputError("nothing lies at positive y", f"in {_WHERE}", "give axes=")
     used, number = np.unique(face, return_inverse=True)
-    return Triangles(np.concatenate([xyz, extra])[used], number.reshape(-1, 3))
+    return Triangles(np.concatenate([xyz, extra])[used], number.reshape(-1, 3), origin)
 
 
-def _cut_faces(xyz: FloatArray, face: IntArray) -> tuple[IntArray, FloatArray]:
-    """Give the parts at y >= 0 of triangles across the plane, and the vertices they need."""
+def _cut_faces(xyz: FloatArray, face: IntArray) -> tuple[IntArray, FloatArray, IntArray]:
+    """Give the parts at y >= 0 of triangles across the plane, the vertices they need, and whose."""
     keep = xyz[:, 1] >= 0.0
     lone = np.argmax(keep[face] != (keep[face].sum(axis=1) > 1)[:, None], axis=1)
     a, b, c = (face[np.arange(len(face)), (lone + i) % 3] for i in range(3))
@@ -123,8 +126,11 @@ def _cut_faces(xyz: FloatArray, face: IntArray) -> tuple[IntArray, FloatArray]:
         np.column_stack([on_b, c, on_c])[~tip],
     ]
     found = np.concatenate(parts)
+    every = np.arange(len(face))
+    parent = np.concatenate([every[tip], every[~tip], every[~tip]])
     i, j, k = found.T
-    return found[(i != j) & (j != k) & (k != i)], places
+    good = (i != j) & (j != k) & (k != i)
+    return found[good], places, parent[good]
 
 
 def _find_deck(mesh: Triangles) -> _BoolArray:

@@ -6,7 +6,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.polyline import distinct, drop_repeats, order_paths
+from assoc_hull.geometry.polyline import distinct, order_paths
 from assoc_hull.io.mesh_shell import Rim, Shell
 from assoc_hull.io.slice_types import Gaps, Join, Piece
 
@@ -30,7 +30,8 @@ def cut_shell(shell: Shell, axis: int, offset: float) -> list[Piece]:
     height = mesh.xyz[:, axis] - offset
     above = height >= 0.0  # a vertex in the plane counts as above, for all its triangles
     side = above[mesh.face]
-    face = mesh.face[side.any(axis=1) & ~side.all(axis=1)]
+    cut = side.any(axis=1) & ~side.all(axis=1)
+    face = mesh.face[cut]
     if not len(face):
         return []
     side = above[face]
@@ -43,7 +44,14 @@ def cut_shell(shell: Shell, axis: int, offset: float) -> list[Piece]:
     kinds = _kinds(shell, pairs)
     links = number.reshape(2, -1).T
     sine = _sines(mesh.corners_of(face), number.reshape(2, -1), len(pairs), axis)
-    return _pieces(order_paths(links, len(pairs)), places, kinds, sine)
+    owner = None if mesh.origin is None else _owners(mesh.origin[cut], number)
+    return _pieces(order_paths(links, len(pairs)), places, kinds, sine, owner)
+
+
+def _owners(origin: IntArray, number: IntArray) -> IntArray:
+    """Give the origin of one of the triangles around each place: the first."""
+    every = np.tile(origin, 2)
+    return np.asarray(every[np.unique(number.ravel(), return_index=True)[1]])
 
 
 def _sines(corner: FloatArray, number: IntArray, count: int, axis: int) -> FloatArray:
@@ -84,7 +92,11 @@ def _kinds(shell: Shell, pairs: IntArray) -> IntArray:
 
 
 def _pieces(
-    paths: list[tuple[IntArray, bool]], places: FloatArray, kinds: IntArray, sine: FloatArray
+    paths: list[tuple[IntArray, bool]],
+    places: FloatArray,
+    kinds: IntArray,
+    sine: FloatArray,
+    owner: IntArray | None,
 ) -> list[Piece]:
     found: list[Piece] = []
     for path, closed in paths:
@@ -95,7 +107,8 @@ def _pieces(
             continue
         ends = (Rim.NAMES[kinds[path[0]]], Rim.NAMES[kinds[path[-1]]])
         ends = ("loose", "loose") if closed else ends
-        found.append(Piece(points, ends, closed, sine[kept]))
+        mine = None if owner is None else owner[kept]
+        found.append(Piece(points, ends, closed, sine[kept], mine))
     return found
 
 
@@ -182,25 +195,35 @@ def _join(first: Piece, end: int, second: Piece, other: int) -> Piece:
     points = np.concatenate([a.points, b.points])
     kept = distinct(points, _SAME)
     sine: FloatArray | None = None
+    owner: IntArray | None = None
     if a.sine is not None and b.sine is not None:
         sine = np.concatenate([a.sine, b.sine])[kept]
-    return Piece(points[kept], (a.ends[0], b.ends[1]), sine=sine)
+    if a.owner is not None and b.owner is not None:
+        owner = np.concatenate([a.owner, b.owner])[kept]
+    return Piece(points[kept], (a.ends[0], b.ends[1]), sine=sine, owner=owner)
 
 
 def _close(piece: Piece) -> Piece:
     points = np.concatenate([piece.points, piece.points[:1]])
     kept = distinct(points, _SAME)
     sine = None if piece.sine is None else np.append(piece.sine, piece.sine[0])[kept]
-    return Piece(points[kept], closed=True, sine=sine)
+    owner = None if piece.owner is None else np.append(piece.owner, piece.owner[0])[kept]
+    return Piece(points[kept], closed=True, sine=sine, owner=owner)
 
 
-def rim_pieces(shell: Shell, sort: int) -> list[FloatArray]:
-    """Give the open edges of one sort as polylines, the longest first, (n, 3), m."""
+def rim_pieces(shell: Shell, sort: int) -> list[Piece]:
+    """Give the open edges of one sort as polylines, the longest first."""
+    mesh = shell.mesh
     chosen = shell.rim[shell.sort == sort]
-    paths = order_paths(chosen, len(shell.mesh.xyz))
-    found = [
-        drop_repeats(shell.mesh.xyz[np.append(path, path[0]) if closed else path], _SAME)
-        for path, closed in paths
-    ]
-    length = [float(np.linalg.norm(np.diff(each, axis=0), axis=1).sum()) for each in found]
-    return [found[i] for i in np.argsort(length)[::-1].tolist() if len(found[i]) > 1]
+    paths = order_paths(chosen, len(mesh.xyz))
+    owner: IntArray | None = None
+    if mesh.origin is not None:
+        owner = np.zeros(len(mesh.xyz), np.int64)
+        owner[mesh.face] = mesh.origin[:, None]
+    found: list[Piece] = []
+    for path, closed in paths:
+        ring = np.append(path, path[0]) if closed else path
+        kept = ring[distinct(mesh.xyz[ring], _SAME)]
+        found.append(Piece(mesh.xyz[kept], owner=None if owner is None else owner[kept]))
+    length = [float(np.linalg.norm(np.diff(each.points, axis=0), axis=1).sum()) for each in found]
+    return [found[i] for i in np.argsort(length)[::-1].tolist() if len(found[i].points) > 1]

@@ -8,7 +8,7 @@ import attrs
 
 from assoc_hull.arguments import not_negative, shown
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.io.offset_report import OffsetReport
 
 __all__ = ["AXES", "Gaps", "Join", "Piece", "SliceLine", "Slices"]
@@ -33,22 +33,28 @@ class Piece:
     sine : (n,) or None
         Sine of the angle between plane and hull at each point, where the hull is known: by its
         inverse a distance in the plane is larger than the distance from the hull.
+    owner : (n,) int or None
+        The triangle that each point was cut from, where the mesh tells whence its triangles are.
     """
 
     points: FloatArray
     ends: tuple[str, str] = ("loose", "loose")
     closed: bool = False
     sine: FloatArray | None = None
+    owner: IntArray | None = None
 
     def __attrs_post_init__(self) -> None:
         freeze(self.points)
         if self.sine is not None:
             freeze(self.sine)
+        if self.owner is not None:
+            freeze(self.owner)
 
     def reversed(self) -> Piece:
         """Give the piece the other way round."""
         sine = None if self.sine is None else self.sine[::-1].copy()
-        return Piece(self.points[::-1].copy(), self.ends[::-1], self.closed, sine)
+        owner = None if self.owner is None else self.owner[::-1].copy()
+        return Piece(self.points[::-1].copy(), self.ends[::-1], self.closed, sine, owner)
 
 
 @attrs.frozen(eq=False)

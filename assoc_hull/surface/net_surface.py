@@ -6,9 +6,11 @@ from functools import cached_property
 
 import attrs
 
+from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.model.state import Particulars
 
 __all__ = ["Border", "FittedBlock", "NetSurface", "Residuals"]
 
@@ -121,6 +123,10 @@ class NetSurface:
 
     Attributes
     ----------
+    particulars : Particulars
+        Of the hull.
+    net : Net
+        The lines of the hull, as they were.
     blocks : tuple of FittedBlock
         From aft forward, each once.
     borders : tuple of Border
@@ -131,6 +137,8 @@ class NetSurface:
         Warnings and what is to be known of the whole.
     """
 
+    particulars: Particulars
+    net: Net = attrs.field(repr=False)
     blocks: tuple[FittedBlock, ...]
     borders: tuple[Border, ...]
     refitted: tuple[str, ...]

@@ -96,7 +96,7 @@ def test_lines_of_a_scaled_net_keep_to_the_exact_image(wigley: Hull, name: str) 
     assert off_image(wigley, scaled(wigley, name)).max() <= 2e-3
 
 
-@pytest.mark.parametrize("hull", ["series60_70", "bulk_carrier", "dtc"])
+@pytest.mark.parametrize("hull", ["series60_70", "bulk_carrier", *(["dtc"] if LONG else [])])
 def test_a_depth_moves_no_point_of_a_net_below_the_draught(
     hull: str, request: pytest.FixtureRequest
 ) -> None:

@@ -1,4 +1,4 @@
-"""Edits on the DTC container ship at 48 seeded places a kind: one table; and a long session."""
+"""Edits on the DTC at 24 seeded places a kind, 48 in the long form: a table; and a long session."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.properties.test_i01_consistency import assert_consistent
 
 LONG = os.environ.get("ASSOC_HULL_LONG") == "1"
 EVERY = 1 if LONG else 24
-PLACES = 48
+PLACES = 48 if LONG else 24
 SEED = 1
 REACH = (20.0, 8.0)
 """How far pulls reach and re-shapes fade, along the length and the girth, m."""
@@ -81,10 +81,10 @@ def test_the_places_are_of_all_pairs_and_at_the_ends(dtc: ah.Hull) -> None:
 
 
 def test_most_edits_of_each_kind_are_accepted(table: list[places.Row]) -> None:
-    """Of 48 tried at shared crossings, each from the adopted hull."""
+    """Tried at shared crossings, each from the adopted hull; the limits are counts of 48."""
     assert [row.places for row in table] == [PLACES] * len(LEAST_ACCEPTED)
-    few = {row.kind: row.accepted for row in table if row.accepted < LEAST_ACCEPTED[row.kind]}
-    assert few == {}
+    part = {row.kind: row.accepted / PLACES for row in table}
+    assert {kind: each for kind, each in part.items() if each < LEAST_ACCEPTED[kind] / 48} == {}
 
 
 def test_no_edit_folds_a_curve(table: list[places.Row]) -> None:

@@ -33,8 +33,8 @@ makers = {
     "series60-070": lambda: series60.series60_adopted(0.70)[0],
 }
 for name, make in makers.items():
-    # Ships take long: a shuffle of each in every process.
-    for turn in range({"series60-060": 1, "series60-070": 1, "wigley": 2}[name]):
+    # Ships take long: one shuffle of one of them in every process.
+    for turn in range({"series60-060": seed % 2, "series60-070": 1 - seed % 2, "wigley": 2}[name]):
         chance = random.Random(1000 * seed + turn)
         print(name, fingerprint(make()))
 chance = random.Random(seed)
@@ -48,7 +48,7 @@ else:
 
 @pytest.fixture(scope="module")
 def printed() -> list[list[str]]:
-    """Four processes with hash seeds of their own, in each five shuffles of examples."""
+    """Four processes with hash seeds of their own, in each four shuffled nets."""
     running = [
         subprocess.Popen(
             [sys.executable, "-c", SHUFFLES, str(seed)],
@@ -62,7 +62,7 @@ def printed() -> list[list[str]]:
 
 
 @pytest.mark.parametrize(
-    ("name", "count"), [("wigley", 8), ("series60-060", 4), ("series60-070", 4)]
+    ("name", "count"), [("wigley", 8), ("series60-060", 2), ("series60-070", 2)]
 )
 def test_all_shuffles_in_four_processes_give_one_fingerprint(
     printed: list[list[str]], name: str, count: int

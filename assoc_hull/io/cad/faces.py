@@ -1,0 +1,220 @@
+"""Spline surfaces as faces of OpenCASCADE, sewn to a shell, and back.
+
+Sides of surfaces that run along one another become one edge. Where the side of one runs along a
+part of another's, the edge of the longer is cut at the corner: its face stays whole, with the
+control points it had.
+
+Examples
+--------
+>>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+>>> from assoc_hull.io.cad.faces import face_of, surface_of
+>>> plate = SplineSurface.bezier([[[0, 0, 0], [0, 1, 0]], [[2, 0, 0], [2, 1, 0]]], "plate")
+>>> surface_of(face_of(plate), "back").net[1].tolist()
+[[2.0, 0.0, 0.0], [2.0, 1.0, 0.0]]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.cad.kernel import MILLIMETRES, require_opencascade
+
+__all__ = ["Sewn", "face_of", "faces_in", "sewn", "surface_of"]
+
+_DEGENERATE = 1e-6
+"""A side of a face shorter than this (mm) is a point."""
+
+_SEWN = 1e-2
+"""Sides nearer than this (mm) are one."""
+
+
+@attrs.frozen(eq=False)
+class Sewn:
+    """Faces that share edges.
+
+    Attributes
+    ----------
+    shell : TopoDS_Shape
+        The shell; mm.
+    faces : list of TopoDS_Face
+        Its faces, in the order of the surfaces.
+    """
+
+    shell: Any
+    faces: list[Any]
+
+
+def face_of(surface: SplineSurface) -> Any:
+    """Give a surface as a face, bounded by its parameters; mm.
+
+    Parameters
+    ----------
+    surface : SplineSurface
+        The surface, m; rational ones too.
+
+    Raises
+    ------
+    MissingExtraError
+        OpenCASCADE is not there.
+    BadInputError
+        OpenCASCADE makes no face of it.
+    """
+    require_opencascade()
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+
+    made = BRepBuilderAPI_MakeFace(_geometry(_clamped(surface)), _DEGENERATE)
+    if not made.IsDone():
+        what = f"OpenCASCADE makes no face of it ({made.Error().name})"
+        raise BadInputError(what, surface.where, "see that no part of it is a point or a line")
+    return made.Face()
+
+
+def _clamped(surface: SplineSurface) -> SplineSurface:
+    """Give a surface whose first and last knots are repeated, as readers of STEP expect."""
+    for knots, degree in zip((surface.knots_u, surface.knots_v), surface.degrees, strict=True):
+        if knots[0] != knots[degree] or knots[-1] != knots[-1 - degree]:
+            return surface.restricted(*surface.domain)
+    return surface
+
+
+def _geometry(surface: SplineSurface) -> Any:
+    from OCP.collections import Array1_double, Array1_int, Array2_double, Array2_gp_Pnt
+    from OCP.Geom import Geom_BSplineSurface
+    from OCP.gp import gp_Pnt
+
+    rows, columns = surface.net.shape[:2]
+    poles = Array2_gp_Pnt(1, rows, 1, columns)
+    for i, row in enumerate((surface.net * MILLIMETRES).tolist(), start=1):
+        for j, point in enumerate(row, start=1):
+            poles.SetValue(i, j, gp_Pnt(*point))
+    knots, counts = [], []
+    for each in (surface.knots_u, surface.knots_v):
+        values, repeated = np.unique(each, return_counts=True)
+        knots.append(_filled(Array1_double(1, len(values)), values))
+        counts.append(_filled(Array1_int(1, len(values)), repeated))
+    if surface.weights is None:
+        return Geom_BSplineSurface(poles, *knots, *counts, *surface.degrees)
+    weights = Array2_double(1, rows, 1, columns)
+    for i, row in enumerate(surface.weights.tolist(), start=1):
+        for j, weight in enumerate(row, start=1):
+            weights.SetValue(i, j, weight)
+    return Geom_BSplineSurface(poles, weights, *knots, *counts, *surface.degrees)
+
+
+def _filled(array: Any, values: np.typing.NDArray[Any]) -> Any:
+    for place, value in enumerate(values.tolist(), start=1):
+        array.SetValue(place, value)
+    return array
+
+
+def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
+    """Sew surfaces to one shell.
+
+    Parameters
+    ----------
+    surfaces : sequence of SplineSurface
+        At least one; m.
+
+    Raises
+    ------
+    MissingExtraError
+        OpenCASCADE is not there.
+    BadInputError
+        They do not hang together.
+    """
+    given = [face_of(each) for each in surfaces]
+    if len(given) == 1:
+        return Sewn(_shell_of(given[0]), given)
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
+    from OCP.TopAbs import TopAbs_ShapeEnum
+
+    sewing = BRepBuilderAPI_Sewing(_SEWN)
+    for each in given:
+        sewing.Add(each)
+    sewing.Perform()
+    shell = sewing.SewedShape()
+    if shell.IsNull() or shell.ShapeType() != TopAbs_ShapeEnum.TopAbs_SHELL:
+        raise _apart(surfaces)
+    return Sewn(shell, [sewing.ModifiedSubShape(each) for each in given])
+
+
+def _shell_of(face: Any) -> Any:
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Shell
+
+    shell, builder = TopoDS_Shell(), BRep_Builder()
+    builder.MakeShell(shell)
+    builder.Add(shell, face)
+    return shell
+
+
+def _apart(surfaces: Sequence[SplineSurface]) -> BadInputError:
+    names = ", ".join(repr(each.name) for each in surfaces[:6])
+    what = f"{len(surfaces)} surfaces ({names}) do not hang together along their sides"
+    return BadInputError(
+        what, "in write_cad", "join their borders, or write a half that reaches the centre plane"
+    )
+
+
+def faces_in(shape: Any) -> list[Any]:
+    """Give the faces of a shape, in its order, each once."""
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    found, walk = [], TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while walk.More():
+        found.append(TopoDS.Face(walk.Current()))
+        walk.Next()
+    return found
+
+
+def surface_of(face: Any, name: str) -> SplineSurface:
+    """Give the whole spline surface that a face lies on, in m.
+
+    Parameters
+    ----------
+    face : TopoDS_Face
+        The face; mm.
+    name : str
+        What to call it.
+
+    Raises
+    ------
+    BadInputError
+        It lies on a surface of another kind, or one that closes on itself smoothly.
+    """
+    from OCP.BRep import BRep_Tool
+    from OCP.Geom import Geom_BSplineSurface
+
+    found = BRep_Tool.Surface_s(face)
+    if not isinstance(found, Geom_BSplineSurface) or found.IsUPeriodic() or found.IsVPeriodic():
+        what = f"face {name!r} lies on a {type(found).__name__}"
+        raise BadInputError(what, "in the file", "only clamped spline surfaces are written")
+    rows, columns = range(1, found.NbUPoles() + 1), range(1, found.NbVPoles() + 1)
+    net = np.array([[_place(found.Pole(i, j)) for j in columns] for i in rows])
+    weights: FloatArray | None = None
+    if found.IsURational() or found.IsVRational():
+        weights = np.array([[found.Weight(i, j) for j in columns] for i in rows])
+    knots = [
+        np.repeat(
+            [knot(i) for i in range(1, count + 1)], [times(i) for i in range(1, count + 1)]
+        )
+        for knot, times, count in (
+            (found.UKnot, found.UMultiplicity, found.NbUKnots()),
+            (found.VKnot, found.VMultiplicity, found.NbVKnots()),
+        )
+    ]  # fmt: skip
+    degrees = (found.UDegree(), found.VDegree())
+    return SplineSurface(name, degrees, *knots, net / MILLIMETRES, weights)
+
+
+def _place(point: Any) -> tuple[float, float, float]:
+    return point.X(), point.Y(), point.Z()

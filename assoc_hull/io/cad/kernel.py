@@ -1,0 +1,93 @@
+"""OpenCASCADE, which reads and writes STEP: the right version, silent, its settings given back.
+
+Its messages go to standard output, where they would spoil what a command prints, and its settings
+are those of the whole process. So nobody calls it but within `quiet`. It works in millimetres.
+
+Examples
+--------
+>>> from assoc_hull.io.cad.kernel import quiet, require_opencascade
+>>> require_opencascade()
+>>> with quiet({"write.step.unit": "M"}):
+...     from OCP.Interface import Interface_Static
+...
+...     print(Interface_Static.CVal_s("write.step.unit"))
+M
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from types import MappingProxyType
+
+from assoc_hull.errors import MissingExtraError
+
+__all__ = ["MILLIMETRES", "quiet", "require_opencascade"]
+
+MILLIMETRES = 1000.0
+"""Lengths of OpenCASCADE in one of the kernel."""
+
+_LIBRARY, _VERSION = "cadquery-ocp-novtk", "8.0"
+"""Arrays and settings have other names in 7.9, and may have again in 8.1."""
+
+_ALONE = threading.RLock()
+_ALWAYS: Mapping[str, str] = MappingProxyType({"xstep.cascade.unit": "MM"})
+
+
+def require_opencascade() -> None:
+    """See that OpenCASCADE is there, in the version that this package is written for.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not installed, or of another version.
+    """
+    try:
+        import OCP
+    except ImportError as error:
+        raise MissingExtraError(f"{_LIBRARY} {_VERSION}", "cad") from error
+    found = str(getattr(OCP, "__version__", "without a version"))
+    if not f"{found}.".startswith(f"{_VERSION}."):
+        raise MissingExtraError(f"{_LIBRARY} {_VERSION} (this is {found})", "cad")
+
+
+@contextmanager
+def quiet(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
+    """Let OpenCASCADE print nothing, with settings of its own; both are put back.
+
+    Parameters
+    ----------
+    settings : mapping of str to str
+        Names and values of its static parameters.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not installed, or of another version.
+    """
+    require_opencascade()
+    from OCP.IGESControl import IGESControl_Controller
+    from OCP.Interface import Interface_Static
+    from OCP.Message import Message
+    from OCP.STEPControl import STEPControl_Controller
+
+    with _ALONE:
+        messenger = Message.DefaultMessenger_s()
+        printers = list(messenger.Printers())
+        for each in printers:
+            messenger.RemovePrinter(each)
+        # Parameters do not exist before those who read them do.
+        STEPControl_Controller.Init_s()
+        IGESControl_Controller.Init_s()
+        wanted = {**_ALWAYS, **settings}
+        before = {name: Interface_Static.CVal_s(name) for name in wanted}
+        try:
+            for name, value in wanted.items():
+                Interface_Static.SetCVal_s(name, value)
+            yield
+        finally:
+            for name, value in before.items():
+                Interface_Static.SetCVal_s(name, value)
+            for each in printers:
+                messenger.AddPrinter(each)

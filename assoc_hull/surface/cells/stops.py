@@ -1,0 +1,189 @@
+"""Where curves of a net pass its nodes: crossings that are one place are one node.
+
+A crossing is a row of the table, so two curves meet where the table says, not where places are
+near one another. Places are compared along one curve only: rows that lie on it at one parameter
+are one node. Boundary curves end on one another without a row; only their ends are searched for.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.geometry.closest import closest_each
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.surface.cells.unnoted import unnoted_crossings
+
+__all__ = ["RANK", "Stops", "find_stops", "united_stops"]
+
+_SAME = 1e-5
+"""Places on one curve this part of the length of the hull apart are one node."""
+
+RANK = {name: i for i, name in enumerate(("boundary", "sections", "waterlines", "buttocks"))}
+"""Where lines pass one another by a gap, the node lies on that of the lowest rank."""
+
+
+@attrs.frozen(eq=False)
+class Stops:
+    """The nodes of a net, and the curves that pass them.
+
+    Attributes
+    ----------
+    curve : (s,) int
+        Curves of the net, ascending.
+    t : (s,), m
+        Where on them, ascending on each.
+    node : (s,) int
+        The node there; on one curve each node once.
+    place : (n, 3), m
+        The nodes: on the curve of lowest rank, where curves pass one another.
+    row_node : (k,) int
+        The node of each crossing of the net; -1 of those that are left out.
+    """
+
+    curve: IntArray
+    t: FloatArray
+    node: IntArray
+    place: FloatArray
+    row_node: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.curve, self.t, self.node, self.place, self.row_node)
+
+
+@attrs.frozen(eq=False)
+class _Crossings:
+    """Pairs of curves that meet: rows of the table first, then what has no row.
+
+    Attributes
+    ----------
+    pair : (j, 2) int
+        The curves.
+    t : (j, 2), m
+        Where on them.
+    rows : (r,) int
+        Which crossings of the net the first ones are.
+    """
+
+    pair: IntArray
+    t: FloatArray
+    rows: IntArray
+
+
+def find_stops(net: Net, keep: NDArray[np.bool_]) -> Stops:
+    """Find the nodes of a net.
+
+    Parameters
+    ----------
+    net : Net
+        Curves and crossings.
+    keep : (m,) bool
+        The curves that are asked for; crossings with others are left out.
+
+    Returns
+    -------
+    Stops
+        Numbered along the curves, the first curve first.
+    """
+    near = _SAME * float(np.ptp(net.batch.xyz[:, 0]))
+    every = _crossings(net, keep, near)
+    curve, t = every.pair.T.ravel(), every.t.T.ravel()
+    crossing = np.tile(np.arange(len(every.pair)), 2)
+    order = np.lexsort((crossing, t, curve))
+    curve, t, crossing = curve[order], t[order], crossing[order]
+    close = np.flatnonzero((np.diff(curve) == 0) & (np.diff(t) <= near))
+    one = _united(len(every.pair), np.column_stack([crossing[close], crossing[close + 1]]))
+    return _numbered(net, every.rows, one, (curve, t, one[crossing]))
+
+
+def united_stops(net: Net, stops: Stops, pairs: IntArray) -> Stops:
+    """Make nodes one, pair by pair, (p, 2)."""
+    one = _united(len(stops.place), pairs)
+    rows = np.flatnonzero(stops.row_node >= 0)
+    return _numbered(net, rows, one[stops.row_node[rows]], (stops.curve, stops.t, one[stops.node]))
+
+
+def _numbered(
+    net: Net, rows: IntArray, of_rows: IntArray, found: tuple[IntArray, FloatArray, IntArray]
+) -> Stops:
+    """Put stops together: each node once on a curve, numbers in the order of the curves."""
+    curve, t, node = found
+    once = _first_of(np.column_stack([curve, node]))
+    curve, t, node = curve[once], t[once], node[once]
+    numbers, node = _in_order(node)
+    row_node = np.full(len(net.meets), -1, np.int64)
+    row_node[rows] = numbers[of_rows[: len(rows)]]
+    return Stops(curve, t, node, _places(net, curve, t, node), row_node)
+
+
+def _crossings(net: Net, keep: NDArray[np.bool_], near: float) -> _Crossings:
+    """Give all that meets: rows of the table, ends of boundary curves, borders of flats."""
+    rows = np.flatnonzero(keep[net.meets].all(axis=1))
+    joint, joint_t = _joints(net, keep, near)
+    lost = unnoted_crossings(net, keep, np.flatnonzero(keep & (net.flat | net.knuckle)))
+    return _Crossings(
+        np.concatenate([net.meets[rows], joint, lost.pair]),
+        np.concatenate([net.place[rows], joint_t, lost.t]),
+        rows,
+    )
+
+
+def _joints(net: Net, keep: NDArray[np.bool_], near: float) -> tuple[IntArray, FloatArray]:
+    """Give where boundary curves end on one another, (j, 2) curves and (j, 2) parameters, m."""
+    curves = np.flatnonzero(keep & (np.array(net.family) == "boundary"))
+    hosts = curves[net.end[curves]]
+    own, host, side = (
+        each.ravel() for each in np.meshgrid(curves, hosts, np.array([0, 1]), indexing="ij")
+    )
+    apart = own != host
+    own, host, side = own[apart], host[apart], side[apart]
+    if not len(own):
+        return np.empty((0, 2), np.int64), np.empty((0, 2))
+    last = net.batch.start[own + 1] - 1
+    knot = np.where(side == 1, last, net.batch.start[own])
+    t, _, distance = closest_each(net.batch, host, net.batch.xyz[knot])
+    good = distance <= near
+    pair = np.column_stack([own, host])[good]
+    return pair, np.column_stack([net.batch.knot[knot], t])[good]
+
+
+def _united(count: int, pairs: IntArray) -> IntArray:
+    """Give each of some things the least number of those it is linked with, link by link."""
+    root = list(range(count))
+
+    def top(i: int) -> int:
+        while root[i] != i:
+            root[i] = root[root[i]]
+            i = root[i]
+        return i
+
+    for a, b in pairs.tolist():
+        low, high = sorted((top(a), top(b)))
+        root[high] = low
+    return np.array([top(i) for i in range(count)], np.int64)
+
+
+def _first_of(rows: IntArray) -> IntArray:
+    """Give where each row occurs first, ascending."""
+    return np.sort(np.unique(rows, axis=0, return_index=True)[1])
+
+
+def _in_order(node: IntArray) -> tuple[IntArray, IntArray]:
+    """Give nodes new numbers as they occur; and each stop that of its node."""
+    old, first, back = np.unique(node, return_index=True, return_inverse=True)
+    rank = np.empty(len(old), np.int64)
+    rank[np.argsort(first, kind="stable")] = np.arange(len(old))
+    numbers = np.full(int(old.max(initial=-1)) + 1, -1, np.int64)
+    numbers[old] = rank
+    return numbers, rank[back]
+
+
+def _places(net: Net, curve: IntArray, t: FloatArray, node: IntArray) -> FloatArray:
+    """Give each node the place on the curve of the lowest rank that passes it, (n, 3), m."""
+    rank = np.array([RANK.get(each, len(RANK)) for each in net.family], np.int64)[curve]
+    order = np.lexsort((curve, rank, node))
+    lowest = order[np.append(True, np.diff(node[order]) != 0)]
+    return np.array(evaluate(net.batch, curve[lowest], t[lowest]))
