@@ -33,6 +33,9 @@ _BLOCK, _SIDE = 96.0, 14.0
 _STRETCH = 2.0
 """Girth is drawn so many times larger than x in the shell expansion."""
 
+_ENDS = 0.22
+"""The part of the height of the sheet that is kept for both ends of the hull."""
+
 _SEAM = Pen(0.28, "0.1", over=2.8)
 _LEVEL = Pen(0.16, "0.25", over=2.5)
 _NAMES = 400
@@ -182,7 +185,10 @@ def _long_views(sheet: Sheet, scene: _Scene) -> float:
     paper, tiles = sheet.paper, scene.tiles
     factor = paper.factor
     low, high = (end(tiles.grid, axis=(0, 1, 2)) for end in (np.min, np.max))
-    scale = scale_of(float(high[0] - low[0]), paper.width - 2.0 * (MARGIN + _SIDE) * factor)
+    width = paper.width - 2.0 * (MARGIN + _SIDE) * factor
+    room = paper.height - (2.0 * MARGIN + 42.0) * factor - _ENDS * paper.height
+    tall = float(high[1] + high[2] - low[2] + _STRETCH * high[3])
+    scale = max(scale_of(float(high[0] - low[0]), width), scale_of(tall, room))
     unit = 1e3 / scale
     across = 0.5 * (paper.width - unit * (high[0] - low[0])) - unit * low[0]
     foot = (MARGIN + 14.0) * factor
