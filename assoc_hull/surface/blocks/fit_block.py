@@ -18,7 +18,7 @@ from assoc_hull.geometry.fitting.strips import Strip, strip_of
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
 from assoc_hull.surface.blocks.spans import Breaks, breaks_of
-from assoc_hull.surface.net_surface import Border
+from assoc_hull.surface.net_records import Border
 
 __all__ = ["Made", "fitted", "held_on_centre", "joined_to_masters"]
 
@@ -60,7 +60,12 @@ class Made:
         return surface.knots_u[3:-3], surface.knots_v[3:-3]
 
 
-def fitted(block: Block, options: FitOptions, known: Mapping[str, Breaks]) -> Fit:
+def fitted(
+    block: Block,
+    options: FitOptions,
+    known: Mapping[str, Breaks],
+    ends: tuple[FloatArray, FloatArray],
+) -> Fit:
     """Fit a surface to the points of a block, with its overlap.
 
     Parameters
@@ -71,8 +76,10 @@ def fitted(block: Block, options: FitOptions, known: Mapping[str, Breaks]) -> Fi
         Penalty and tolerances.
     known : mapping of str to (breaks in u, breaks in v)
         Where spans of its masters meet.
+    ends : (n,), (n,), m
+        Where borders of other blocks end on its sides, in u and in v.
     """
-    breaks = breaks_of(block, options.girth_span, options.length, known)
+    breaks = breaks_of(block, options.girth_span, options.length, known, ends)
     limit = options.limit(block.kind)
     return fit_refined(
         block.name,
@@ -138,9 +145,7 @@ def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
         joint = joint_at(side, strips[side], fit.surface, part.surface)
         names, kinds = (master.name, block.name), (master.kind, block.kind)
         borders.append(
-            Border(
-                names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds)
-            )
+            Border(names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds))
         )
     return Made(block, fit, part, tuple(borders))
 

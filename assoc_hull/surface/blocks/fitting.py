@@ -16,7 +16,9 @@ from assoc_hull.surface.blocks.doubts import doubts_of_border, doubts_of_fit, do
 from assoc_hull.surface.blocks.fit_block import Made, fitted, joined_to_masters
 from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.blocks.residuals import Misses, misses_of, residuals_of
-from assoc_hull.surface.net_surface import FittedBlock, NetSurface, Residuals
+from assoc_hull.surface.blocks.spans import ends_on
+from assoc_hull.surface.net_records import Residuals
+from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
 __all__ = ["surface_of_net"]
 
@@ -82,7 +84,7 @@ def _made(blocks: Sequence[Block], options: FitOptions) -> tuple[Made, ...]:
     made: dict[str, Made] = {}
     for block in blocks:
         known = {name: each.breaks for name, each in made.items()}
-        fit = fitted(block, options, known)
+        fit = fitted(block, options, known, ends_on(block, blocks))
         made[block.name] = joined_to_masters(block, fit, made)
     forward = sorted(blocks, key=lambda each: (float(each.corners[:, 0].mean()), each.name))
     return tuple(made[block.name] for block in forward)
@@ -102,12 +104,9 @@ def _published(
         *doubts_of_fit(block.kind, on_lines, options),
         *doubts_of_shape(surface, shape),
     )
-    spans = tuple(len(np.unique(knots)) - 1 for knots in (surface.knots_u, surface.knots_v))
-    return FittedBlock(
-        block.name, block.kind, surface, made.fit.surface, made.block, made.fit.samples, (on_lines, *others),
-        shape.least, shape.singular, (spans[0], spans[1]), made.fit.smoothing,
-        options.limit(block.kind), notes,
-    )  # fmt: skip
+    limit = options.limit(block.kind)
+    residuals = (on_lines, *others)
+    return FittedBlock(made, residuals, shape.least, shape.singular, limit, notes)
 
 
 def _of_all(made: Sequence[Made], misses: Misses, net: Net) -> tuple[Residuals, ...]:
