@@ -39,6 +39,7 @@ from assoc_hull.errors.family import (
     WrongTypeError,
 )
 from assoc_hull.errors.forms import DegenerateEndsError, NoMiddleVertexError
+from assoc_hull.errors.meshes import OpenMeshError, OpenNetError
 from assoc_hull.errors.regions import DanglingArcError
 
 __all__ = [
@@ -60,6 +61,8 @@ __all__ = [
     "NameTakenError",
     "NoMeetingError",
     "NoMiddleVertexError",
+    "OpenMeshError",
+    "OpenNetError",
     "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",

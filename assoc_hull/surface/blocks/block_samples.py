@@ -16,7 +16,7 @@ from assoc_hull.surface.cells.net_graph import NetGraph
 __all__ = ["block_samples"]
 
 _ACROSS, _ALONG = 0.25, 0.6
-"""Distance of points on sections and on other lines, m, on a hull of 300 m."""
+"""Distance of points, m, on a hull of 300 m; the latter on lines along the body."""
 _SHIP = 300.0
 _BORDER = 3.5
 """Points on borders weigh so many times more."""
@@ -53,7 +53,8 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
     graph = found.core.quad.region.graph
     edges = _edges(found)
     family = np.array(graph.net.family)[graph.curve[edges.edge]]
-    step = np.where(family == "sections", _ACROSS, _ALONG) * (length / _SHIP)
+    coarse = (family != "sections") & (found.plan.kind == "body")
+    step = np.where(coarse, _ALONG, _ACROSS) * (length / _SHIP)
     count = np.maximum(np.ceil(graph.length[edges.edge] / step).astype(np.int64), 2)
     owner = np.repeat(np.arange(len(count)), count + 1)
     first = np.append(0, np.cumsum(count + 1))
@@ -66,6 +67,8 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
     weight = np.where(edges.border[owner], _BORDER * weight, weight)
     line = graph.curve[edges.edge][owner]
     good = weight > 0.0
+    low, high = found.reach.T
+    uv = np.clip(uv, low, high)
     samples = Samples.of(uv[good], point[good], weight[good], line[good], edges.held[owner][good])
     return samples, edges.inside[owner][good]
 

@@ -20,7 +20,9 @@ __all__ = ["four_corners"]
 _WINDOW = 0.02
 _TIP, _SHARP = 0.002, 40.0
 """A border that turns by so many degrees over so small a part of the ship has a corner."""
-_ROUND = 4.0
+_EASED = 10.0
+"""Over the window of smooth borders it may turn by so many degrees less."""
+_ROUND = 1.0
 """A smooth border has none where it turns by fewer degrees over the window."""
 _APART = 0.02
 """Corners lie no nearer to one another than this part of the border."""
@@ -60,7 +62,7 @@ def four_corners(
     turn = turns(found, found.start[:-1], min(_WINDOW * length, 0.1 * found.length))
     sharp = turns(found, found.start[:-1], _TIP * length)
     rank = np.array([
-        3 if each in first else 1 if each in second else 2 if sharp[i] >= _SHARP else 0
+        3 if each in first else 1 if each in second else 2 if sharp[i] >= _SHARP <= turn[i] + _EASED else 0
         for i, each in enumerate(node)
     ])  # fmt: skip
     chosen = list[int]()

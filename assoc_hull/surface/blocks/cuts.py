@@ -19,6 +19,8 @@ _THROUGH = 0.004
 """... and one through it, than this."""
 _BEFORE = 0.01
 """A section beside a bend stands this part of the length off it."""
+_LONG = 0.08
+"""An end is at least so long: what is pulled at its tip has faded where the body begins."""
 _LEAST, _SHARP = 35.0, 60.0
 """An end whose profile bends into the ship by so many degrees has a block of its own; and two, if
 by so many."""
@@ -123,7 +125,8 @@ def end_cut(whole: Region, length: float, kind: str) -> EndCut | None:
     sections = whole_sections(whole, length)
     if kind == "stern":
         sections = sections[::-1]
-    limit = bend.place[0] * towards + _BEFORE * length
+    tip = float((x * towards).min())
+    limit = max(bend.place[0] * towards + _BEFORE * length, tip + _LONG * length)
     good = [
         i
         for i, chord in enumerate(sections)
