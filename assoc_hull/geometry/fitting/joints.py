@@ -1,13 +1,16 @@
-"""Surfaces joined to those beside them: one row shared, the next one its continuation.
+"""Surfaces joined to those beside them: one row shared, the next one in its tangent planes.
 
 At a border one surface is master. The other takes its row of control points on the same knots, so
-that there is no gap, and the derivative across it times a constant, so that normals agree: two
-rows of it are given. The rest is solved for once more, with the parameters that its own fit has
-found. So a master that changes asks for one solution of its neighbours, and no new fit.
+that there is no gap, and its own derivative across the border, turned into the tangent planes of
+the master, so that normals agree: two rows of it are given. The rest is solved for once more, with
+the parameters that its own fit has found. So a master that changes asks for one solution of its
+neighbours, and no new fit.
+
+Only planes are taken over: how fast parameters run across the border, and in what direction, is
+left to each surface, as each is laid out on a rectangle of its own.
 
 At a corner where two masters meet, the surfaces of both have one tangent plane if they are joined
-themselves. The constant of each is then given by the row of the other, and the four control points
-are the same from both sides.
+themselves; what the row of one gives there, the derivative across the other keeps.
 """
 
 from __future__ import annotations
@@ -19,12 +22,12 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.fitting.basis import DEGREE, clamped
+from assoc_hull.geometry.fitting.basis import DEGREE, basis_rows, clamped
 from assoc_hull.geometry.fitting.fit import Fit, solved
 from assoc_hull.geometry.fitting.foot_points import derivatives, foot_points
-from assoc_hull.geometry.fitting.held_controls import SIDES, HeldControls
+from assoc_hull.geometry.fitting.held_controls import SIDES, HeldControls, row_of
 from assoc_hull.geometry.fitting.samples import Samples
-from assoc_hull.geometry.fitting.strips import Strip, strip_of
+from assoc_hull.geometry.fitting.strips import Strip
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 __all__ = ["Joint", "cut_out", "joined", "joint_at"]
@@ -37,6 +40,9 @@ _SAME = 1e-9
 
 _PER_SPAN = 8
 """Places a span at which a border is measured."""
+
+_PLANES = 1e4
+"""How much more a tangent plane of the master counts than the direction in it."""
 
 _NO_NORMAL = 1e-3
 """Normals shorter than this part of their median have no direction to speak of."""
@@ -133,11 +139,14 @@ def joined(
         return part
     strips = {side: _ending(each, side, extent, name) for side, each in strips.items()}
     breaks = _breaks(part.surface, strips)
-    shape = len(breaks[0]) + 2, len(breaks[1]) + 2
     on = {side: strips[side].on(breaks[side[0] == "u"]) for side in SIDES if side in strips}
-    holds = _holds(on, _ratios(on, part.surface), breaks, HeldControls.none(shape))
+    holds = HeldControls.none((len(breaks[0]) + 2, len(breaks[1]) + 2))
+    for side, strip in on.items():
+        holds = holds.on(side, strip.row)
     if held is not None:
         holds = holds.and_(held(*breaks))
+    for side, strip in on.items():
+        holds = _behind(holds, side, strip, part.surface, clamped(breaks[side[0] == "v"]))
     return solved(name, part.samples, breaks, part.smoothing, holds)
 
 
@@ -171,36 +180,61 @@ def _united(own: FloatArray, given: FloatArray) -> FloatArray:
     return np.sort(np.concatenate([given, own[away > _NEAR * span]]), kind="stable")
 
 
-def _ratios(strips: Mapping[str, Strip], surface: SplineSurface) -> dict[str, float]:
-    """Give for each strip the constant that makes its derivative across that of the surface."""
-    found = {}
-    for side, strip in strips.items():
-        other = next((each for each in SIDES if each[0] != side[0] and each in strips), None)
-        if other is not None:
-            # The row of the other master says how long the derivative is at the common corner.
-            ends = strips[other].breaks[[0, -1]]
-            tangent = strips[other].at(ends)[1][int(side[1])]
-            own = strip.across[-int(other[1])]
-        else:
-            tangent, own = strip_of(surface, side).at(strip.breaks)[2], strip.at(strip.breaks)[2]
-        found[side] = float((tangent * own).sum() / (own * own).sum())
-    return found
-
-
-def _holds(
-    strips: Mapping[str, Strip],
-    ratios: Mapping[str, float],
-    breaks: tuple[FloatArray, FloatArray],
-    holds: HeldControls,
+def _behind(
+    holds: HeldControls, side: str, strip: Strip, surface: SplineSurface, knots: FloatArray
 ) -> HeldControls:
-    """Hold the borders, then the rows behind them."""
-    for side, strip in strips.items():
-        holds = holds.on(side, strip.row)
-    for side, strip in strips.items():
-        knots = clamped(breaks[side[0] == "v"])
-        step = knots[DEGREE + 1] - knots[1] if side[1] == "0" else knots[-DEGREE - 2] - knots[-2]
-        holds = holds.on(side, strip.row + ratios[side] * step / DEGREE * strip.across, depth=1)
-    return holds
+    """Hold the row behind a border: the surface's own, turned into the planes of the master.
+
+    Sought is the spline D along the border that is nearest to the derivative which the surface
+    has across it, and lies in the tangent planes of the master; coordinates of control points
+    that are held already are met.
+    """
+    at = _places_along(strip)
+    uv = _on_side(surface, side, at)
+    _, tangent, slope = strip.at(at)
+    own = derivatives(surface, uv)[1 if side[0] == "u" else 2]
+    normal = np.cross(slope, tangent)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
+    step = (knots[DEGREE + 1] if side[1] == "0" else knots[-DEGREE - 2]) - _end(knots, side)
+    mask, value = (each[row_of(side, 1)] for each in (holds.mask, holds.value))
+    given = (value - strip.row) * (DEGREE / step)
+    across = _in_planes(strip, at, own, normal, np.where(mask, given, np.nan))
+    return holds.on(side, strip.row + step / DEGREE * across, depth=1)
+
+
+def _in_planes(
+    strip: Strip, at: FloatArray, own: FloatArray, normal: FloatArray, given: FloatArray
+) -> FloatArray:
+    """Give control points (n, 3) of the spline nearest to vectors, normal to others; or given."""
+    first, (value,) = basis_rows(strip.knots, at)
+    basis = np.zeros((len(at), len(strip.row)))
+    np.put_along_axis(basis, first[:, None] + np.arange(DEGREE + 1), value, axis=1)
+    planes = _PLANES * (basis[:, :, None] * normal[:, None, :]).reshape(len(at), -1)
+    rows = np.concatenate([np.kron(basis, np.eye(3)), planes])
+    right = np.concatenate([own.ravel(), np.zeros(len(at))])
+    known = np.isfinite(given.ravel())
+    found = np.where(known, given.ravel(), 0.0)
+    right = right - rows @ found
+    found[~known] = np.linalg.lstsq(rows[:, ~known], right, rcond=None)[0]
+    return found.reshape(-1, 3)
+
+
+def _end(knots: FloatArray, side: str) -> float:
+    """Give the parameter across a side at which it lies."""
+    return float(knots[0] if side[1] == "0" else knots[-1])
+
+
+def _places_along(strip: Strip) -> FloatArray:
+    """Give places along a border, some to a span."""
+    ends = np.unique(strip.breaks)
+    share = np.arange(_PER_SPAN) / _PER_SPAN
+    return np.append((ends[:-1, None] + share * np.diff(ends)[:, None]).ravel(), ends[-1])
+
+
+def _on_side(surface: SplineSurface, side: str, at: FloatArray) -> FloatArray:
+    """Give the parameters (k, 2) of places along a side."""
+    across = np.full(len(at), surface.domain[side[0] == "v"][int(side[1])])
+    return np.stack((across, at) if side[0] == "u" else (at, across), axis=1)
 
 
 def joint_at(side: str, strip: Strip, before: SplineSurface, after: SplineSurface) -> Joint:
@@ -215,13 +249,8 @@ def joint_at(side: str, strip: Strip, before: SplineSurface, after: SplineSurfac
     before, after : SplineSurface
         The surface as it was fitted, with its overlap, and as it is joined.
     """
-    ends = strip.breaks
-    share = np.arange(_PER_SPAN) / _PER_SPAN
-    inner = (ends[:-1, None] + share * np.diff(ends)[:, None]).ravel()
-    t = np.append(inner, ends[-1])
-    across = after.domain[side[0] == "v"][int(side[1])]
-    pair = (np.full(len(t), across), t) if side[0] == "u" else (t, np.full(len(t), across))
-    uv = np.stack(pair, axis=1)
+    t = _places_along(strip)
+    uv = _on_side(after, side, t)
     point, tangent, slope = strip.at(t)
     normal = np.cross(slope, tangent) if side[0] == "u" else np.cross(tangent, slope)
     place, along, down = derivatives(after, uv)

@@ -48,6 +48,7 @@ def fit_refined(
     start: float = START,
     stiff: int = STIFF,
     passes: int = PASSES,
+    enough: Callable[[Fit], bool] | None = None,
 ) -> Fit:
     """Fit, halve spans whose points stay further off than the tolerance, and fit again.
 
@@ -62,6 +63,8 @@ def fit_refined(
     passes : int
         How often to halve at most: spans of u or spans of v, whichever leaves less beyond the
         tolerance. There are never more control points than points.
+    enough : callable, optional
+        Says whether a fit will do as it is: no spans are halved then.
 
     Returns
     -------
@@ -81,6 +84,8 @@ def fit_refined(
         held=holding(*breaks), rounds=rounds, start=start, stiff=stiff,
     )  # fmt: skip
     for _ in range(passes):
+        if enough is not None and enough(found):
+            break
         best = min(
             (
                 (_excess(trial, tolerance), axis, finer, trial)

@@ -53,7 +53,7 @@ class FilledCells:
         found = edge_vertices(self.cells, self.steps)[half >> 1]
         back = (half & 1) == 1
         found[back] = found[back, ::-1]
-        return found
+        return np.asarray(found)
 
     def triangles(self) -> tuple[IntArray, IntArray]:
         """Cut the elements along their shorter diagonals; give the triangles and their cells."""
