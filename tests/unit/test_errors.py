@@ -18,6 +18,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["draught of -3 m", "argument draught", "give a depth above 0"],
     ),
     (
+        errors.NeedsCadError("this surface is trimmed", "in a.igs", "install the extra 'cad'"),
+        ValueError,
+        ["this surface is trimmed", "in a.igs", "extra 'cad'"],
+    ),
+    (
         errors.WrongTypeError("name is None", "in rename", "give text"),
         TypeError,
         ["name is None", "in rename", "give text"],
