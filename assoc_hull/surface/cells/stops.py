@@ -23,6 +23,9 @@ __all__ = ["RANK", "Stops", "find_stops", "united", "united_stops"]
 _SAME = 1e-5
 """Places on one curve this part of the length of the hull apart are one node."""
 
+_CORNER = 0.9986
+"""A curve that turns at a point by an angle of a smaller cosine (3 degrees) has a corner there."""
+
 RANK = {name: i for i, name in enumerate(("boundary", "sections", "waterlines", "buttocks"))}
 """Where lines pass one another by a gap, the node lies on that of the lowest rank."""
 
@@ -144,15 +147,28 @@ def _numbered(
 
 
 def _crossings(net: Net, keep: NDArray[np.bool_], near: float) -> _Crossings:
-    """Give all that meets: rows of the table, ends of boundary curves, borders of flats."""
+    """Give all that meets: rows, ends without a row, borders of flats; and corners of curves."""
     rows = np.flatnonzero(keep[net.meets].all(axis=1))
     joint, joint_t = _joints(net, keep, near)
     lost = unnoted_crossings(net, keep, np.flatnonzero(keep & (net.flat | net.knuckle)))
+    corner, corner_t = _corners(net, keep)
     return _Crossings(
-        np.concatenate([net.meets[rows], joint, lost.pair]),
-        np.concatenate([net.place[rows], joint_t, lost.t]),
+        np.concatenate([net.meets[rows], joint, lost.pair, corner]),
+        np.concatenate([net.place[rows], joint_t, lost.t, corner_t]),
         rows,
     )
+
+
+def _corners(net: Net, keep: NDArray[np.bool_]) -> tuple[IntArray, FloatArray]:
+    """Give corners of curves as crossings of each with itself, so that no edge has one."""
+    batch = net.batch
+    before, after = (
+        each / np.sqrt(dot(each, each))[:, None] for each in (batch.arrive, batch.leave)
+    )
+    curve = np.repeat(np.arange(batch.count), np.diff(batch.start))
+    bent = (dot(before, after) < _CORNER) & keep[curve]
+    bent[batch.start[:-1]] = bent[batch.start[1:] - 1] = False
+    return np.column_stack([curve, curve])[bent], np.column_stack([batch.knot, batch.knot])[bent]
 
 
 def _joints(net: Net, keep: NDArray[np.bool_], near: float) -> tuple[IntArray, FloatArray]:
@@ -230,5 +246,5 @@ def _places(net: Net, curve: IntArray, t: FloatArray, node: IntArray) -> FloatAr
     """Give each node the place on the curve of the lowest rank that passes it, (n, 3), m."""
     rank = np.array([RANK.get(each, len(RANK)) for each in net.family], np.int64)[curve]
     order = np.lexsort((curve, rank, node))
-    lowest = order[np.append(True, np.diff(node[order]) != 0)]
+    lowest = order[np.diff(node[order], prepend=-1) != 0]
     return np.array(evaluate(net.batch, curve[lowest], t[lowest]))
