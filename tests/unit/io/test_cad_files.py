@@ -243,8 +243,8 @@ def inside_out() -> list[SplineSurface]:
 @pytest.mark.parametrize(
     ("surfaces", "half", "what"),
     [
-        pytest.param(apart(), True, "do not hang together", id="apart"),
-        pytest.param([moved(BLOCKS[2], 1.0)], False, "do not hang together", id="off centre"),
+        pytest.param(apart(), True, "they are in 2 parts", id="apart"),
+        pytest.param([moved(BLOCKS[2], 1e-5)], False, "is 0.01 mm off it", id="off centre"),
         pytest.param(inside_out(), True, "point into the hull", id="inside out"),
         pytest.param([], True, "there are no surfaces", id="none"),
     ],
