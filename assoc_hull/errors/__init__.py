@@ -28,6 +28,7 @@ from assoc_hull.errors.family import (
     HullFileError,
     MissingExtraError,
     NameTakenError,
+    NeedsCadError,
     NoMeetingError,
     OutOfRangeError,
     PointRoleError,
@@ -39,6 +40,7 @@ from assoc_hull.errors.family import (
     WrongTypeError,
 )
 from assoc_hull.errors.forms import DegenerateEndsError, NoMiddleVertexError
+from assoc_hull.errors.meshes import OpenMeshError, OpenNetError
 from assoc_hull.errors.regions import DanglingArcError
 
 __all__ = [
@@ -58,8 +60,11 @@ __all__ = [
     "HullFileError",
     "MissingExtraError",
     "NameTakenError",
+    "NeedsCadError",
     "NoMeetingError",
     "NoMiddleVertexError",
+    "OpenMeshError",
+    "OpenNetError",
     "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",

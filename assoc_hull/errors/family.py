@@ -58,6 +58,11 @@ class BadInputError(AssocHullError, ValueError):
 
 
 @attrs.define(slots=False, eq=False)
+class NeedsCadError(BadInputError):
+    """A file holds surfaces that only a CAD kernel takes apart, such as trimmed ones."""
+
+
+@attrs.define(slots=False, eq=False)
 class WrongTypeError(BadInputError, TypeError):
     """A value of another type than can be used."""
 

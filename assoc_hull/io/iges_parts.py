@@ -18,7 +18,7 @@ from collections.abc import Iterable
 
 import attrs
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, NeedsCadError
 from assoc_hull.io.iges_file import Entry, IgesFile
 
 __all__ = ["KINDS", "SILENT", "TRIMMED", "Part", "left_out", "parts_of"]
@@ -117,9 +117,10 @@ def _require_known(file: IgesFile) -> None:
         if other and not entry.blanked:
             name = KINDS.get(entry.kind, "solid")
             what = f"this is a {name}, and only spline surfaces (128) are read"
-            raise BadInputError(
-                what, file.where(entry), "convert it to a spline surface, or blank it"
-            )
+            raise NeedsCadError(
+                what, file.where(entry),
+                "convert it to a spline surface, or blank it; hulls are read with the extra 'cad'",
+            )  # fmt: skip
         if entry.kind in (308, 320):
             _require_no_surfaces(file, entry)
 
@@ -131,7 +132,7 @@ def _require_no_surfaces(file: IgesFile, entry: Entry) -> None:
     members = record.pointers(4, count, "the members")
     if any(file.entries[each].kind in _HOLDS_SURFACES for each in members if each in file.entries):
         what = "this subfigure holds surfaces, and copies of subfigures are not read"
-        raise BadInputError(what, record.where, "explode it to single surfaces")
+        raise NeedsCadError(what, record.where, "explode it to single surfaces")
 
 
 def _part(file: IgesFile, entry: Entry, owners: dict[int, list[int]]) -> Part | None:
@@ -143,7 +144,7 @@ def _part(file: IgesFile, entry: Entry, owners: dict[int, list[int]]) -> Part | 
     (surface,) = _children(file, entry)
     if surface not in file.entries or file.entries[surface].kind != SPLINE:
         what = f"its surface, D{surface}, is no spline surface (128)"
-        raise BadInputError(what, file.where(entry), "convert it to a spline surface")
+        raise NeedsCadError(what, file.where(entry), "convert it to a spline surface")
     chain = (surface, *_upward(file, entry.number, owners))
     hidden = any(file.entries[each].blanked for each in chain[1:])
     return Part(surface, entry.number, chain, hidden)

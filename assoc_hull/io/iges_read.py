@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections import Counter
 from itertools import chain
 
-from assoc_hull.errors import BadInputError
+from assoc_hull.errors import BadInputError, NeedsCadError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.iges_file import IgesFile
 from assoc_hull.io.iges_names import name_property, readable, scale_note, unit_of
@@ -105,9 +105,9 @@ def _require_untrimmed(file: IgesFile, part: Part, data: SurfaceData) -> None:
         if all(found) and is_box(list(chain.from_iterable(found)), data.spans, data.points):
             return
         what = "its border is not that of the whole surface"
-    raise BadInputError(
+    raise NeedsCadError(
         f"this surface is trimmed: {what}", file.where(entry),
-        "export the surface untrimmed; trimmed ones need the extra 'cad', and are not read yet",
+        "export the surface untrimmed; hulls of trimmed ones are read with the extra 'cad'",
     )  # fmt: skip
 
 

@@ -34,6 +34,7 @@ from assoc_hull.io.mesh_frame import place_mesh, scale_mesh
 from assoc_hull.io.mesh_shell import Rim, Shell, make_shell
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slice_bottom import tell_bottom
 from assoc_hull.io.slice_chain import cut_shell, join_pieces, rim_pieces
 from assoc_hull.io.slice_order import tell_crossings, tell_joins
 from assoc_hull.io.slice_places import Places, places_of
@@ -180,6 +181,7 @@ def cut_placed(
         tell("cutting lines", i, len(places))
         lines.append(_cut(shell, group, place, gaps, joins, book))
     tell_joins(joins, book)
+    tell_bottom(lines, float(high[1]), book)
     return Slices(
         name, tuple(lines), tuple(_boundaries(shell, gaps, joins, book)), tuple(joins),
         book.report(), True, low, high, facet_depth(shell.mesh), gaps,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import attrs
 import numpy as np
 
@@ -84,6 +86,29 @@ class FeatureRules:
     adopt_times: float = 3.0
     near_least: float = 5e-4
     near_times: float = 0.8
+
+    def scaled(self, ratio: float) -> FeatureRules:
+        """Give the rules with every length times a ratio: for the model of a ship."""
+        lengths = (
+            "onset", "border", "smooth_least", "smooth_most", "adopt_least", "adopt_least_facets",
+            "near_least",
+        )  # fmt: skip
+        return attrs.evolve(
+            self,
+            corner=_times(self.corner, ratio, "stretch", "window"),
+            chain=_times(self.chain, ratio, "slack"),
+            run=_times(self.run, ratio, "within", "least"),
+            arc=_times(self.arc, ratio, "within"),
+            **{name: ratio * getattr(self, name) for name in lengths},
+        )
+
+
+Rule = TypeVar("Rule", CornerRule, ChainRule, RunRule, ArcRule)
+
+
+def _times(rule: Rule, ratio: float, *names: str) -> Rule:
+    """Multiply lengths of a rule."""
+    return attrs.evolve(rule, **{name: ratio * getattr(rule, name) for name in names})
 
 
 @attrs.frozen(eq=False)

@@ -1,4 +1,4 @@
-"""A hull from a mesh or from digitised lines, in one call."""
+"""A hull from a mesh, from surfaces of CAD or from digitised lines, in one call."""
 
 from __future__ import annotations
 
@@ -13,9 +13,13 @@ from assoc_hull.io.mesh import read_mesh
 from assoc_hull.io.mesh_file import is_mesh_name
 from assoc_hull.io.offset_units import check_argument
 from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slice_bottom import refuse_bottomless
+from assoc_hull.io.slice_features import FeatureRules
 from assoc_hull.io.slice_net import SliceReport, net_from_slices
 from assoc_hull.io.slice_places import Places
-from assoc_hull.io.slice_types import Gaps
+from assoc_hull.io.slice_types import Gaps, Slices
+from assoc_hull.io.surface_hull import cad_kind, read_surface_lines
+from assoc_hull.io.surface_slices import small
 from assoc_hull.model.state import DECKS, HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices", "require_file"]
@@ -25,11 +29,13 @@ _HEAD = 20_000
 
 
 def holds_lines(path: Path) -> bool:
-    """Tell whether a file is a mesh, or holds digitised lines, rather than a table of offsets."""
+    """Tell whether a file is a mesh, or holds surfaces or digitised lines: no table of offsets."""
     if is_mesh_name(path):
         return True
     if not path.is_file():
         return False
+    if cad_kind(path):
+        return True
     head = path.read_bytes()[:_HEAD]
     return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
 
@@ -73,14 +79,16 @@ def read_slices(
     join: float | None = None,
     tell: Tell = silent,
 ) -> tuple[HullState, SliceReport]:
-    """Read a mesh or digitised lines and adopt them.
+    """Read a mesh, surfaces or digitised lines and adopt them.
 
     Parameters
     ----------
     path : Path
-        STL, OBJ, PLY (``.gz``), or digitised lines as for `assoc_hull.io.digitised.read_lines`.
+        STL, OBJ, PLY (``.gz``), IGES or STEP, or digitised lines as for
+        `assoc_hull.io.digitised.read_lines`.
     length, breadth, draught : float or None, m
-        Particulars; by default from the extent of the hull.
+        Particulars; by default from the extent of the hull, and the draught half its depth, or of
+        surfaces whose z = 0 cuts the hull down from there.
     deck : {"open", "closed"}
         Closed: there is a deck between the deck edges, which no mesh or line tells.
     stations, waterlines, buttocks, scale, unit, axes
@@ -97,7 +105,8 @@ def read_slices(
     Raises
     ------
     BadInputError, NoMeetingError, MissingExtraError
-        As for `read_mesh`, `read_lines` and `net_from_slices`; or planes or axes for lines.
+        As for `read_mesh`, `read_lines` and `net_from_slices`; planes or axes for lines; a mesh
+        or surfaces whose bottom is missing.
     """
     for name, value in (
         ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
@@ -110,11 +119,16 @@ def read_slices(
         "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
     }  # fmt: skip
     cuts = {name: value for name, value in named.items() if value is not None}
+    rules: FeatureRules | None = None
     if is_mesh_name(path):
         slices = read_mesh(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
+    elif cad_kind(path):
+        slices = read_surface_lines(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
+        rules = FeatureRules().scaled(small(float((slices.high - slices.low).max())))
     else:
         _refuse_cuts(path, list(cuts))
         slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
+    refuse_bottomless(slices)
     size = slices.high - slices.low
     depth = float(size[2])
     ship = Particulars(
@@ -122,8 +136,12 @@ def read_slices(
         float(size[0]) if length is None else length,
         2.0 * float(slices.high[1]) if breadth is None else breadth,
         depth,
-        0.5 * depth if draught is None else draught,
+        _draught(slices, depth) if draught is None else draught,
         deck,
     )
-    state, report = net_from_slices(slices, ship, tolerance, tell=tell)
+    state, report = net_from_slices(slices, ship, tolerance, rules, tell=tell)
     return state, report
+
+
+def _draught(slices: Slices, depth: float) -> float:
+    return 0.5 * depth if slices.waterline is None else slices.waterline

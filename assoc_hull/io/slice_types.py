@@ -159,6 +159,9 @@ class Slices:
         What was joined and what would have been refused.
     knuckles : mapping of str to (k, 3), m
         Places of a line that the file marks as knuckles.
+    waterline : float or None, m
+        Height of the plane z = 0 of the file above the base line, if it cuts the hull: designers
+        put it at the waterline.
     """
 
     name: str
@@ -172,6 +175,7 @@ class Slices:
     depth: float = 0.0
     gaps: Gaps = attrs.field(factory=Gaps)
     knuckles: Mapping[str, FloatArray] = attrs.field(factory=dict)
+    waterline: float | None = None
 
     def __attrs_post_init__(self) -> None:
         freeze(self.low, self.high, *self.knuckles.values())

@@ -40,11 +40,17 @@ from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import AXES, Gaps, Piece, SliceLine, Slices
+from assoc_hull.io.surface_units import METRES
 
-__all__ = ["Faces", "slice_surfaces"]
+__all__ = ["Faces", "slice_surfaces", "small"]
 
 _WELD = 2e-3
 """Borders at most so far apart (m) are one."""
+
+_SHIP = 50.0
+"""A hull shorter than this (m) is taken for a model: limits are less in proportion."""
+
+_LONGEST, _SHORTEST = 600.0, 1.0
 
 _FINE = 1e-5
 """Triangles lie off their surface by at most this part of the length of the hull."""
@@ -157,17 +163,58 @@ def slice_surfaces(
     placed = place_mesh(mended, axes, book)
     motion = _Motion.between(mended.xyz, placed.xyz)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
-    limits = Gaps() if gaps is None else gaps
+    limits = _gaps(size) if gaps is None else gaps
     slices = cut_placed(placed, wanted, limits, name, book, tell)
     scaled = [_scaled(each, scale) for each in faces.surfaces]
-    return _settled(slices, facets, scaled, motion, book)
+    waterline = _waterline(motion, slices, book)
+    return attrs.evolve(
+        _settled(slices, facets, scaled, motion, book), waterline=waterline, report=book.report()
+    )
+
+
+def _waterline(motion: _Motion, slices: Slices, book: Notebook) -> float | None:
+    """Give the height of z = 0 of the file, if it cuts the hull, above the new base line."""
+    height = float(motion.shift[2])
+    depth = float(slices.high[2] - slices.low[2])
+    if not 0.1 * depth < height < 0.95 * depth:
+        return None
+    what = f"z = 0 of the file is taken for the waterline: draught {height:.6g} m, unless given"
+    book.assume("waterline", "the surfaces", what, height)
+    return height
+
+
+def small(size: float) -> float:
+    """Give what lengths that hold for ships are to be multiplied by: less than 1 for models.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.surface_slices import small
+    >>> small(120.0), small(2.5)
+    (1.0, 0.05)
+    """
+    return min(1.0, size / _SHIP)
+
+
+def _gaps(size: float) -> Gaps:
+    return Gaps(small(size) * Gaps().join, small(size) * Gaps().refuse)
 
 
 def _size(faces: Faces, scale: float, book: Notebook) -> float:
-    """Give the longest side of the hull at full scale, m."""
+    """Give the longest side of the hull at full scale, m; refuse what is no ship's."""
     net = np.concatenate([each.net.reshape(-1, 3) for each in faces.surfaces])
     size = float(np.ptp(net, axis=0).max()) * scale
-    book.assume("unit", "the surfaces", f"{faces.unit}, as the file says: {size:.6g} m long", size)
+    said = f"the surfaces are {size:.4g} m long in {faces.unit}, the unit of the file"
+    where = f"at scale {scale:g}"
+    if not size <= _LONGEST:
+        known = ", ".join(METRES)
+        raise BadInputError(said, where, f"are these millimetres? give unit ({known}), or scale")
+    if size < _SHORTEST:
+        remedy = "are these metres? give unit='m', or the scale of the model"
+        raise BadInputError(said, where, remedy)
+    book.assume("unit", "the surfaces", f"{faces.unit}: the hull is {size:.6g} m long", size)
+    if size < _SHIP:
+        what = f"all limits of gaps and features are {small(size):.3g} of those of a ship"
+        book.assume("small", "the surfaces", f"{what}, since it is short", size)
     return size
 
 
@@ -177,7 +224,7 @@ def _facets(faces: Faces, scale: float, size: float) -> Facets:
     found = faces.facets(deflection / scale, _LONG * size / scale)
     mesh = found.mesh.moved(found.mesh.xyz * scale)
     whole = Facets(mesh, found.surface, found.uv)
-    return outward_parts(stitched(whole, max(_WELD, 2.0 * deflection)))
+    return outward_parts(stitched(whole, max(small(size) * _WELD, 2.0 * deflection)))
 
 
 def _scaled(surface: SplineSurface, scale: float) -> SplineSurface:
@@ -201,8 +248,12 @@ def _settled(
     offset = np.repeat([_place(line) for line, _ in pieces], count)
     places, sine, good = _on_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
     if not good.all():
-        what = f"{int((~good).sum())} of {len(good)} points stay on triangles: surfaces are tangent"
-        book.suspect("tangent", "the lines", f"{what} to their planes there, or end")
+        x, y, z = xyz[np.argmin(good)].tolist()
+        what = (
+            f"{int((~good).sum())} of {len(good)} points stay on triangles, first ({x:.4g}, "
+            f"{y:.4g}, {z:.4g}) m: surfaces end there, or are nearly in the plane of the line"
+        )
+        book.assume("on triangles", "the lines", what, int((~good).sum()))
     split = np.cumsum(count)[:-1]
     found = iter(zip(np.split(places, split), np.split(sine, split), strict=True))
     settled = [_replaced(line, found) for line in lines]
@@ -210,7 +261,6 @@ def _settled(
     return attrs.evolve(
         slices, lines=tuple(settled[: len(slices.lines)]),
         boundaries=tuple([*settled[len(slices.lines) :], *rest]), facets=False, depth=0.0,
-        report=book.report(),
     )  # fmt: skip
 
 

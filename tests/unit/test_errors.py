@@ -18,6 +18,11 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ["draught of -3 m", "argument draught", "give a depth above 0"],
     ),
     (
+        errors.NeedsCadError("this surface is trimmed", "in a.igs", "install the extra 'cad'"),
+        ValueError,
+        ["this surface is trimmed", "in a.igs", "extra 'cad'"],
+    ),
+    (
         errors.WrongTypeError("name is None", "in rename", "give text"),
         TypeError,
         ["name is None", "in rename", "give text"],
@@ -42,6 +47,16 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         errors.DanglingArcError(2, 0, 7, (0.125, 0.75), 3e-6),
         ArithmeticError,
         ["2 ends", "surface 0", "patch 7", "u = 0.125", "v = 0.75", "3e-06", "larger delta"],
+    ),
+    (
+        errors.OpenNetError("V - E + F = 0", ("WL 4 x ST 10 at (1, 2, 3) m",) * 5, "mend it"),
+        ValueError,
+        ["V - E + F = 0", "WL 4 x ST 10 at (1, 2, 3) m", "and 1 more", "mend it"],
+    ),
+    (
+        errors.OpenMeshError("the volume", 12, (1.5, 2.25, 3.125), "close it"),
+        RuntimeError,
+        ["the volume", "12 open edges", "(1.500, 2.250, 3.125)", "close it"],
     ),
     (errors.NameTakenError("line", "WL 1"), ValueError, ["line", "'WL 1'", "choose"]),
     (

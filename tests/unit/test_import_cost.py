@@ -49,7 +49,11 @@ def test_lofting_loads_geometry_only() -> None:
     """Whoever lofts and cuts curves does not wait for the modules of whole hulls."""
     found = modules_after("from assoc_hull.geometry.spline import loft")
     units = {name.split(".")[1] for name in found if name.startswith("assoc_hull.")}
-    packages = {"examples", "study", "surface"}  # bound at once, as public names are the same; empty
+    packages = {
+        "examples",
+        "study",
+        "surface",
+    }  # bound at once, as public names are the same; empty
     assert units == {"arguments", "errors", "geometry", "tolerance"} | packages
 
 

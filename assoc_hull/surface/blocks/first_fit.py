@@ -40,7 +40,9 @@ def values(
     for order in orders:
         i, a = _rows(surface.knots_u, uv[:, 0], order[0])
         j, b = _rows(surface.knots_v, uv[:, 1], order[1])
-        local = surface.net[(i[:, None] + np.arange(4))[:, :, None], (j[:, None] + np.arange(4))[:, None, :]]
+        local = surface.net[
+            (i[:, None] + np.arange(4))[:, :, None], (j[:, None] + np.arange(4))[:, None, :]
+        ]
         found.append(np.einsum("ki,kj,kijc->kc", a, b, local))
     return found
 
@@ -59,7 +61,9 @@ def _gram(knots: FloatArray, order: int) -> FloatArray:
     return full.T @ (w[:, None] * full)
 
 
-def _solve(name: str, samples: Samples, ku: FloatArray, kv: FloatArray, smoothing: float) -> SplineSurface:
+def _solve(
+    name: str, samples: Samples, ku: FloatArray, kv: FloatArray, smoothing: float
+) -> SplineSurface:
     from scipy import sparse
     from scipy.sparse.linalg import splu
 
@@ -68,7 +72,9 @@ def _solve(name: str, samples: Samples, ku: FloatArray, kv: FloatArray, smoothin
     j, b = _rows(kv, samples.uv[:, 1])
     value = (a[:, :, None] * b[:, None, :]).reshape(len(i), 16)
     four = np.arange(4)
-    column = ((i[:, None] + four)[:, :, None] * nv + (j[:, None] + four)[:, None, :]).reshape(-1, 16)
+    column = ((i[:, None] + four)[:, :, None] * nv + (j[:, None] + four)[:, None, :]).reshape(
+        -1, 16
+    )
     row = np.repeat(np.arange(len(i)), 16)
     design = sparse.csr_matrix((value.ravel(), (row, column.ravel())), shape=(len(i), nu * nv))
     kron = sparse.kron
