@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from assoc_hull.sources import create, examples, open, read, read_classical
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
+    from assoc_hull.surface.cells.hull_mesh import closed_mesh
     from assoc_hull.surface.curvature_regions import curvature_regions
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
@@ -108,6 +109,7 @@ __all__ = [
     "UnknownNameError",
     "UnreachableError",
     "__version__",
+    "closed_mesh",
     "compare",
     "course",
     "create",
@@ -193,6 +195,7 @@ _HOMES = {
     "sources": ("create", "examples", "open", "read", "read_classical"),
     "studies": ("Study", "study"),
     "study.sampling": ("sample",),
+    "surface.cells.hull_mesh": ("closed_mesh",),
     "surface.curvature_regions": ("curvature_regions",),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),

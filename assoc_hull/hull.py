@@ -354,12 +354,14 @@ class Hull:
 
         return save(self.document, path, replace=flag(replace, "replace", "in save"))
 
-    def export(self, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:
-        """Write offsets or sections for other programs; see `assoc_hull.io.export.export`."""
+    def export(
+        self, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
+    ) -> ExportReport:
+        """Write offsets or lines for other programs; see `assoc_hull.io.export.export`."""
         from assoc_hull.io.export import export
 
         self.document.require_ended("export")
-        return export(self.state, path, form)
+        return export(self.state, path, form, unit)
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""

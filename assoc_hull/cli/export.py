@@ -15,7 +15,10 @@ from assoc_hull.sources import open as open_hull
 
 __all__ = ["add", "export_words"]
 
-_FORMS = ("hull", "csv", "xlsx", "britfair", "delftship", "delftship-offsets", "gf")
+_FORMS = (
+    "hull", "csv", "xlsx", "britfair", "delftship", "delftship-offsets", "gf", "dxf",
+    "dxf-polylines", "dxf-plan",
+)  # fmt: skip
 
 
 def add(commands: Commands) -> None:

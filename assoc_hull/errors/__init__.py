@@ -40,6 +40,7 @@ from assoc_hull.errors.family import (
     WrongTypeError,
 )
 from assoc_hull.errors.forms import DegenerateEndsError, NoMiddleVertexError
+from assoc_hull.errors.meshes import OpenMeshError, OpenNetError
 from assoc_hull.errors.regions import DanglingArcError
 
 __all__ = [
@@ -62,6 +63,8 @@ __all__ = [
     "NeedsCadError",
     "NoMeetingError",
     "NoMiddleVertexError",
+    "OpenMeshError",
+    "OpenNetError",
     "OutOfRangeError",
     "PointRoleError",
     "RefusedEditError",

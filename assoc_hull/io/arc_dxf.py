@@ -10,25 +10,19 @@ some digits of the radius.
 
 from __future__ import annotations
 
-import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from assoc_hull.analysis.arc_lines import ArcLine, ArcLines
 from assoc_hull.arguments import choice
-from assoc_hull.errors import MissingExtraError
+from assoc_hull.io.dxf_document import drawing_text, layer_name, tagged
 
-__all__ = ["ENTITIES", "NAMES", "arc_drawing"]
+__all__ = ["ENTITIES", "arc_drawing"]
 
 ENTITIES = ("polylines", "arcs")
 """What a curve may be drawn as."""
 
-NAMES = "ASSOC_HULL"
-"""Application name of the extended data that hold the name of the line."""
-_COLOURS = 7
 _FLAT = 1e-9
 """An arc that turns by less (rad) is a LINE: over 100 m it is 12 nm deep."""
 
@@ -51,41 +45,12 @@ def arc_drawing(arcs: ArcLines, entities: str = "polylines") -> str:
         ezdxf is not installed.
     """
     add = _add_arcs if choice(entities, "entities", ENTITIES, "in a drawing") == "arcs" else _add
-    try:
-        import ezdxf
-        from ezdxf import units
-    except ImportError as error:
-        raise MissingExtraError("ezdxf", "dxf") from error
-    with _no_times(ezdxf):
-        drawing = ezdxf.new("R2000")  # type: ignore[attr-defined]
-        drawing.units = units.M
-        drawing.appids.add(NAMES)
-        space = drawing.modelspace()
-        groups = list(dict.fromkeys(line.group for line in arcs.lines))
-        layers = {group: _layer(group) for group in groups}
-        for number, group in enumerate(groups):
-            drawing.layers.add(layers[group], color=number % _COLOURS + 1)
+
+    def draw(space: Any) -> None:
         for line in arcs.lines:
-            add(space, line, layers[line.group])
-        out = io.StringIO()
-        drawing.write(out)
-    return out.getvalue()
+            add(space, line, layer_name(line.group))
 
-
-@contextmanager
-def _no_times(ezdxf: Any) -> Iterator[None]:
-    """Let ezdxf write no times and no random numbers: one hull, one file."""
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
-    try:
-        yield
-    finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
-
-
-def _layer(group: str) -> str:
-    """Give a name of a layer: without the characters that DXF forbids."""
-    return "".join("_" if each in '<>/\\":;?*|=`,' else each for each in group) or "lines"
+    return drawing_text((layer_name(line.group) for line in arcs.lines), draw, metric=False)
 
 
 def _add(space: Any, line: ArcLine, layer: str) -> None:
@@ -99,7 +64,7 @@ def _add(space: Any, line: ArcLine, layer: str) -> None:
             "layer": layer, "extrusion": tuple(line.axes[2].tolist()), "elevation": line.height,
         },
     )  # fmt: skip
-    polyline.set_xdata(NAMES, [(1000, line.name)])
+    tagged(polyline, line.name)
 
 
 def _add_arcs(space: Any, line: ArcLine, layer: str) -> None:
@@ -118,4 +83,4 @@ def _add_arcs(space: Any, line: ArcLine, layer: str) -> None:
         else:
             centre, radius = (*centres[k], line.height), 1.0 / abs(float(arcs.curvature[k]))
             added = space.add_arc(centre, radius, first[k], last[k], dxfattribs=look)
-        added.set_xdata(NAMES, [(1000, line.name)])
+        tagged(added, line.name)

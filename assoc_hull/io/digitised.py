@@ -28,7 +28,7 @@ from assoc_hull.arguments import file_path, positive, shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.polyline import drop_repeats
-from assoc_hull.io.digitised_piece import RawPiece, refuse_retraced
+from assoc_hull.io.digitised_piece import BOUNDARIES, RawPiece, refuse_retraced
 from assoc_hull.io.digitised_sides import one_side
 from assoc_hull.io.digitised_text import parse_lines
 from assoc_hull.io.offset_report import Notebook
@@ -41,6 +41,7 @@ from assoc_hull.io.slice_types import AXES, Gaps, Join, Piece, SliceLine, Slices
 __all__ = ["read_lines"]
 
 _UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+_METRIC = ("m", "cm", "mm")
 _LONGEST, _SHORTEST = 600.0, 1.0
 _OFF_PLANE = 0.02
 """Points scattered less than this (m) about a plane are meant to lie in it."""
@@ -54,7 +55,6 @@ _GROUPS = {
     "WL": "waterlines", "WATERLINE": "waterlines", "BTK": "buttocks", "BUTTOCK": "buttocks",
 }  # fmt: skip
 _ORDER = ("sections", "waterlines", "buttocks")
-_BOUNDARIES = ("profile", "deck edge", "transom")
 
 
 def read_lines(
@@ -143,12 +143,19 @@ def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
 
 
 def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
-    """Give the unit of the form where it has one; another one may not be given."""
+    """Give the unit of the form where it has one; another one may not be given, but for a hint."""
     if found.unit is None or unit == found.unit:
         return unit
-    if unit != "auto":
+    if unit != "auto" and found.told:
         raise BadInputError(f"the unit {shown(unit)} was given and the form has {found.unit}",
                             f"at {source}", "leave the unit out")  # fmt: skip
+    if unit != "auto":
+        book.assume("unit", "the lines", f"{unit}, as given; the header says {found.unit}")
+        return unit
+    if not found.told and found.unit not in _METRIC:
+        what = f"the header says {found.unit}, as it does by default: the unit goes by the size"
+        book.suspect("unit", "the lines", f"{what}; give the unit")
+        return unit
     book.assume("unit", "the lines", f"{found.unit}, as the form has it")
     return found.unit
 
@@ -187,7 +194,7 @@ def _farthest(raw: list[RawPiece]) -> str:
 def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:
     found: dict[str, list[RawPiece]] = {}
     for each in raw:
-        if (each.line.lower() in _BOUNDARIES) == boundary:
+        if (each.line.lower() in BOUNDARIES) == boundary:
             found.setdefault(each.line.lower() if boundary else each.line, []).append(each)
     return found
 

@@ -1,123 +1,131 @@
-r"""The polylines of a DXF drawing as digitised pieces; what else it draws is told.
+r"""The polylines and splines of a DXF drawing as digitised pieces; what else it draws is told.
 
 Examples
 --------
 >>> from assoc_hull.io.digitised_dxf import parse_dxf
 >>> from assoc_hull.io.offset_report import Notebook
 >>> rows = "0 SECTION 2 ENTITIES 0 LINE 8 WL_1 10 0 20 2 30 1 11 9 21 0 31 1 0 EOF".split()
->>> (piece,) = parse_dxf("\n".join(rows), "text", Notebook())
+>>> (piece,) = parse_dxf("\n".join(rows), "text", Notebook()).pieces
 >>> piece.line, piece.points.tolist()
 ('WL_1', [[0.0, 2.0, 1.0], [9.0, 0.0, 1.0]])
 """
 
 from __future__ import annotations
 
-import re
-
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.digitised_piece import RawPiece, read_number
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.digitised_piece import BOUNDARIES, read_number
+from assoc_hull.io.digitised_spline import RawCurve, RawSpline
+from assoc_hull.io.drawing_entities import DrawingEntity, drawing_entities, drawing_unit
+from assoc_hull.io.drawn_plan import names_of, plan_curves
 from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.raw_lines import RawLines
 
 __all__ = ["parse_dxf"]
 
 _AXES = {10: 0, 20: 1, 30: 2}
-_CURVED = ("SPLINE", "ARC", "CIRCLE", "ELLIPSE", "HELIX", "MLINE", "INSERT")
+_CURVED = ("ARC", "CIRCLE", "ELLIPSE", "HELIX", "MLINE", "INSERT")
 _CLOSED, _CONTROL, _MESH = 1, 16, 16 | 64
 _EXPLODE = "explode it to polylines in the drawing program and read it again"
 _MEANINGS = {
     "curve": "is no polyline and left out",
+    "fit points": "has no control points, which its curve needs, and is left out",
     "mesh": "is a mesh and left out",
     "bulge": "has arcs between its points, read as straight",
     "extrusion": "stands in coordinates of its own (extrusion), read as if in those of the ship",
 }
 
-
-@attrs.define(eq=False)
-class _Entity:
-    """An entity of a drawing: its kind, where it begins, and its group codes with values."""
-
-    kind: str
-    where: str
-    codes: list[tuple[int, str, str]] = attrs.field(factory=list)
-
-    def word(self, code: int) -> str:
-        """Give the first value of a code, empty if there is none."""
-        return next((value for each, value, _ in self.codes if each == code), "")
-
-    def numbers(self, code: int) -> list[float]:
-        """Give the values of a code as numbers."""
-        return [read_number(value, where) for each, value, where in self.codes if each == code]
-
-    def number(self, code: int) -> float:
-        """Give the first value of a code, nil if there is none."""
-        return next(iter(self.numbers(code)), 0.0)
-
-    def place(self, first: int = 10, height: float = 0.0) -> list[float]:
-        """Give the place that begins with a code."""
-        x, y, *z = (self.numbers(first + step)[:1] for step in (0, 10, 20))
-        return [*(x or [0.0]), *(y or [0.0]), *(z[0] or [height])]
+_CHORD = 1e-6
+"""Points of a spline are this close, as a part of the drawing's size: .3 mm on 300 m."""
 
 
-def parse_dxf(text: str, source: str, book: Notebook) -> list[RawPiece]:
-    """Read POLYLINE, LWPOLYLINE and LINE entities of an ASCII DXF.
+def parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
+    """Read SPLINE, POLYLINE, LWPOLYLINE and LINE entities of an ASCII DXF.
 
     Parameters
     ----------
     text : str
-        The drawing; the layer of an entity names its line.
+        The drawing. An entity belongs to the line that its extended data name, as in drawings of
+        ours; else its layer names its line. Of a lines plan of ours the views are put together.
     source : str
         Name of the file, for messages.
     book : Notebook
         Takes what the drawing holds and polylines do not.
 
+    Returns
+    -------
+    RawLines
+        With the unit of the header.
+
     Raises
     ------
     BadInputError
-        A group code or a coordinate that is none.
+        A group code or a coordinate that is none, or a spline that is none.
     """
-    found: list[RawPiece] = []
+    entities = drawing_entities(text, source)
+    drawn = [
+        (each, RawCurve("", each.where, shape))
+        for i, each in enumerate(entities)
+        if (shape := _shape(each, entities, i)) is not None
+    ]
+    _tell_oddities(entities, book)
+    found: list[RawCurve] = []
+    left: dict[str, list[str]] = {}
+    for name, family, curve in plan_curves(drawn, book) or _curves(drawn):
+        if _has_no_place(name, family):
+            left.setdefault(family, []).append(name)
+        else:
+            found.append(attrs.evolve(curve, line=name))
+    for family, names in left.items():
+        what = f"{', '.join(dict.fromkeys(names))}: left out, its like is found anew"
+        book.suspect("lines", family, what, len(names))
+    chord = _CHORD * _size(found)
+    return RawLines([each.piece(chord) for each in found], drawing_unit(entities), told=False)
+
+
+def _curves(drawn: list[tuple[DrawingEntity, RawCurve]]) -> list[tuple[str, str, RawCurve]]:
+    """Give name and family of curves in space: as a drawing of ours tells them, or by the layer."""
+    found = []
+    for entity, curve in drawn:
+        name, family = names_of(entity)
+        found.append((name or entity.word(8), family, curve))
+    return found
+
+
+def _tell_oddities(entities: list[DrawingEntity], book: Notebook) -> None:
     odd: dict[tuple[str, str], list[str]] = {}
-    entities = _entities(text, source)
-    for i, each in enumerate(entities):
+    for each in entities:
         for kind in _oddities(each):
             owner = "POLYLINE" if each.kind == "VERTEX" else each.kind
             odd.setdefault((kind, owner), []).append(each.where)
-        points = _points(each, entities, i)
-        if len(points) > 1:
-            found.append(RawPiece(each.word(8), np.array(points), each.where))
     for (kind, owner), places in odd.items():
         count = f"{owner} {_MEANINGS[kind]}; {len(places)} such, the first at {places[0]}"
         book.suspect(kind, "the drawing", f"{count}: {_EXPLODE}", len(places))
-    return found
 
 
-def _entities(text: str, source: str) -> list[_Entity]:
-    rows = text.splitlines()
-    found: list[_Entity] = []
-    for i in range(0, len(rows) - 1, 2):
-        where = f"line {i + 1} of {source}"
-        if not re.fullmatch(r"\s*-?[0-9]{1,9}\s*", rows[i]):
-            raise BadInputError(f"{shown(rows[i])} is no group code", where, "save it as ASCII DXF")
-        code, value = int(rows[i]), rows[i + 1].strip()
-        if code == 0:
-            found.append(_Entity(value, where))
-        elif found:
-            found[-1].codes.append((code, value, where))
-    return found
+def _size(curves: list[RawCurve]) -> float:
+    every = np.concatenate([np.zeros((0, 3)), *(each.corners for each in curves)])
+    return float(np.ptp(every, axis=0).max()) if len(every) else 0.0
 
 
-def _flags(entity: _Entity) -> int:
+def _has_no_place(name: str, family: str) -> bool:
+    """Whether a line of ours is of a kind that digitised lines have not: its like is found anew."""
+    return family == "diagonals" or (family == "boundary" and name.lower() not in BOUNDARIES)
+
+
+def _flags(entity: DrawingEntity) -> int:
     return int(entity.number(70))
 
 
-def _oddities(entity: _Entity) -> list[str]:
+def _oddities(entity: DrawingEntity) -> list[str]:
     """Say what of an entity a polyline does not show."""
     if entity.kind in _CURVED:
         return ["curve"]
+    if entity.kind == "SPLINE":
+        return [] if entity.number(73) else ["fit points"]
     if entity.kind not in ("POLYLINE", "LWPOLYLINE", "VERTEX", "LINE"):
         return []
     found = []
@@ -131,7 +139,31 @@ def _oddities(entity: _Entity) -> list[str]:
     return found
 
 
-def _points(entity: _Entity, entities: list[_Entity], at: int) -> list[list[float]]:
+def _shape(
+    entity: DrawingEntity, entities: list[DrawingEntity], at: int
+) -> FloatArray | RawSpline | None:
+    """Give what an entity draws, None if it is no line."""
+    if entity.kind == "SPLINE":
+        return _spline(entity) if entity.number(73) else None
+    points = _points(entity, entities, at)
+    return np.array(points) if len(points) > 1 else None
+
+
+def _spline(entity: DrawingEntity) -> RawSpline:
+    columns = [entity.numbers(code) for code in (10, 20, 30)]
+    weights = entity.numbers(41)
+    columns += [weights] if weights else []
+    if any(len(column) != len(columns[0]) for column in columns):
+        sizes = ", ".join(str(len(column)) for column in columns)
+        raise BadInputError(
+            f"a spline has {sizes} coordinates of control points", entity.where,
+            "save the drawing again as ASCII DXF",
+        )  # fmt: skip
+    control, degree = np.array(columns).T, int(entity.number(71))
+    return RawSpline(degree, np.array(entity.numbers(40)), control, entity.where)
+
+
+def _points(entity: DrawingEntity, entities: list[DrawingEntity], at: int) -> list[list[float]]:
     """Give the points of an entity, none if it is no polyline."""
     if entity.kind == "LINE":
         return [entity.place(10), entity.place(11)]
@@ -146,7 +178,7 @@ def _points(entity: _Entity, entities: list[_Entity], at: int) -> list[list[floa
     return points
 
 
-def _light(entity: _Entity) -> list[list[float]]:
+def _light(entity: DrawingEntity) -> list[list[float]]:
     points: list[list[float]] = []
     height = entity.number(38)
     for code, value, where in entity.codes:
@@ -162,7 +194,7 @@ def _light(entity: _Entity) -> list[list[float]]:
     return points
 
 
-def _vertices(entity: _Entity, entities: list[_Entity], at: int) -> list[list[float]]:
+def _vertices(entity: DrawingEntity, entities: list[DrawingEntity], at: int) -> list[list[float]]:
     """Give the vertices that follow a POLYLINE, without the control points of a fitted curve."""
     height = entity.number(30)
     points = []

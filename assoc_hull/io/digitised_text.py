@@ -1,4 +1,4 @@
-"""Digitised lines as text: lists of points in CSV, a DXF drawing, or a form of another program."""
+"""Digitised lines as text: points in CSV, curves of DXF or IGES, or a form of another program."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from assoc_hull.io.britfair import is_britfair, parse_britfair
 from assoc_hull.io.delftship import is_delftship, parse_delftship
 from assoc_hull.io.delftship_offsets import is_delftship_offsets, parse_delftship_offsets
 from assoc_hull.io.digitised_dxf import parse_dxf
+from assoc_hull.io.digitised_iges import parse_iges
 from assoc_hull.io.digitised_piece import RawPiece, read_number
 from assoc_hull.io.gf_read import is_gf, parse_gf
+from assoc_hull.io.iges_text import looks_like_iges
 from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.raw_lines import RawLines
 
@@ -75,8 +77,9 @@ def parse_lines(text: str, source: str, book: Notebook) -> RawLines:
 def _parser(text: str) -> Parse | None:
     """Tell by the content what reads a text; None if it holds no digitised lines."""
     forms: tuple[tuple[Callable[[str], bool], Parse], ...] = (
-        (_is_csv, _parse_csv), (_is_dxf, _parse_dxf), (is_britfair, parse_britfair),
+        (_is_csv, _parse_csv), (_is_dxf, parse_dxf), (is_britfair, parse_britfair),
         (is_delftship, parse_delftship), (is_gf, parse_gf),
+        (looks_like_iges, parse_iges),
         (is_delftship_offsets, parse_delftship_offsets),  # tells by one row: a title may look alike
     )  # fmt: skip
     return next((parse for is_form, parse in forms if is_form(text)), None)
@@ -92,10 +95,6 @@ def _is_csv(text: str) -> bool:
         word.strip().lower().strip('"') for word in re.split(r"[,;\t]", first.lstrip("\ufeff"))
     }
     return set(_COLUMNS) <= names
-
-
-def _parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
-    return RawLines(parse_dxf(text, source, book))
 
 
 def _parse_csv(text: str, source: str, book: Notebook) -> RawLines:

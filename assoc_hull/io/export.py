@@ -20,20 +20,31 @@ from types import MappingProxyType
 
 import attrs
 
+from assoc_hull.arguments import choice
+from assoc_hull.errors import BadInputError
 from assoc_hull.io.britfair import dumps_britfair
 from assoc_hull.io.delftship import dumps_delftship
 from assoc_hull.io.delftship_offsets import dumps_delftship_offsets
+from assoc_hull.io.dxf_document import DXF_UNITS
 from assoc_hull.io.export_book import ExportBook, ExportReport
 from assoc_hull.io.gf import FOOT, dumps_gf
 from assoc_hull.io.hull_json import readable_text
 from assoc_hull.io.line_points import lines_as_points
+from assoc_hull.io.lines_dxf import lines_drawing
 from assoc_hull.io.offset_out import csv_text, offsets_of
 from assoc_hull.io.offset_xlsx import xlsx_bytes
+from assoc_hull.io.plan_dxf import plan_drawing
 from assoc_hull.io.section_text import sections_of
 from assoc_hull.io.whole_file import form_by_ending, write_whole
 from assoc_hull.model.state import HullState
 
 __all__ = ["ENDINGS", "FORMS", "Form", "export", "form_of"]
+
+
+_EXACT = 17
+"""Digits with which a number is told from its neighbours."""
+
+_UNITS = tuple(DXF_UNITS)
 
 
 @attrs.frozen
@@ -48,6 +59,12 @@ class Form:
         Names of files that mean it.
     write : callable
         Gives the bytes of the file and the report.
+    decimals : int
+        Digits after the point; those that tell a number from its neighbours if nothing is rounded.
+    scale : float
+        Units of the file in a metre.
+    units : tuple of str
+        Units that may be chosen; empty if the form has one of its own.
     """
 
     about: str
@@ -55,6 +72,7 @@ class Form:
     write: Callable[[HullState, ExportBook], bytes]
     decimals: int
     scale: float = 1.0
+    units: tuple[str, ...] = ()
 
 
 def _hull(state: HullState, book: ExportBook) -> bytes:
@@ -95,8 +113,20 @@ def _gf(state: HullState, book: ExportBook) -> bytes:
     return dumps_gf(ship.name, ship.length, ship.breadth, lines, book).encode("ascii")
 
 
+def _dxf(state: HullState, book: ExportBook) -> bytes:
+    return lines_drawing(state, book).encode()
+
+
+def _dxf_polylines(state: HullState, book: ExportBook) -> bytes:
+    return lines_drawing(state, book, polylines=True).encode()
+
+
+def _dxf_plan(state: HullState, book: ExportBook) -> bytes:
+    return plan_drawing(state, book).encode()
+
+
 FORMS: Mapping[str, Form] = MappingProxyType({
-    "hull": Form("the hull itself as canonical text", (".hull.json",), _hull, 17),
+    "hull": Form("the hull itself as canonical text", (".hull.json",), _hull, _EXACT),
     "csv": Form("table of offsets", (".csv",), _csv, 4),
     "xlsx": Form("table of offsets as a workbook", (".xlsx",), _xlsx, 4),
     "britfair": Form("sections, BRITFAIR", (".bri",), _britfair, 5),
@@ -105,6 +135,11 @@ FORMS: Mapping[str, Form] = MappingProxyType({
         "all lines as DELFTship and FREE!ship list them", (), _delftship_offsets, 4
     ),
     "gf": Form("sections, GHS geometry file", (".gf",), _gf, 4, 1.0 / FOOT),
+    "dxf": Form("all lines in their places as splines, DXF", (".dxf",), _dxf, _EXACT, units=_UNITS),
+    "dxf-polylines": Form(
+        "all lines in their places as polylines, DXF", (), _dxf_polylines, _EXACT, units=_UNITS
+    ),
+    "dxf-plan": Form("lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS),
 })  # fmt: skip
 """The forms by name."""
 
@@ -131,7 +166,9 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     return form_by_ending(path, form, tuple(FORMS), ENDINGS, "in export")
 
 
-def export(state: HullState, path: str | os.PathLike[str], form: str | None = None) -> ExportReport:
+def export(
+    state: HullState, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
+) -> ExportReport:
     """Write a hull in a form.
 
     Parameters
@@ -142,6 +179,8 @@ def export(state: HullState, path: str | os.PathLike[str], form: str | None = No
         The file; what was there is replaced by the whole of it, or stays.
     form : str or None
         One of `FORMS`; by the ending of the file if None.
+    unit : {"m", "mm"} or None
+        Of a drawing, m if None; the other forms have units of their own.
 
     Returns
     -------
@@ -151,11 +190,23 @@ def export(state: HullState, path: str | os.PathLike[str], form: str | None = No
     Raises
     ------
     BadInputError, MissingExtraError
-        A form that is not known or cannot hold this hull, or a file that cannot be written.
+        A form that is not known or cannot hold this hull, or a file that cannot be written; a unit
+        that the form does not have.
     """
     name = form_of(path, form)
     chosen = FORMS[name]
-    book = ExportBook(chosen.decimals, chosen.scale)
+    book = _book(chosen, name, unit)
     write_whole(path, chosen.write(state, book))
     report = book.report(os.fspath(path), name)
-    return attrs.evolve(report, rounding=0.0) if name == "hull" else report
+    return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report
+
+
+def _book(form: Form, name: str, unit: str | None) -> ExportBook:
+    """Begin the notes on an export, in the unit that was asked for."""
+    if unit is None:
+        return ExportBook(form.decimals, form.scale)
+    if not form.units:
+        what = f"the form {name} has a unit of its own"
+        raise BadInputError(what, "in export", "leave the unit out")
+    scale = DXF_UNITS[choice(unit, "unit", form.units, "in export")].scale
+    return ExportBook(form.decimals, scale, unit)

@@ -71,10 +71,13 @@ class ExportBook:
         Digits after the point.
     scale : float
         Units of the file in a metre.
+    unit : str
+        Its unit, where the form has several.
     """
 
     decimals: int
     scale: float = 1.0
+    unit: str = "m"
     lines: int = 0
     curves: int = 0
     points: int = 0

@@ -21,7 +21,7 @@ import attrs
 from assoc_hull.errors import BadInputError, NeedsCadError
 from assoc_hull.io.iges_file import Entry, IgesFile
 
-__all__ = ["KINDS", "TRIMMED", "Part", "left_out", "parts_of"]
+__all__ = ["KINDS", "SILENT", "TRIMMED", "Part", "left_out", "parts_of"]
 
 SPLINE, TRIMMED = 128, (143, 144, 510)
 _SHELLS = (514, 186)
@@ -41,7 +41,7 @@ KINDS = {
 
 _OTHER_SURFACES = frozenset({114, 118, 120, 122, 140, 190, 192, 194, 196, 198, 430})
 _SOLIDS = frozenset(range(150, 185)) - {182, 184}
-_SILENT = frozenset({0, 124, 314, 402, 404, 406, 410, 416})
+SILENT = frozenset({0, 124, 314, 402, 404, 406, 410, 416})
 """Nothing to see: transformations, colours, groups, drawings, views, properties."""
 
 
@@ -167,7 +167,7 @@ def left_out(file: IgesFile, parts: list[Part]) -> tuple[str, ...]:
     taken = {number for part in parts for number in part.chain}
     count = Counter(
         entry.kind for entry in file.entries.values()
-        if entry.number not in taken and not entry.dependent and entry.kind not in _SILENT
+        if entry.number not in taken and not entry.dependent and entry.kind not in SILENT
     )  # fmt: skip
     notes = []
     if count:

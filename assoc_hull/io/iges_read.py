@@ -15,19 +15,17 @@ Examples
 
 from __future__ import annotations
 
-import contextlib
 from collections import Counter
 from itertools import chain
 
 from assoc_hull.errors import BadInputError, NeedsCadError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.iges_file import UNITS, IgesFile
+from assoc_hull.io.iges_file import IgesFile
+from assoc_hull.io.iges_names import name_property, readable, scale_note, unit_of
 from assoc_hull.io.iges_parts import Part, left_out, parts_of
-from assoc_hull.io.iges_record import Record
 from assoc_hull.io.iges_spline import SurfaceData, spline_surface
 from assoc_hull.io.iges_transform import NOTHING, Motion, motion_of
 from assoc_hull.io.iges_trim import borders_of_face, is_box, parameter_curves
-from assoc_hull.io.surface_units import METRES, unit_note
 
 __all__ = ["surfaces_of_iges"]
 
@@ -62,7 +60,7 @@ def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
         a surface is trimmed.
     """
     file = IgesFile.of_text(text, source)
-    name, metres, notes = _unit_of(file, unit)
+    name, metres, notes = unit_of(file, unit)
     parts = parts_of(file)
     shown = [part for part in parts if not part.hidden]
     if not shown:
@@ -73,32 +71,15 @@ def surfaces_of_iges(text: str, source: str, unit: str | None = None) -> Found:
         _require_untrimmed(file, part, each)
     motions = [_motion(file, part) for part in shown]
     properties = [
-        _property(file, record, each.after) for record, each in zip(records, data, strict=True)
+        name_property(file, record, each.after) for record, each in zip(records, data, strict=True)
     ]
     names = _names(file, shown, properties)
     found = [
         _surface(each, motion, metres, called)
         for each, motion, called in zip(data, motions, names, strict=True)
     ]
-    more = (*_of_scale(file), *left_out(file, parts), *_of_motions(file, shown, motions))
+    more = (*scale_note(file), *left_out(file, parts), *_of_motions(file, shown, motions))
     return found, name, (*notes, *more)
-
-
-def _unit_of(file: IgesFile, unit: str | None) -> tuple[str, float, tuple[str, ...]]:
-    """Settle the unit: its name, the length of one of the file in m, and what is to be told."""
-    if unit is not None:
-        told = UNITS[file.unit][0] if file.metres is not None else None
-        return unit, METRES[unit] / file.scale, unit_note(file.source, told, unit)
-    if file.metres is None:
-        what = f"the file tells no unit of length (its flag is {file.unit})"
-        raise BadInputError(what, f"in {file.source}", f"give unit: {', '.join(METRES)}")
-    return UNITS[file.unit][0], file.metres / file.scale, ()
-
-
-def _of_scale(file: IgesFile) -> tuple[str, ...]:
-    if file.scale == 1.0:
-        return ()
-    return (f"{file.source} has a model scale of {file.scale:g}: lengths are divided by it.",)
 
 
 def _nothing(file: IgesFile, parts: list[Part]) -> BadInputError:
@@ -163,32 +144,10 @@ def _names(file: IgesFile, parts: list[Part], properties: list[str]) -> list[str
     count: Counter[str] = Counter()
     for place, (part, owned) in enumerate(zip(parts, properties, strict=True), start=1):
         labels = [file.entries[number].label for number in reversed(part.chain[:2])]
-        told = (_readable(word) for word in (owned, *labels))
+        told = (readable(word) for word in (owned, *labels))
         first = name = next((word for word in told if word), f"surface {place}")
         while name in found:
             count[first] += 1
             name = f"{first} ({count[first] + 1})"
         found[name] = None
     return list(found)
-
-
-def _readable(name: str) -> str:
-    """Give a name as it was meant: the file is taken byte by byte, and a letter may be two."""
-    with contextlib.suppress(UnicodeError):
-        name = name.encode("latin-1").decode("utf-8")
-    return "".join(letter for letter in name if letter.isprintable()).strip()
-
-
-def _property(file: IgesFile, record: Record, after: int) -> str:
-    """Give the name that a property, entity 406 of form 15, gives a surface."""
-    if len(record) <= after + 1:
-        return ""
-    groups = record.count(after, "the number of groups", len(file.entries))
-    if len(record) <= after + 1 + groups:
-        return ""
-    count = record.count(after + 1 + groups, "the number of properties", len(file.entries))
-    for each in record.pointers(after + 2 + groups, count, "the properties"):
-        entry = file.entries.get(each)
-        if entry is not None and (entry.kind, entry.form) == (406, 15):
-            return file.record(each).text(2)
-    return ""

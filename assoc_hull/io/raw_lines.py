@@ -26,10 +26,14 @@ class RawLines:
         In ship axes, in the unit of the file.
     unit : str or None
         "m" or "ft" where the form has it; None where it does not say.
+    told : bool
+        Whether the form stands for its unit. Headers of drawings do not: many hold the one with
+        which the program began.
     """
 
     pieces: list[RawPiece]
     unit: str | None = None
+    told: bool = True
 
 
 def plane_name(group: str, offset: float) -> str:

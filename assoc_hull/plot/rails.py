@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.spread import spread
 from assoc_hull.plot.paper import MARGIN, Pen
 from assoc_hull.plot.sheet import Sheet
-from assoc_hull.plot.spread import spread
 
 if TYPE_CHECKING:
     from matplotlib.text import Text

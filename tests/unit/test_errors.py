@@ -48,6 +48,16 @@ SAMPLES: list[tuple[AssocHullError, type[Exception], list[str]]] = [
         ArithmeticError,
         ["2 ends", "surface 0", "patch 7", "u = 0.125", "v = 0.75", "3e-06", "larger delta"],
     ),
+    (
+        errors.OpenNetError("V - E + F = 0", ("WL 4 x ST 10 at (1, 2, 3) m",) * 5, "mend it"),
+        ValueError,
+        ["V - E + F = 0", "WL 4 x ST 10 at (1, 2, 3) m", "and 1 more", "mend it"],
+    ),
+    (
+        errors.OpenMeshError("the volume", 12, (1.5, 2.25, 3.125), "close it"),
+        RuntimeError,
+        ["the volume", "12 open edges", "(1.500, 2.250, 3.125)", "close it"],
+    ),
     (errors.NameTakenError("line", "WL 1"), ValueError, ["line", "'WL 1'", "choose"]),
     (
         errors.UnknownNameError("line", "WL 9", ("WL 1", "BL 2", "profile")),

@@ -107,6 +107,11 @@ class HeldControls:
         given[index] = np.where(new, points, given[index])
         return type(self)(mask, given)
 
+    def and_(self, other: Self) -> Self:
+        """Hold what another one holds as well; where both do, this one tells the value."""
+        mask = self.mask | other.mask
+        return type(self)(mask, np.where(self.mask, self.value, other.value))
+
     def turned(self) -> Self:
         """Give the same with u and v exchanged."""
         return type(self)(

@@ -7,7 +7,7 @@ Examples
 >>> from assoc_hull.geometry.fitting.refining import fit_refined
 >>> from assoc_hull.geometry.fitting.samples import Samples
 >>> x, y = (each.ravel() for each in np.meshgrid(np.linspace(0, 8, 81), np.linspace(0, 2, 9)))
->>> wave = np.where(x > 6, np.sin(3 * (x - 6)) ** 3, 0.0)
+>>> wave = np.where(x > 6, 0.3 * np.sin(1.5 * (x - 6)) ** 3, 0.0)
 >>> samples = Samples.of(np.column_stack([x, y]), np.column_stack([x, y, wave]))
 >>> found = fit_refined("wave", samples, even(0, 8, 4), even(0, 2, 1), 1e-9, 0.01)
 >>> found.spans[0] > 6, bool(np.percentile(found.residual, 95) < 0.01)
@@ -48,6 +48,7 @@ def fit_refined(
     start: float = START,
     stiff: int = STIFF,
     passes: int = PASSES,
+    enough: Callable[[Fit], bool] | None = None,
 ) -> Fit:
     """Fit, halve spans whose points stay further off than the tolerance, and fit again.
 
@@ -60,7 +61,10 @@ def fit_refined(
     held : callable, optional
         Gives what is held for breaks in u and in v.
     passes : int
-        How often to halve at most. There are never more control points than points.
+        How often to halve at most: spans of u or spans of v, whichever leaves less beyond the
+        tolerance. There are never more control points than points.
+    enough : callable, optional
+        Says whether a fit will do as it is: no spans are halved then.
 
     Returns
     -------
@@ -74,27 +78,46 @@ def fit_refined(
     """
     tolerance = positive(tolerance, "tolerance", f"in the fit of {name!r}")
     breaks = np.array(breaks_u, np.float64), np.array(breaks_v, np.float64)
+    holding = held if held is not None else _nothing
     found = fit_surface(
         name, samples, *breaks, smoothing,
-        held=held(*breaks) if held else None, rounds=rounds, start=start, stiff=stiff,
+        held=holding(*breaks), rounds=rounds, start=start, stiff=stiff,
     )  # fmt: skip
     for _ in range(passes):
-        finer = _finer(found, breaks, tolerance)
-        if finer is None:
+        if enough is not None and enough(found):
             break
-        breaks = finer
-        holds = held(*breaks) if held else None
-        for _ in range(max(rounds // 2, 1)):
-            found = solved(name, found.samples, breaks, smoothing, holds)
+        best = min(
+            (
+                (_excess(trial, tolerance), axis, finer, trial)
+                for axis in (0, 1)
+                if (finer := _finer(found, breaks, tolerance, axis)) is not None
+                for trial in [solved(name, found.samples, finer, smoothing, holding(*finer))]
+            ),
+            key=lambda each: each[:2],
+            default=None,
+        )
+        if best is None:
+            break
+        _, _, breaks, found = best
+        for _ in range(max(rounds // 2 - 1, 0)):
+            found = solved(name, found.samples, breaks, smoothing, holding(*breaks))
     return found
 
 
-def _finer(found: Fit, breaks: Breaks, tolerance: float) -> Breaks | None:
-    """Halve spans that do not follow; None if there are none, or points are too few."""
-    both = [
-        halved(each, to_halve(each, found.samples.uv[:, axis], found.residual, tolerance))
-        for axis, each in enumerate(breaks)
-    ]
-    counts = [len(each) + DEGREE - 1 for each in both]
-    same = all(len(new) == len(old) for new, old in zip(both, breaks, strict=True))
-    return None if same or counts[0] * counts[1] > len(found.samples) else (both[0], both[1])
+def _nothing(breaks_u: FloatArray, breaks_v: FloatArray) -> None:
+    """Hold nothing."""
+
+
+def _excess(found: Fit, tolerance: float) -> float:
+    """Give by how much points are off beyond the tolerance, times the lengths they stand for."""
+    return float((found.samples.weight * np.maximum(found.residual - tolerance, 0.0)).sum())
+
+
+def _finer(found: Fit, breaks: Breaks, tolerance: float, axis: int) -> Breaks | None:
+    """Halve spans of one parameter that do not follow; None if none is, or points are too few."""
+    at = found.samples.uv[:, axis]
+    which = to_halve(breaks[axis], at, found.residual, tolerance)
+    both = list(breaks)
+    both[axis] = halved(breaks[axis], which)
+    count = (len(both[0]) + DEGREE - 1) * (len(both[1]) + DEGREE - 1)
+    return (both[0], both[1]) if which.any() and count <= len(found.samples) else None

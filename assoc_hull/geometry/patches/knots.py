@@ -23,7 +23,9 @@ from assoc_hull.arguments import numbers
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
-__all__ = ["blossom", "checked_knots", "cut", "domain", "limits", "pieces", "span_at", "spans"]
+__all__ = [
+    "blossom", "checked_knots", "cut", "domain", "inserted", "limits", "pieces", "span_at", "spans",
+]  # fmt: skip
 
 _SAME = 1e-12
 """Knots nearer than this part of their size are one knot: no surface is drawn so finely."""
@@ -202,10 +204,18 @@ def pieces(points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
     return found.reshape(len(known), degree + 1, *points.shape[1:])
 
 
-def _inserted(
+def inserted(
     points: FloatArray, knots: FloatArray, degree: int, t: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Insert a knot once: the spline is the same, with one control point more."""
+    """Insert a knot once: the spline is the same, with one control point more.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.patches.knots import inserted
+    >>> inserted(np.array([0.0, 1.0]), np.array([0.0, 0, 1, 1]), 1, 0.25)
+    (array([0.  , 0.25, 1.  ]), array([0.  , 0.  , 0.25, 1.  , 1.  ]))
+    """
     span = int(np.searchsorted(knots, t, "right")) - 1
     present = int(np.count_nonzero(knots == t))
     i = np.arange(span - degree + 1, span - present + 1)
@@ -249,7 +259,7 @@ def cut(
     """
     for t in (low, high):
         for _ in range(degree - int(np.count_nonzero(knots == t))):
-            points, knots = _inserted(points, knots, degree, t)
+            points, knots = inserted(points, knots, degree, t)
     first = int(np.searchsorted(knots, low, "right")) - 1 - degree
     last = int(np.searchsorted(knots, high, "left")) - 1
     inner = knots[first + 1 : last + degree + 1]

@@ -15,7 +15,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import attrs
@@ -203,17 +203,15 @@ def surface_of(face: Any, name: str) -> SplineSurface:
     weights: FloatArray | None = None
     if found.IsURational() or found.IsVRational():
         weights = np.array([[found.Weight(i, j) for j in columns] for i in rows])
-    knots = [
-        np.repeat(
-            [knot(i) for i in range(1, count + 1)], [times(i) for i in range(1, count + 1)]
-        )
-        for knot, times, count in (
-            (found.UKnot, found.UMultiplicity, found.NbUKnots()),
-            (found.VKnot, found.VMultiplicity, found.NbVKnots()),
-        )
-    ]  # fmt: skip
     degrees = (found.UDegree(), found.VDegree())
-    return SplineSurface(name, degrees, *knots, net / MILLIMETRES, weights)
+    knots_u = _knots(found.UKnot, found.UMultiplicity, found.NbUKnots())
+    knots_v = _knots(found.VKnot, found.VMultiplicity, found.NbVKnots())
+    return SplineSurface(name, degrees, knots_u, knots_v, net / MILLIMETRES, weights)
+
+
+def _knots(knot: Callable[[int], float], times: Callable[[int], int], count: int) -> FloatArray:
+    places = range(1, count + 1)
+    return np.repeat(np.array([knot(i) for i in places]), [times(i) for i in places])
 
 
 def _place(point: Any) -> tuple[float, float, float]:

@@ -20,10 +20,11 @@ import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import MappingProxyType
+from typing import Any
 
 from assoc_hull.errors import MissingExtraError
 
-__all__ = ["MILLIMETRES", "quiet", "require_opencascade"]
+__all__ = ["MILLIMETRES", "quiet", "require_opencascade", "words"]
 
 MILLIMETRES = 1000.0
 """Lengths of OpenCASCADE in one of the kernel."""
@@ -91,3 +92,10 @@ def quiet(settings: Mapping[str, str] = _ALWAYS) -> Iterator[None]:
                 Interface_Static.SetCVal_s(name, value)
             for each in printers:
                 messenger.AddPrinter(each)
+
+
+def words(text: str) -> Any:
+    """Give text as OpenCASCADE takes it; what is no ASCII becomes ``?``."""
+    from OCP.TCollection import TCollection_HAsciiString
+
+    return TCollection_HAsciiString(text.encode("ascii", "replace").decode())

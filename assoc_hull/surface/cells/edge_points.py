@@ -84,7 +84,7 @@ class Pieces:
         low, high = self.along[row, after - 1], self.along[row, after]
         share = np.divide(wanted - low, high - low, out=np.zeros_like(low), where=high > low)
         begin, finish = self.at[row, after - 1], self.at[row, after]
-        return np.where(share >= 1.0, finish, begin + (finish - begin) * share)
+        return np.asarray(np.where(share >= 1.0, finish, begin + (finish - begin) * share))
 
 
 def measured_pieces(batch: SplineBatch, curve: IntArray, t: FloatArray, ends: FloatArray) -> Pieces:

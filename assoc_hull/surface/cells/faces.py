@@ -10,6 +10,7 @@ import numpy as np
 from assoc_hull.geometry.curves import IntArray, freeze
 from assoc_hull.surface.cells.net_graph import NetGraph
 from assoc_hull.surface.cells.normals import edge_angles
+from assoc_hull.surface.cells.soundness import check_faces, check_lines, check_outline
 
 __all__ = ["Cells", "cells", "origins"]
 
@@ -118,6 +119,12 @@ def cells(graph: NetGraph) -> Cells:
     Cells
         Each but the longest loop, which goes round the outside.
 
+    Raises
+    ------
+    OpenNetError
+        Lines end nowhere or do not hang together, crossings are missing, or there is more than
+        one outer face.
+
     Examples
     --------
     >>> import assoc_hull as ah
@@ -128,9 +135,12 @@ def cells(graph: NetGraph) -> Cells:
     >>> found.count, len(found.outline)
     (220, 60)
     """
+    check_lines(graph)
     start, member = loops(following(graph))
+    check_faces(graph, len(start) - 1)
     length = np.add.reduceat(graph.length[member >> 1], start[:-1])
     outer = int(length.argmax())
+    check_outline(graph, member[start[outer] : start[outer + 1]])
     inside = np.ones(len(member), bool)
     inside[start[outer] : start[outer + 1]] = False
     sides = np.delete(np.diff(start), outer)

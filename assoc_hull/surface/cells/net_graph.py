@@ -49,6 +49,9 @@ class NetGraph:
         The node of each crossing of the net; -1 of those that are left out.
     pieces : Pieces
         The edges as pieces of curves, to take points from.
+    loose : (l, 2) int
+        Curves that end on no other, and at which end: 0 the first, 1 the last. Borders of flats
+        and knuckles may end anywhere.
     """
 
     net: Net
@@ -60,9 +63,11 @@ class NetGraph:
     leave: FloatArray
     row_node: IntArray
     pieces: Pieces
+    loose: IntArray
 
     def __attrs_post_init__(self) -> None:
         freeze(self.place, self.normal, self.edge, self.curve, self.t, self.leave, self.row_node)
+        freeze(self.loose)
 
     @property
     def length(self) -> FloatArray:
@@ -111,7 +116,11 @@ def net_graph(net: Net, *, leave_out: NDArray[np.bool_] | None = None) -> NetGra
     row_node = np.where(found.stops.row_node >= 0, node[found.stops.row_node], -1)
     leave = _directions(found.pieces, place[edge], _size(net) / _SHIP)
     normal = node_normals(place, edge, leave)
-    return NetGraph(net, place, normal, edge, found.curve, found.t, leave, row_node, found.pieces)
+    strict = np.flatnonzero(keep & ~net.flat & ~net.knuckle)
+    return NetGraph(
+        net, place, normal, edge, found.curve, found.t, leave, row_node, found.pieces,
+        found.stops.loose_ends(net, strict),
+    )  # fmt: skip
 
 
 @attrs.frozen(eq=False)

@@ -17,7 +17,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.surface.cells.unnoted import unnoted_crossings
 
-__all__ = ["RANK", "Stops", "find_stops", "united_stops"]
+__all__ = ["RANK", "Stops", "find_stops", "united", "united_stops"]
 
 _SAME = 1e-5
 """Places on one curve this part of the length of the hull apart are one node."""
@@ -52,6 +52,24 @@ class Stops:
 
     def __attrs_post_init__(self) -> None:
         freeze(self.curve, self.t, self.node, self.place, self.row_node)
+
+    def loose_ends(self, net: Net, curves: IntArray) -> IntArray:
+        """Give the ends of curves at which no other begins, ends or passes, (l, 2).
+
+        A curve, and 0 for its beginning or 1 for its end.
+        """
+        near = _near(net)
+        first = np.searchsorted(self.curve, curves, side="left")
+        after = np.searchsorted(self.curve, curves, side="right")
+        length = net.batch.knot[net.batch.start[curves + 1] - 1]
+        stops = np.append(self.t, np.inf)
+        begins = (after > first) & (stops[np.minimum(first, len(self.t))] <= near)
+        ends = (after > first) & (stops[after - 1] >= length - near)
+        lost = [
+            np.column_stack([curves[~met], np.full((~met).sum(), i)])
+            for i, met in enumerate((begins, ends))
+        ]
+        return np.concatenate(lost)
 
 
 @attrs.frozen(eq=False)
@@ -88,20 +106,24 @@ def find_stops(net: Net, keep: NDArray[np.bool_]) -> Stops:
     Stops
         Numbered along the curves, the first curve first.
     """
-    near = _SAME * float(np.ptp(net.batch.xyz[:, 0]))
+    near = _near(net)
     every = _crossings(net, keep, near)
     curve, t = every.pair.T.ravel(), every.t.T.ravel()
     crossing = np.tile(np.arange(len(every.pair)), 2)
     order = np.lexsort((crossing, t, curve))
     curve, t, crossing = curve[order], t[order], crossing[order]
     close = np.flatnonzero((np.diff(curve) == 0) & (np.diff(t) <= near))
-    one = _united(len(every.pair), np.column_stack([crossing[close], crossing[close + 1]]))
+    one = united(len(every.pair), np.column_stack([crossing[close], crossing[close + 1]]))
     return _numbered(net, every.rows, one, (curve, t, one[crossing]))
+
+
+def _near(net: Net) -> float:
+    return _SAME * float(np.ptp(net.batch.xyz[:, 0]))
 
 
 def united_stops(net: Net, stops: Stops, pairs: IntArray) -> Stops:
     """Make nodes one, pair by pair, (p, 2)."""
-    one = _united(len(stops.place), pairs)
+    one = united(len(stops.place), pairs)
     rows = np.flatnonzero(stops.row_node >= 0)
     return _numbered(net, rows, one[stops.row_node[rows]], (stops.curve, stops.t, one[stops.node]))
 
@@ -132,25 +154,38 @@ def _crossings(net: Net, keep: NDArray[np.bool_], near: float) -> _Crossings:
 
 
 def _joints(net: Net, keep: NDArray[np.bool_], near: float) -> tuple[IntArray, FloatArray]:
-    """Give where boundary curves end on one another, (j, 2) curves and (j, 2) parameters, m."""
-    curves = np.flatnonzero(keep & (np.array(net.family) == "boundary"))
-    hosts = curves[net.end[curves]]
-    own, host, side = (
-        each.ravel() for each in np.meshgrid(curves, hosts, np.array([0, 1]), indexing="ij")
-    )
-    apart = own != host
-    own, host, side = own[apart], host[apart], side[apart]
+    """Give where ends of curves without a row lie on boundary curves at which the hull ends.
+
+    Curves, (j, 2), and parameters on them, (j, 2), m.
+    """
+    ends = np.array(_bare_ends(net, keep, near), np.int64).reshape(-1, 2)
+    hosts = np.flatnonzero(keep & net.end)
+    own, host = ends.repeat(len(hosts), axis=0), np.tile(hosts, len(ends))
+    apart = own[:, 0] != host
+    own, host = own[apart], host[apart]
     if not len(own):
         return np.empty((0, 2), np.int64), np.empty((0, 2))
-    last = net.batch.start[own + 1] - 1
-    knot = np.where(side == 1, last, net.batch.start[own])
+    knot = net.batch.start[own[:, 0] + own[:, 1]] - own[:, 1]
     t, _, distance = closest_each(net.batch, host, net.batch.xyz[knot])
     good = distance <= near
-    pair = np.column_stack([own, host])[good]
-    return pair, np.column_stack([net.batch.knot[knot], t])[good]
+    return np.column_stack([own[:, 0], host])[good], np.column_stack([net.batch.knot[knot], t])[
+        good
+    ]
 
 
-def _united(count: int, pairs: IntArray) -> IntArray:
+def _bare_ends(net: Net, keep: NDArray[np.bool_], near: float) -> list[tuple[int, int]]:
+    """Give ends of curves at which the table holds no crossing: a curve, and 0 or 1."""
+    length = net.batch.knot[net.batch.start[1:] - 1]
+    bare = np.ones((net.batch.count, 2), bool)
+    held = keep[net.meets].all(axis=1)
+    for side in (0, 1):
+        curve, t = net.meets[held, side], net.place[held, side]
+        bare[curve[t <= near], 0] = False
+        bare[curve[t >= length[curve] - near], 1] = False
+    return [(c, end) for c, end in np.argwhere(bare & keep[:, None]).tolist()]
+
+
+def united(count: int, pairs: IntArray) -> IntArray:
     """Give each of some things the least number of those it is linked with, link by link."""
     root = list(range(count))
 

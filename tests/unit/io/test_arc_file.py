@@ -17,8 +17,8 @@ from assoc_hull.errors import BadInputError, GeometryError, MissingExtraError
 from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.io.arc_dxf import NAMES
 from assoc_hull.io.arc_file import arc_table
+from assoc_hull.io.dxf_document import NAMES
 from assoc_hull.production import ProductionArcs, production_arcs
 
 WITHIN = 0.0005

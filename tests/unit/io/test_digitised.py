@@ -285,7 +285,7 @@ def test_a_closed_polyline_of_a_drawing_has_its_last_side(entity: str) -> None:
 @pytest.mark.parametrize(
     ("entity", "kind", "words"),
     [
-        ("0 SPLINE 8 ST_3 10 8 20 0 30 0", "curve", "SPLINE is no polyline and left out"),
+        ("0 SPLINE 8 ST_3 11 8 21 0 31 0", "fit points", "SPLINE has no control points"),
         ("0 ARC 8 ST_3 10 8 20 0 40 2", "curve", "ARC is no polyline and left out"),
         ("0 LWPOLYLINE 8 WL_1 38 1 10 0 20 0 42 1.0 10 9 20 2", "bulge", "arcs between its points"),
         ("0 LWPOLYLINE 8 WL_1 38 1 220 1 230 0 10 0 20 0 10 9 20 2", "extrusion", "of its own"),
@@ -314,7 +314,9 @@ def test_control_points_of_a_fitted_polyline_are_no_points_of_it() -> None:
         pytest.param(
             drawing("0 LWPOLYLINE 8 ST_1 20 1 10 1"), "20 before its first 10", id="order"
         ),
-        pytest.param(drawing("0 SPLINE 8 ST_1"), "no points; SPLINE is no polyline", id="curves"),
+        pytest.param(
+            drawing("0 SPLINE 8 ST_1"), "no points; SPLINE has no control points", id="curves"
+        ),
         pytest.param(drawing("--5 x"), "'--5' is no group code", id="two signs"),
         pytest.param(drawing("\u00b2 x"), "is no group code, line 5", id="superscript"),
         pytest.param(drawing("0 LINE 8 ST_1 10 low"), "'low' is no number, line 9", id="number"),

@@ -36,8 +36,9 @@ def a_surface(
 
 def some_places(surface: SplineSurface, count: int, seed: int = 0) -> FloatArray:
     """Parameters all over the domain."""
-    low, high = np.array(surface.domain).T
-    return low + np.random.default_rng(seed).random((count, 2)) * (high - low)
+    (u0, u1), (v0, v1) = surface.domain
+    share = np.random.default_rng(seed).random((count, 2))
+    return np.asarray([u0, v0] + share * [u1 - u0, v1 - v0], np.float64)
 
 
 def samples_of(surface: SplineSurface, count: int = 1500, **more: Any) -> Samples:
@@ -49,8 +50,7 @@ def samples_of(surface: SplineSurface, count: int = 1500, **more: Any) -> Sample
 
 def full_rows(knots: FloatArray, at: FloatArray) -> FloatArray:
     """All B-splines at parameters, from another library."""
-    found: FloatArray = BSpline.design_matrix(at, knots, 3).toarray()
-    return found
+    return np.array(BSpline.design_matrix(at, knots, 3).toarray(), np.float64)
 
 
 def plate_energy(knots_u: FloatArray, knots_v: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.plot.spread import spread
+from assoc_hull.geometry.spread import spread
 
 LABELS = st.lists(st.tuples(st.floats(-50.0, 50.0), st.floats(0.5, 8.0)), min_size=0, max_size=20)
 

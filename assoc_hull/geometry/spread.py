@@ -3,7 +3,7 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.plot.spread import spread
+>>> from assoc_hull.geometry.spread import spread
 >>> spread(np.array([0.0, 0.0, 9.0]), np.array([2.0, 2.0, 2.0])).tolist()
 [-1.0, 1.0, 9.0]
 """

@@ -1,0 +1,164 @@
+"""What OpenCASCADE finds in a file of surfaces, as numbers to compare with what was written.
+
+Examples
+--------
+>>> from assoc_hull.io.cad.found import told_unit
+>>> told_unit(b"#5=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));", "step")
+'mm'
+"""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.cad.faces import faces_in, surface_of
+from assoc_hull.io.cad.free_edges import free_edges, lie_along
+from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
+from assoc_hull.io.iges_file import UNITS, IgesFile
+
+__all__ = ["Found", "find_in", "read_shape", "told_unit"]
+
+_AREA = 1e-8
+"""The part to which areas are integrated: what OpenCASCADE takes by default leaves 1e-5."""
+
+_ENDINGS = {"step": ".step", "iges": ".igs"}
+_SI = re.compile(rb"LENGTH_UNIT\s*\(\s*\).{0,40}?SI_UNIT\s*\(\s*([$.A-Z]+)\s*,\s*\.METRE\.", re.S)
+_PREFIXES = {b"$": "m", b".MILLI.": "mm", b".CENTI.": "cm"}
+
+
+@attrs.frozen(eq=False)
+class Found:
+    """A file as it is read back.
+
+    Attributes
+    ----------
+    unit : str
+        The unit that the file declares; empty if it is none that is known.
+    surfaces : tuple of SplineSurface
+        The surfaces of its faces, whole, in the order of the file; m.
+    shells : int
+        Shells; 0 where the form has none.
+    turned : tuple of int
+        Numbers of faces, from 0, whose normal is not that of their surface.
+    free, joined : int
+        Edges of one face, and of two.
+    seams : int
+        Free edges that lie along another free edge: where faces meet without being joined.
+    area : float, m2
+        Of all faces.
+    valid : bool
+        Whether OpenCASCADE finds the topology sound.
+    """
+
+    unit: str
+    surfaces: tuple[SplineSurface, ...]
+    shells: int
+    turned: tuple[int, ...]
+    free: int
+    joined: int
+    seams: int
+    area: float
+    valid: bool
+
+
+def told_unit(data: bytes, kind: str) -> str:
+    """Give the unit of length that a file declares; empty if it is none that is known.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+    kind : {"step", "iges"}
+        What it is.
+    """
+    if kind == "step":
+        match = _SI.search(data)
+        return _PREFIXES.get(match[1], "") if match else ""
+    return UNITS.get(IgesFile.of_text(data.decode("latin-1"), "the file").unit, ("",))[0]
+
+
+def read_shape(data: bytes, kind: str) -> Any:
+    """Give the shape that OpenCASCADE reads, in mm whatever the file's unit.
+
+    Raises
+    ------
+    BadInputError
+        It reads nothing.
+    """
+    from OCP.IFSelect import IFSelect_ReturnStatus
+    from OCP.IGESControl import IGESControl_Reader
+    from OCP.STEPControl import STEPControl_Reader
+
+    with quiet(), tempfile.TemporaryDirectory() as folder:
+        # A stream will not do: OpenCASCADE reads IGES from files only.
+        path = Path(folder) / f"surfaces{_ENDINGS[kind]}"
+        path.write_bytes(data)
+        reader = STEPControl_Reader() if kind == "step" else IGESControl_Reader()
+        status = reader.ReadFile(str(path))
+        if status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.TransferRoots():
+            return reader.OneShape()
+    what = f"OpenCASCADE reads no surface ({status.name})"
+    raise BadInputError(what, "in the file", "see that it is whole")
+
+
+def find_in(data: bytes, kind: str) -> Found:
+    """Read a file and measure what it holds.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+    kind : {"step", "iges"}
+        What it is.
+
+    Raises
+    ------
+    BadInputError
+        It cannot be read, or holds faces on other than spline surfaces.
+    MissingExtraError
+        OpenCASCADE is not there.
+    """
+    shape = read_shape(data, kind)
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.TopAbs import TopAbs_Orientation
+
+    faces = faces_in(shape)
+    turned = (
+        number
+        for number, face in enumerate(faces)
+        if face.Orientation() != TopAbs_Orientation.TopAbs_FORWARD
+    )
+    free, joined = free_edges(shape)
+    return Found(
+        told_unit(data, kind),
+        tuple(surface_of(face, str(number)) for number, face in enumerate(faces)),
+        _shells(shape), tuple(turned), len(free), joined, lie_along(free), _area(shape),
+        bool(BRepCheck_Analyzer(shape).IsValid()),
+    )  # fmt: skip
+
+
+def _shells(shape: Any) -> int:
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+
+    count, walk = 0, TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_SHELL)
+    while walk.More():
+        count += 1
+        walk.Next()
+    return count
+
+
+def _area(shape: Any) -> float:
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(shape, found, _AREA)
+    return float(found.Mass()) / MILLIMETRES**2

@@ -1,0 +1,224 @@
+"""The closed mesh of a hull: cells between its lines, filled, covered and mirrored.
+
+What encloses a volume is checked before it is given out. The mesh comes from the lines alone, so
+it is independent of surfaces fitted to them, and of the strips that hydrostatics is integrated on.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.arguments import flag, integer, positive
+from assoc_hull.errors import BadInputError, OpenMeshError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
+from assoc_hull.geometry.triangles import Triangles
+from assoc_hull.surface.cells.closing import cover, mirrored
+from assoc_hull.surface.cells.faces import cells
+from assoc_hull.surface.cells.filling import fill_cells
+from assoc_hull.surface.cells.mesh_report import MeshReport, examined
+from assoc_hull.surface.cells.net_graph import net_graph
+
+__all__ = ["BelowDraught", "ClosedMesh", "mesh_of_net", "require_closed"]
+
+_WHERE = "in a closed mesh"
+_MOST_POINTS = 64
+
+
+@attrs.frozen
+class BelowDraught:
+    """What a closed mesh has below a waterplane at even keel.
+
+    Attributes
+    ----------
+    volume : float, m3
+        Of both sides.
+    lcb, vcb : float, m
+        Of its centroid: x from the aft perpendicular, z from the base line.
+    """
+
+    volume: float
+    lcb: float
+    vcb: float
+
+
+@attrs.frozen(eq=False)
+class ClosedMesh:
+    """Triangles that enclose a hull, or its port half.
+
+    Attributes
+    ----------
+    xyz : (v, 3), m
+        Vertices.
+    triangle : (f, 3) int
+        Counter-clockwise from outside.
+    group : (f,) int
+        The group of each, a place in `names`.
+    cell : (f,) int
+        The cell of the net that each lies in, the same on both sides; -1 in deck and ends.
+    names : tuple of str
+        The groups: ``"shell"``, then ``"deck"``, and other covers by the lines at their borders.
+    half : bool
+        The port half only, which is open in the centre plane.
+    steps : int
+        Into how many parts each edge of the net is cut.
+    cells : int
+        Cells of the net, of one half.
+    report : MeshReport
+        What was found of it.
+    """
+
+    xyz: FloatArray
+    triangle: IntArray
+    group: IntArray
+    cell: IntArray
+    names: tuple[str, ...]
+    half: bool
+    steps: int
+    cells: int
+    report: MeshReport
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.xyz, self.triangle, self.group, self.cell)
+
+    @property
+    def triangles(self) -> Triangles:
+        """The mesh as `assoc_hull.geometry` takes it."""
+        return Triangles(self.xyz, self.triangle)
+
+    @property
+    def volume(self) -> float:
+        """What it encloses, m3.
+
+        Raises
+        ------
+        OpenMeshError
+            It is a half, or does not close.
+        """
+        require_closed(self.report, "the volume", self.half)
+        return float(self.report.fluxes.mean())
+
+    def below(self, draught: float) -> BelowDraught:
+        """Give volume and centroid below a waterplane: a check of `assoc_hull.hydrostatics`.
+
+        Parameters
+        ----------
+        draught : float, m
+            At even keel.
+
+        Raises
+        ------
+        OpenMeshError
+            It is a half, or does not close.
+        BadInputError
+            The draught is no positive number, or nothing lies below it.
+        """
+        require_closed(self.report, "the volume below a draught", self.half)
+        height = positive(draught, "draught", _WHERE)
+        if height <= float(self.xyz[:, 2].min()):
+            raise BadInputError(
+                f"a draught of {height:g} m, below which nothing lies", _WHERE, "give a larger one"
+            )
+        level = Planes(np.array([height]), np.zeros(1), np.zeros(1))
+        found = immersed_triangles(make_body(self.triangles), level)
+        volume = float(found.volume[0])
+        return BelowDraught(
+            volume, float(found.moment_x[0]) / volume, float(found.moment_z[0]) / volume
+        )
+
+    @property
+    def area(self) -> float:
+        """The area of all triangles, m2."""
+        return self.report.area
+
+    @property
+    def areas(self) -> dict[str, float]:
+        """The area of each group, m2."""
+        vector = self.triangles.area_vectors()
+        size = np.sqrt((vector * vector).sum(axis=1))
+        total = np.bincount(self.group, size, minlength=len(self.names))
+        return dict(zip(self.names, total.tolist(), strict=True))
+
+
+def require_closed(report: MeshReport, asked: str, half: bool) -> None:
+    """Refuse what only a closed mesh has.
+
+    Raises
+    ------
+    OpenMeshError
+        The mesh is open.
+    """
+    if report.sound:
+        return
+    x, y, z = report.first_open.tolist()
+    raise OpenMeshError(
+        asked, report.open_edges, (x, y, z),
+        "this is one half, open in the centre plane: make both" if half and not report.off_centre
+        else "mend the lines there",
+    )  # fmt: skip
+
+
+def mesh_of_net(
+    net: Net,
+    *,
+    half: bool = False,
+    points: int = 4,
+    leave_out: NDArray[np.bool_] | None = None,
+) -> ClosedMesh:
+    """Make a closed mesh on the lines of a hull.
+
+    Parameters
+    ----------
+    net : Net
+        Curves and crossings.
+    half : bool
+        The port half only. It is covered by deck and ends, and open in the centre plane.
+    points : int
+        Into how many parts each piece of a line between two crossings is cut; even.
+    leave_out : (m,) bool or None
+        Curves to do without.
+
+    Returns
+    -------
+    ClosedMesh
+        Every edge is that of two triangles, once in each sense, but in the centre plane of a half.
+
+    Raises
+    ------
+    BadInputError
+        `points` is odd or out of its range.
+    OpenNetError
+        The lines do not part the hull into cells.
+    OpenMeshError
+        The mesh does not close all the same.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.analysis.net.gather import gather
+    >>> from assoc_hull.surface.cells.closed_mesh import mesh_of_net
+    >>> found = mesh_of_net(gather(ah.examples.wigley().state), points=2)
+    >>> found.names, found.report.euler, round(found.volume, 1)
+    (('shell', 'deck'), 2, 4854.7)
+    """
+    half = flag(half, "half", _WHERE)
+    points = integer(points, "points", _WHERE, least=2, most=_MOST_POINTS)
+    if points % 2:
+        raise BadInputError(
+            f"{points} points to an edge", _WHERE, "give an even number: cells meet at middles"
+        )
+    filled = fill_cells(cells(net_graph(net, leave_out=leave_out)), points)
+    sheets = cover(filled)
+    if not half:
+        sheets = mirrored(sheets)
+    report = examined(sheets.xyz, sheets.triangle, sheets.collapsed)
+    if report.off_centre if half else not report.sound:
+        require_closed(report, "the surface", half)
+    return ClosedMesh(
+        sheets.xyz, sheets.triangle, sheets.group, sheets.cell, sheets.names, half, points,
+        filled.cells.count, report,
+    )  # fmt: skip

@@ -1,0 +1,205 @@
+"""Cells filled with small four-sided elements that fit together along every edge.
+
+Both cells at an edge share its points. A cell of four sides is a Coons patch; one of k sides is
+divided into k such patches by lines from the middles of its sides to its own; one of two sides
+is a ladder.
+
+Coons, S.A.: Surfaces for computer-aided design of space forms. MIT, MAC-TR-41, 1967.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.vectors import dot
+from assoc_hull.surface.cells.faces import Cells, origins
+from assoc_hull.surface.cells.local_frames import LocalFrames, local_frames
+
+__all__ = ["FilledCells", "fill_cells"]
+
+
+@attrs.frozen(eq=False)
+class FilledCells:
+    """The cells of a half hull, filled.
+
+    Attributes
+    ----------
+    cells : Cells
+        The cells.
+    steps : int
+        Into how many parts each edge is cut.
+    xyz : (v, 3), m
+        Vertices: nodes of the net first, then points on edges, then points within cells.
+    quad : (q, 4) int
+        Vertices of the elements, counter-clockwise from outside. Those with two equal corners
+        are triangles.
+    cell : (q,) int
+        The cell of each.
+    """
+
+    cells: Cells
+    steps: int
+    xyz: FloatArray
+    quad: IntArray
+    cell: IntArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.xyz, self.quad, self.cell)
+
+    def along(self, half: IntArray) -> IntArray:
+        """Give the vertices along half-edges, (h, steps + 1)."""
+        found = edge_vertices(self.cells, self.steps)[half >> 1]
+        back = (half & 1) == 1
+        found[back] = found[back, ::-1]
+        return np.asarray(found)
+
+    def triangles(self) -> tuple[IntArray, IntArray]:
+        """Cut the elements along their shorter diagonals; give the triangles and their cells."""
+        a, b, c, d = self.quad.T
+        one, other = (self.xyz[p] - self.xyz[q] for p, q in ((a, c), (b, d)))
+        # A triangle has no diagonal between its equal corners.
+        first = (dot(one, one) <= dot(other, other)) | (a == b) | (c == d)
+        first &= ~((b == c) | (d == a)) | (a == b) | (c == d)
+        cut = np.where(
+            first[:, None, None],
+            np.stack([np.column_stack([a, b, c]), np.column_stack([a, c, d])], axis=1),
+            np.stack([np.column_stack([a, b, d]), np.column_stack([b, c, d])], axis=1),
+        ).reshape(-1, 3)
+        real = (cut != np.roll(cut, 1, axis=1)).all(axis=1)
+        return cut[real], self.cell.repeat(2)[real]
+
+
+def edge_vertices(cells: Cells, steps: int) -> IntArray:
+    """Give the vertices along every edge, (e, steps + 1)."""
+    edge, nodes = cells.graph.edge, len(cells.graph.place)
+    inner = nodes + np.arange(len(edge) * (steps - 1)).reshape(len(edge), steps - 1)
+    return np.concatenate([edge[:, :1], inner, edge[:, 1:]], axis=1)
+
+
+def fill_cells(cells: Cells, steps: int) -> FilledCells:
+    """Fill the cells of a net.
+
+    Parameters
+    ----------
+    cells : Cells
+        The cells.
+    steps : int
+        Into how many parts each edge is cut; even.
+    """
+    graph = cells.graph
+    edge_points = graph.points(steps)[:, 1:-1].reshape(-1, 3)
+    start = FilledCells(
+        cells, steps, np.concatenate([graph.place, edge_points]),
+        np.empty((0, 4), np.int64), np.empty(0, np.int64),
+    )  # fmt: skip
+    xyz, quad, owner, used = [start.xyz], [start.quad], [start.cell], len(start.xyz)
+    for sides in np.unique(cells.sides).tolist():
+        chosen = np.flatnonzero(cells.sides == sides)
+        inner, quads = _filled(start, chosen, sides, used)
+        xyz.append(inner)
+        used += len(inner)
+        quad.append(quads.reshape(-1, 4))
+        owner.append(chosen.repeat(quads.shape[1]))
+    return FilledCells(
+        cells, steps, np.concatenate(xyz), np.concatenate(quad), np.concatenate(owner)
+    )
+
+
+def _filled(
+    start: FilledCells, chosen: IntArray, sides: int, used: int
+) -> tuple[FloatArray, IntArray]:
+    """Give the inner points of cells with equally many sides, and their elements (c, q, 4)."""
+    half = start.cells.half[start.cells.start[chosen][:, None] + np.arange(sides)]
+    rim = start.along(half.ravel()).reshape(*half.shape, -1)
+    if sides == 2:
+        return np.empty((0, 3)), _grid_quads(np.stack([rim[:, 0], rim[:, 1, ::-1]], axis=2))
+    frames = _frames(start, half, rim)
+    flat = frames.flattened(start.xyz[rim].reshape(len(rim), -1, 3)).reshape(*rim.shape, 3)
+    if sides == 4:
+        point, quads = _four_sided(rim, flat, used)
+    else:
+        point, quads = _many_sided(rim, flat, used)
+    return frames.restored(point).reshape(-1, 3), quads
+
+
+def _frames(start: FilledCells, half: IntArray, rim: IntArray) -> LocalFrames:
+    graph = start.cells.graph
+    node = origins(graph)[half]
+    round_it = start.xyz[rim[:, :, :-1].reshape(len(rim), -1)]
+    return local_frames(round_it, graph.place[node], graph.normal[node])
+
+
+def _four_sided(rim: IntArray, flat: FloatArray, used: int) -> tuple[FloatArray, IntArray]:
+    """Fill cells of four sides: points (c, p, 3) and elements (c, q, 4)."""
+    count, steps = len(rim), rim.shape[2] - 1
+    inner = _coons(flat[:, 0], flat[:, 1], flat[:, 2, ::-1], flat[:, 3, ::-1])
+    number = used + np.arange(count * (steps - 1) ** 2).reshape(count, steps - 1, steps - 1)
+    grid = _framed(number, rim[:, 0], rim[:, 1], rim[:, 2, ::-1], rim[:, 3, ::-1])
+    return inner.reshape(count, -1, 3), _grid_quads(grid)
+
+
+def _many_sided(rim: IntArray, flat: FloatArray, used: int) -> tuple[FloatArray, IntArray]:
+    """Fill cells of other numbers of sides by one patch at each corner."""
+    count, sides, steps = len(rim), rim.shape[1], rim.shape[2] - 1
+    part = steps // 2
+    middle = flat[:, :, part]
+    centre = middle.mean(axis=1)
+    share = np.linspace(0.0, 1.0, part + 1)[:, None]
+    spoke = middle[:, :, None] * (1.0 - share) + centre[:, None, None] * share
+    patch = [
+        _coons(
+            flat[:, i, : part + 1], spoke[:, i], spoke[:, i - 1], flat[:, i - 1, : part - 1 : -1]
+        )
+        for i in range(sides)
+    ]
+    # Inner points: the centre, then those on spokes, then those of the patches.
+    inner = [each.reshape(count, -1, 3) for each in (spoke[:, :, 1:-1], *patch)]
+    point = np.concatenate([centre[:, None], *inner], axis=1)
+    number = used + np.arange(count * point.shape[1]).reshape(count, -1)
+    spokes = number[:, 1 : 1 + sides * (part - 1)].reshape(count, sides, part - 1)
+    spokes = np.concatenate(
+        [rim[:, :, part, None], spokes, number[:, None, :1].repeat(sides, axis=1)], axis=2
+    )
+    own = number[:, 1 + sides * (part - 1) :].reshape(count, sides, part - 1, part - 1)
+    quads = [
+        _grid_quads(
+            _framed(
+                own[:, i], rim[:, i, : part + 1], spokes[:, i], spokes[:, i - 1],
+                rim[:, i - 1, : part - 1 : -1],
+            )
+        )
+        for i in range(sides)
+    ]  # fmt: skip
+    return point, np.concatenate(quads, axis=1)
+
+
+def _coons(bottom: FloatArray, right: FloatArray, top: FloatArray, left: FloatArray) -> FloatArray:
+    """Give the inner points of Coons patches, (c, m - 1, m - 1, 3), from sides (c, m + 1, 3).
+
+    Bottom and top run with the first index, left and right with the second.
+    """
+    u = np.linspace(0.0, 1.0, bottom.shape[1])[1:-1, None, None]
+    v = np.linspace(0.0, 1.0, left.shape[1])[1:-1, None]
+    across = (1.0 - v) * bottom[:, 1:-1, None] + v * top[:, 1:-1, None]
+    along = (1.0 - u) * left[:, None, 1:-1] + u * right[:, None, 1:-1]
+    low = (1.0 - u) * bottom[:, None, None, 0] + u * bottom[:, None, None, -1]
+    high = (1.0 - u) * top[:, None, None, 0] + u * top[:, None, None, -1]
+    return np.asarray(across + along - (1.0 - v) * low - v * high)
+
+
+def _framed(
+    inner: IntArray, bottom: IntArray, right: IntArray, top: IntArray, left: IntArray
+) -> IntArray:
+    """Put numbers of inner points and of sides together, (c, m + 1, m + 1)."""
+    grid = np.empty((len(inner), bottom.shape[1], left.shape[1]), np.int64)
+    grid[:, 1:-1, 1:-1] = inner
+    grid[:, :, 0], grid[:, :, -1], grid[:, 0], grid[:, -1] = bottom, top, left, right
+    return grid
+
+
+def _grid_quads(grid: IntArray) -> IntArray:
+    """Give the elements of grids, (c, q, 4); counter-clockwise as the first index to the second."""
+    corners = (grid[:, :-1, :-1], grid[:, 1:, :-1], grid[:, 1:, 1:], grid[:, :-1, 1:])
+    return np.stack(corners, axis=3).reshape(len(grid), -1, 4)
