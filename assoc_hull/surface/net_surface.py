@@ -11,6 +11,7 @@ from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.state import Particulars
+from assoc_hull.surface.blocks.block import Block
 
 __all__ = ["Border", "FittedBlock", "NetSurface", "Residuals"]
 
@@ -60,6 +61,8 @@ class FittedBlock:
         Its surface, as published: cut at its borders, and joined.
     fit : SplineSurface
         As it was fitted, with the overlap and before it was joined.
+    laid : Block
+        As it was laid out on its rectangle, before any fit.
     samples : Samples
         What it was fitted to, with their parameters at the end.
     residuals : tuple of Residuals
@@ -72,6 +75,8 @@ class FittedBlock:
         Spans of knots in u and in v.
     smoothing : float, m3
         The factor of the penalty.
+    limit : float, m
+        What 95 % of its residuals should keep.
     notes : tuple of str
         What is to be known of it.
     """
@@ -80,13 +85,25 @@ class FittedBlock:
     kind: str
     surface: SplineSurface
     fit: SplineSurface
+    laid: Block
     samples: Samples
     residuals: tuple[Residuals, ...]
     least_element: float
     singular: tuple[tuple[float, float], ...]
     spans: tuple[int, int]
     smoothing: float
+    limit: float
     notes: tuple[str, ...]
+
+    @property
+    def fitted(self) -> Residuals:
+        """The residuals on the lines that it was fitted to."""
+        return self.residuals[0]
+
+    @property
+    def left_out(self) -> Residuals | None:
+        """The residuals on lines that were left out, if there are any on it."""
+        return self.residuals[1] if len(self.residuals) > 1 else None
 
 
 @attrs.frozen(eq=False)
@@ -105,6 +122,8 @@ class Border:
         Median, 95 % and largest angle between the normals as published.
     place : (3,), m
         Where the largest angle is.
+    limit : float, degrees
+        What the angle should keep.
     """
 
     names: tuple[str, str]
@@ -112,6 +131,7 @@ class Border:
     joined_gap: float
     angle: FloatArray
     place: FloatArray
+    limit: float
 
     def __attrs_post_init__(self) -> None:
         freeze(self.gap, self.angle, self.place)
@@ -131,18 +151,24 @@ class NetSurface:
         From aft forward, each once.
     borders : tuple of Border
         Where they meet.
+    left_out : tuple of str
+        The lines that nothing was fitted to.
     refitted : tuple of str
         The blocks that this call has fitted; the others were taken over from an earlier result.
     notes : tuple of str
         Warnings and what is to be known of the whole.
+    whole : tuple of Residuals
+        Of all blocks together, on the lines fitted to and on those left out.
     """
 
     particulars: Particulars
     net: Net = attrs.field(repr=False)
     blocks: tuple[FittedBlock, ...]
     borders: tuple[Border, ...]
+    left_out: tuple[str, ...]
     refitted: tuple[str, ...]
     notes: tuple[str, ...]
+    whole: tuple[Residuals, ...]
 
     @cached_property
     def patches(self) -> tuple[SplineSurface, ...]:
