@@ -8,7 +8,7 @@ that follows another block they are those of that block, in proportion.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -19,6 +19,7 @@ from assoc_hull.geometry.vectors import dot
 from assoc_hull.surface.blocks.harmonic import laid_out
 from assoc_hull.surface.blocks.plan import BlockPlan
 from assoc_hull.surface.blocks.quad import SIDES, Quad
+from assoc_hull.surface.blocks.region import Chord
 
 __all__ = ["BlockMap", "Laid", "block_map"]
 
@@ -106,6 +107,8 @@ def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -
     for seam in plan.seams:
         _follow(plan.core, seam.side, masters[seam.master].core, box, sheet)
     core = _laid(plan.core, box, sheet)
+    if plan.rails:
+        core = _paced(core, plan.rails, sheet)
     bays = dict[str, Laid]()
     for name in sorted(plan.bays, key=len):
         if " " not in name:
@@ -186,6 +189,24 @@ def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
     for side in ("v0", "v1"):
         _between(quad, side, sheet)
     return np.array([[0.0, u[-1]], [0.0, v]])
+
+
+def _paced(found: Laid, rails: Sequence[Chord], sheet: _Sheet) -> Laid:
+    """Let u run in proportion to x between sections: lines along the ship keep an even pace."""
+    graph = found.quad.region.graph
+    nodes = [found.quad.nodes("u0"), found.quad.nodes("u1")]
+    nodes += [np.append(found.quad.region.begin(rail.half), rail.last) for rail in rails]
+    flat = [each for each in nodes if np.ptp(graph.place[each, 0]) == 0.0]
+    pairs = np.unique([[graph.place[each[0], 0], found.uv[each[0], 0]] for each in flat], axis=0)
+    if len(pairs) < 2 or (np.diff(pairs, axis=0) <= 0.0).any():
+        return found
+    x, uv = graph.place[:, 0], found.uv.copy()
+    on = np.unique(graph.edge[found.quad.region.edges])
+    on = on[(x[on] > pairs[0, 0]) & (x[on] < pairs[-1, 0])]
+    at = np.interp(x[on], pairs[:, 0], pairs[:, 1])
+    uv[on, 0] = np.where(np.isin(x[on], pairs[:, 0]), at, sheet.rounded(at))
+    sheet.uv[on] = uv[on]
+    return Laid(found.quad, found.box, uv)
 
 
 def _between(quad: Quad, side: str, sheet: _Sheet) -> None:

@@ -12,8 +12,13 @@ from assoc_hull.geometry.fitting.folds import elements
 from assoc_hull.model.state import HullState
 from assoc_hull.surface.blocks.block import Block
 from assoc_hull.surface.blocks.layout import lay_out
-from assoc_hull.surface.blocks.doubts import doubts_of_border, doubts_of_fit, doubts_of_shape
-from assoc_hull.surface.blocks.fit_block import Made, fitted, joined_to_masters
+from assoc_hull.surface.blocks.doubts import (
+    doubts_of_border,
+    doubts_of_fit,
+    doubts_of_penalty,
+    doubts_of_shape,
+)
+from assoc_hull.surface.blocks.fit_block import Made, folded_places, made_without_folds
 from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.blocks.residuals import Misses, misses_of, residuals_of
 from assoc_hull.surface.blocks.spans import ends_on
@@ -83,9 +88,7 @@ def _made(blocks: Sequence[Block], options: FitOptions) -> tuple[Made, ...]:
     """Fit and join blocks, which come masters first; give them from aft forward."""
     made: dict[str, Made] = {}
     for block in blocks:
-        known = {name: each.breaks for name, each in made.items()}
-        fit = fitted(block, options, known, ends_on(block, blocks))
-        made[block.name] = joined_to_masters(block, fit, made)
+        made[block.name] = made_without_folds(block, options, made, ends_on(block, blocks))
     forward = sorted(blocks, key=lambda each: (float(each.corners[:, 0].mean()), each.name))
     return tuple(made[block.name] for block in forward)
 
@@ -97,12 +100,14 @@ def _published(
     block, part = made.block, made.part
     surface, samples = part.surface, part.samples
     shape = elements(surface)
+    folded = folded_places(shape)
     on_lines = residuals_of("fitted", part.residual, samples.point, samples.line, net.name)
     others = _left_out_of(misses, number, net)
     notes = (
         *block.notes,
+        *doubts_of_penalty(part.smoothing, options.smoothing_of(block.kind)),
         *doubts_of_fit(block.kind, on_lines, options),
-        *doubts_of_shape(surface, shape),
+        *doubts_of_shape(surface, shape, folded),
     )
     limit = options.limit(block.kind)
     residuals = (on_lines, *others)
