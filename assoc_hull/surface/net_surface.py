@@ -12,6 +12,7 @@ from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.state import Particulars
 from assoc_hull.surface.blocks.fit_block import Made
+from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.net_records import Border, Residuals
 
 __all__ = ["Border", "FittedBlock", "NetSurface", "Residuals"]
@@ -98,6 +99,8 @@ class NetSurface:
     ----------
     particulars : Particulars
         Of the hull.
+    options : FitOptions
+        Penalty, tolerances and cut-off that it was made with.
     net : Net
         The lines of the hull, as they were.
     blocks : tuple of FittedBlock
@@ -115,6 +118,7 @@ class NetSurface:
     """
 
     particulars: Particulars
+    options: FitOptions
     net: Net = attrs.field(repr=False)
     blocks: tuple[FittedBlock, ...]
     borders: tuple[Border, ...]

@@ -16,15 +16,13 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.fit import Fit
 from assoc_hull.geometry.fitting.held_controls import row_of
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.block import Block
 
-__all__ = ["near", "renumbered", "settled", "share_kept", "unmoved"]
-
-Breaks = tuple[FloatArray, FloatArray]
+__all__ = ["near", "settled", "share_kept", "unmoved"]
 
 
 def near(one: FloatArray, other: FloatArray, cutoff: float) -> bool:
@@ -83,20 +81,6 @@ def _sides(block: Block) -> list[tuple[object, ...]]:
         for side, stretches in sorted(block.sides.items())
         for stretch in stretches
     ]
-
-
-def renumbered(fit: Fit, line: IntArray) -> Fit:
-    """Give a fit whose points count by other numbers of the same lines.
-
-    Parameters
-    ----------
-    fit : Fit
-        A fit.
-    line : (m,) int
-        The new number of each old one.
-    """
-    samples = fit.samples
-    return attrs.evolve(fit, samples=attrs.evolve(samples, line=line[samples.line]))
 
 
 def settled(fit: Fit, old: SplineSurface, cutoff: float, borders: Sequence[str] = ()) -> Fit:
