@@ -154,7 +154,7 @@ def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> Laid:
     inner = np.unique(quad.region.graph.edge[quad.region.edges])
     uv[inner] = sheet.uv[inner]
     for side in SIDES:
-        nodes, along, axis = quad.nodes(side), quad.along(side), _axis(side)
+        nodes, along, axis = quad.nodes(side), quad.along(side, 8.0 * sheet.grid), _axis(side)
         low, high = box[axis]
         even = sheet.rounded(low + (high - low) * along / along[-1])
         even[0], even[-1] = low, high
