@@ -111,14 +111,16 @@ def _gaps(size: float) -> Gaps:
     return Gaps(small(size) * Gaps().join, small(size) * Gaps().refuse)
 
 
-def _scaled(surface: SplineSurface, scale: float) -> SplineSurface:
-    return surface if scale == 1.0 else attrs.evolve(surface, net=surface.net * scale)
+def _scaled(surface: SplineSurface | None, scale: float) -> SplineSurface | None:
+    if surface is None or scale == 1.0:
+        return surface
+    return attrs.evolve(surface, net=surface.net * scale)
 
 
 def _settled(
     slices: Slices,
     facets: Facets,
-    surfaces: Sequence[SplineSurface],
+    surfaces: Sequence[SplineSurface | None],
     motion: Motion,
     book: Notebook,
 ) -> Slices:
