@@ -11,22 +11,102 @@ Examples
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import attrs
 
 from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.arguments import instance, number
+from assoc_hull.geometry.patches.below import Below, below
+from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
 from assoc_hull.surface.blocks.fitting import surface_of_net
+from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
 from assoc_hull.surface.net_surface import NetSurface
 
 __all__ = ["HullSurface", "surface"]
 
+_WHERE = "in surface"
+
 
 @attrs.frozen(eq=False)
 class HullSurface(NetSurface):
-    """A surface that can be written; what it holds says `assoc_hull.surface.net_surface.NetSurface`."""
+    """The surface of a half hull; what it holds says `assoc_hull.surface.net_surface.NetSurface`."""
+
+    @property
+    def residuals(self) -> ResidualTable:
+        """How far the lines lie from the surface, block by block."""
+        return ResidualTable(self.blocks)
+
+    def below(self, draught: float | None = None) -> Below:
+        """Give volume, moments and area of the half below a waterplane, from the surface alone.
+
+        Parameters
+        ----------
+        draught : float, m
+            Of the waterplane, at even keel; the design draught if None.
+        """
+        level = self.particulars.draught if draught is None else number(draught, "draught", _WHERE)
+        return below(self.patches, level)
+
+    def document(self) -> dict[str, Any]:
+        """Give the report as plain values: lengths in m, angles in degrees."""
+        return document_of(self)
+
+    def __str__(self) -> str:
+        return text_of(self)
 
 
-def surface(hull: HasState, *, leave_out: Sequence[str] = ()) -> HullSurface:
-    """Fit a surface to the lines of a hull."""
-    found = surface_of_net(state_of(hull, "in surface"), leave_out)
+def surface(
+    hull: HasState,
+    *,
+    leave_out: Sequence[str] = (),
+    previous: NetSurface | None = None,
+    smoothing: float | None = None,
+    tolerance: float | None = None,
+    cutoff: float = CUTOFF,
+) -> HullSurface:
+    """Fit a surface to the lines of a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    leave_out : sequence of str
+        Names of lines that nothing is fitted to, but from which the surface is measured.
+    previous : HullSurface, optional
+        An earlier surface of the hull: blocks whose lines have not moved are taken from it. One
+        that was made with other options, or other lines left out, is of no use, and no error.
+    smoothing : float, m3, optional
+        The factor of the penalty on second derivatives; ``2.4e-10 length**3`` without it.
+    tolerance : float, m, optional
+        What 95 % of the distances of the body should keep; 8 mm at a length of 300 m without it.
+    cutoff : float, m
+        With `previous`, points of lines that have moved by less since the fit of their block was
+        made count as unmoved, and so do control points. With 0 only what is the same in every bit
+        is taken over: the surface then is, in every bit, the one that comes without `previous`.
+
+    Returns
+    -------
+    HullSurface
+        One spline surface a block, for the half y >= 0; `refitted` names the blocks fitted.
+
+    Raises
+    ------
+    BadInputError, UnknownNameError
+        A curve of the hull has failed; there is no such line; lines that no blocks were found
+        between; numbers that are none, or below nil.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> hull = ah.examples.wigley()
+    >>> found = ah.surface(hull)
+    >>> found.refitted, ah.surface(hull, previous=found).refitted
+    (('body',), ())
+    """
+    state = state_of(hull, _WHERE)
+    if previous is not None:
+        instance(previous, NetSurface, "previous", _WHERE)
+    options = fit_options(state.particulars.length, smoothing, tolerance, cutoff)
+    found = surface_of_net(state, options, tuple(leave_out), previous)
     return HullSurface(*attrs.astuple(found, recurse=False))

@@ -30,6 +30,7 @@ from assoc_hull.cli import (
     shift,
     stability,
     study,
+    surface,
     transform,
     vary,
     why,
@@ -79,7 +80,7 @@ def make_parser() -> argparse.ArgumentParser:
     modules = (
         demo, make, create, classical, curve, look, edit, history, replay, why, graph, hydrostatics,
         parameters, stability, transform, panels, vary, shift, study, compare, sensitivities,
-        fairness, plates, plot, export, shell,
+        fairness, surface, plates, plot, export, shell,
     )  # fmt: skip
     for module in modules:
         module.add(commands)

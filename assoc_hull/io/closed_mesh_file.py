@@ -4,9 +4,10 @@ Examples
 --------
 >>> import tempfile
 >>> from pathlib import Path
->>> import assoc_hull as ah
 >>> from assoc_hull.io.closed_mesh_file import write_mesh
->>> mesh = ah.surface(ah.examples.wigley()).mesh(points=2)
+>>> from assoc_hull.sources import examples
+>>> from assoc_hull.surface.cells.hull_mesh import closed_mesh
+>>> mesh = closed_mesh(examples.wigley(stations=5, waterlines=4), points=2)
 >>> with tempfile.TemporaryDirectory() as folder:
 ...     report = write_mesh(mesh, Path(folder) / "wigley.stl", unit="mm")
 >>> report.form, report.unit, report.groups

@@ -95,7 +95,7 @@ class FiledMesh:
         return [(name, part) for name, part in parts if len(part)]
 
     def normals(self) -> FloatArray:
-        """The unit normals of the triangles, (f, 3)."""
+        """Give the unit normals of the triangles, (f, 3)."""
         vector = Triangles(self.xyz, self.triangle).area_vectors()
         size = np.sqrt((vector**2).sum(axis=1))[:, None]
         return np.asarray(vector / np.where(size > 0.0, size, 1.0))

@@ -65,6 +65,8 @@ class Form:
         Units of the file in a metre.
     units : tuple of str
         Units that may be chosen; empty if the form has one of its own.
+    on_paper : bool
+        Whether letters have a size on paper.
     """
 
     about: str
@@ -73,6 +75,7 @@ class Form:
     decimals: int
     scale: float = 1.0
     units: tuple[str, ...] = ()
+    on_paper: bool = False
 
 
 def _hull(state: HullState, book: ExportBook) -> bytes:
@@ -122,7 +125,7 @@ def _dxf_polylines(state: HullState, book: ExportBook) -> bytes:
 
 
 def _dxf_plan(state: HullState, book: ExportBook) -> bytes:
-    return plan_drawing(state, book).encode()
+    return plan_drawing(state, book, book.paper).encode()
 
 
 FORMS: Mapping[str, Form] = MappingProxyType({
@@ -139,7 +142,9 @@ FORMS: Mapping[str, Form] = MappingProxyType({
     "dxf-polylines": Form(
         "all lines in their places as polylines, DXF", (), _dxf_polylines, _EXACT, units=_UNITS
     ),
-    "dxf-plan": Form("lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS),
+    "dxf-plan": Form(
+        "lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS, on_paper=True
+    ),
 })  # fmt: skip
 """The forms by name."""
 
@@ -167,7 +172,12 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
 
 
 def export(
-    state: HullState, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
+    state: HullState,
+    path: str | os.PathLike[str],
+    form: str | None = None,
+    unit: str | None = None,
+    *,
+    scale: float | None = None,
 ) -> ExportReport:
     """Write a hull in a form.
 
@@ -181,6 +191,9 @@ def export(
         One of `FORMS`; by the ending of the file if None.
     unit : {"m", "mm"} or None
         Of a drawing, m if None; the other forms have units of their own.
+    scale : float or None
+        Of a lines plan: denominator of the scale at which it is to be printed, such as 200. It
+        changes letters, not lines, which are drawn at full size. None fits a sheet of A1.
 
     Returns
     -------
@@ -196,6 +209,10 @@ def export(
     name = form_of(path, form)
     chosen = FORMS[name]
     book = _book(chosen, name, unit)
+    if scale is not None and not chosen.on_paper:
+        what = f"the form {name} has no scale on paper"
+        raise BadInputError(what, "in export", "leave the scale out")
+    book.paper = scale
     write_whole(path, chosen.write(state, book))
     report = book.report(os.fspath(path), name)
     return attrs.evolve(report, rounding=0.0) if chosen.decimals == _EXACT else report

@@ -73,11 +73,14 @@ class ExportBook:
         Units of the file in a metre.
     unit : str
         Its unit, where the form has several.
+    paper : float or None
+        Denominator of the scale at which a drawing is to be printed; None: a fitting one.
     """
 
     decimals: int
     scale: float = 1.0
     unit: str = "m"
+    paper: float | None = None
     lines: int = 0
     curves: int = 0
     points: int = 0

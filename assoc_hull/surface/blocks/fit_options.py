@@ -1,0 +1,122 @@
+"""What a surface of a hull is asked to be: penalty, tolerances, spacing of knots and points.
+
+All scales with the length of the ship, and is given here for one of 300 m.
+
+Examples
+--------
+>>> from assoc_hull.surface.blocks.fit_options import fit_options
+>>> options = fit_options(150.0)
+>>> options.limit("body"), options.limit("bow")
+(0.004, 0.0075)
+"""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.arguments import not_negative, positive
+
+__all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options"]
+
+_LENGTH = 300.0
+SMOOTHING = 2.4e-10
+"""The penalty over the cube of the length."""
+
+_BODY, _ENDS, _MEDIAN = 0.008, 0.015, 0.0015
+_END_SMOOTHING = 1.0 / 3.0
+"""The penalty of bow and stern blocks, as a part of that of the body: their radii are smaller."""
+
+CUTOFF = 1e-7
+"""Points and control points that move by less, m, count as unmoved."""
+
+_BODY_ANGLE, _END_ANGLE = 0.1, 0.5
+
+
+@attrs.frozen
+class FitOptions:
+    """Numbers of a fit.
+
+    Attributes
+    ----------
+    length : float, m
+        Of the ship, between perpendiculars.
+    smoothing : float, m3
+        The factor of the penalty of the body.
+    body_limit : float, m
+        What 95 % of the residuals of the body should keep; bulb and stern have 15/8 of it.
+    cutoff : float, m
+        Points of lines that move by less leave their block as it is when a surface follows an
+        edit; control points that do keep their place.
+    """
+
+    length: float
+    smoothing: float
+    body_limit: float
+    cutoff: float
+
+    @property
+    def scale(self) -> float:
+        """The length of the ship over 300 m."""
+        return self.length / _LENGTH
+
+    @property
+    def median_limit(self) -> float:
+        """What the median of the residuals should keep, m."""
+        return self.body_limit * _MEDIAN / _BODY
+
+    def smoothing_of(self, kind: str) -> float:
+        """Give the factor of the penalty of a kind of block, m3."""
+        return self.smoothing * (1.0 if kind == "body" else _END_SMOOTHING)
+
+    def limit(self, kind: str) -> float:
+        """Give what 95 % of the residuals of a kind of block should keep, m."""
+        return self.body_limit if kind == "body" else self.body_limit * _ENDS / _BODY
+
+    @property
+    def girth_span(self) -> float:
+        """How long spans along the girth are, m."""
+        return 1.2 * self.scale
+
+    @property
+    def point_step(self) -> float:
+        """How far apart the points are at which lines that were left out are measured, m."""
+        return 0.6 * self.scale
+
+
+def angle_limit(kinds: tuple[str, str]) -> float:
+    """Give the angle that the normals at a border of two kinds of blocks should keep, degrees."""
+    return _BODY_ANGLE if "body" in kinds else _END_ANGLE
+
+
+def fit_options(
+    length: float,
+    smoothing: float | None = None,
+    tolerance: float | None = None,
+    cutoff: float = CUTOFF,
+) -> FitOptions:
+    """Take options, or what is usual for a ship.
+
+    Parameters
+    ----------
+    length : float, m
+        Of the ship.
+    smoothing : float, m3, optional
+        The factor of the penalty of the body; ``2.4e-10 length**3`` if None.
+    tolerance : float, m, optional
+        What 95 % of the residuals of the body should keep; 8 mm at 300 m if None.
+    cutoff : float, m
+        As of `FitOptions`.
+
+    Raises
+    ------
+    WrongTypeError, BadInputError
+        No numbers; a tolerance that is not above 0, another below it.
+    """
+    where = "in surface"
+    usual = SMOOTHING * length**3, _BODY * length / _LENGTH
+    return FitOptions(
+        length,
+        usual[0] if smoothing is None else positive(smoothing, "smoothing", where),
+        usual[1] if tolerance is None else positive(tolerance, "tolerance", where),
+        not_negative(cutoff, "cutoff", where),
+    )
