@@ -65,6 +65,7 @@ if TYPE_CHECKING:
     from assoc_hull.study.sampling import sample
     from assoc_hull.surface.cells.hull_mesh import closed_mesh
     from assoc_hull.surface.curvature_regions import curvature_regions
+    from assoc_hull.surface.hull_plates.hull_seams import HullSeams
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
     from assoc_hull.variation.anchors import measure
@@ -89,6 +90,7 @@ __all__ = [
     "FreedomError",
     "Group",
     "Hull",
+    "HullSeams",
     "HullSurface",
     "Line",
     "LineSource",
@@ -197,6 +199,7 @@ _HOMES = {
     "study.sampling": ("sample",),
     "surface.cells.hull_mesh": ("closed_mesh",),
     "surface.curvature_regions": ("curvature_regions",),
+    "surface.hull_plates.hull_seams": ("HullSeams",),
     "tolerance": ("Tolerances",),
     "variants": ("vary", "vary_by"),
     "variation.anchors": ("measure",),

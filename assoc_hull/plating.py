@@ -17,21 +17,30 @@ Examples
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import wraps
-from typing import ParamSpec
+from typing import Any, overload
 
 import attrs
 
+from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.io.hull_plates_file import write_hull_plates
 from assoc_hull.io.plates_file import write_plates
 from assoc_hull.io.surface_file import read_surface_file
+from assoc_hull.surface.blocks.fit_options import fit_options
+from assoc_hull.surface.blocks.fitting import surface_of_net
+from assoc_hull.surface.hull_plates.hull_plate_table import HullPlates as FoundHullPlates
+from assoc_hull.surface.hull_plates.hull_plates import hull_plates
+from assoc_hull.surface.hull_plates.hull_seams import HullSeams
+from assoc_hull.surface.hull_plates.other_fits import other_fits
+from assoc_hull.surface.net_surface import NetSurface
 from assoc_hull.surface.plate_table import Plates as FoundPlates
 from assoc_hull.surface.plates import plates as find_plates
+from assoc_hull.surface.seams import Seams
 
-__all__ = ["Plates", "plates", "read_surfaces"]
-
-Given = ParamSpec("Given")
+__all__ = ["HullPlates", "Plates", "plates", "plates_of_hull", "read_surfaces"]
 
 
 @attrs.frozen(eq=False)
@@ -56,17 +65,70 @@ class Plates(FoundPlates):
         write_plates(self, path)
 
 
-def _that_can_be_written(find: Callable[Given, FoundPlates]) -> Callable[Given, Plates]:
-    """Give a function that finds plates as one of plates that can be written."""
+@attrs.frozen(eq=False)
+class HullPlates(FoundHullPlates):
+    """Plates of a hull that can be written.
 
-    @wraps(find)
-    def found(*args: Given.args, **kwargs: Given.kwargs) -> Plates:
-        return Plates(*attrs.astuple(find(*args, **kwargs), recurse=False))
+    What they hold says `assoc_hull.surface.hull_plates.hull_plate_table.HullPlates`.
+    """
 
-    return found
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the plates, as a table (``.csv``) or as a document (``.json``).
+
+        `assoc_hull.plot.hull_map.hull_map` draws them on the hull.
+
+        Parameters
+        ----------
+        path : path
+            The file; what was there is replaced by the whole of it, or stays.
+
+        Raises
+        ------
+        BadInputError
+            Another ending, or a file that cannot be written.
+        """
+        write_hull_plates(self, path)
 
 
-plates = _that_can_be_written(find_plates)
+Surfaces = SplineSurface | Sequence[SplineSurface] | FloatArray
+"""What is cut along lines of constant parameter, or not at all."""
+
+
+@overload
+def plates(
+    surfaces: HasState | NetSurface | Sequence[SplineSurface], seams: HullSeams, **options: Any
+) -> HullPlates: ...
+
+
+@overload
+def plates(
+    surfaces: Surfaces | NetSurface,
+    seams: Seams | Sequence[Seams | None] | None = None,
+    *args: Any,
+    **options: Any,
+) -> Plates: ...
+
+
+@wraps(find_plates)
+def plates(surfaces: Any, seams: Any = None, *args: Any, **options: Any) -> Plates | HullPlates:
+    """Find plates of surfaces, or of a hull; see `find_plates` and `plates_of_hull`."""
+    if isinstance(seams, HullSeams):
+        return plates_of_hull(surfaces, seams, *args, **options)
+    given = surfaces.patches if isinstance(surfaces, NetSurface) else surfaces
+    return Plates(*attrs.astuple(find_plates(given, seams, *args, **options), recurse=False))
+
+
+@wraps(hull_plates)
+def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -> HullPlates:
+    """Find plates of a hull; of a hull its surface is made, and two more to compare with."""
+    if hasattr(surface, "state"):
+        state = state_of(surface, "in plates of a hull")
+        usual = fit_options(state.particulars.length)
+        if "others" not in options:
+            options["others"] = other_fits(state, usual)
+        surface = surface_of_net(state, usual)
+    found = hull_plates(surface, seams, *args, **options)
+    return HullPlates(*attrs.astuple(found, recurse=False))
 
 
 def read_surfaces(

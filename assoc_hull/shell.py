@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from assoc_hull.analysis.measured_hull import HasState, state_of
-from assoc_hull.arguments import number
+from assoc_hull.arguments import instance, number
 from assoc_hull.geometry.patches.below import Below, below
-from assoc_hull.surface.blocks.fit_options import fit_options
+from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
 from assoc_hull.surface.blocks.fitting import surface_of_net
 from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
 from assoc_hull.surface.net_surface import NetSurface
@@ -96,11 +96,53 @@ def surface(
     hull: HasState,
     *,
     leave_out: Sequence[str] = (),
+    previous: NetSurface | None = None,
     smoothing: float | None = None,
     tolerance: float | None = None,
+    cutoff: float = CUTOFF,
 ) -> HullSurface:
-    """Fit a surface to the lines of a hull."""
+    """Fit a surface to the lines of a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    leave_out : sequence of str
+        Names of lines that nothing is fitted to, but from which the surface is measured.
+    previous : HullSurface, optional
+        An earlier surface of the hull: blocks whose lines have not moved are taken from it. One
+        that was made with other options, or other lines left out, is of no use, and no error.
+    smoothing : float, m3, optional
+        The factor of the penalty on second derivatives; ``2.4e-10 length**3`` without it.
+    tolerance : float, m, optional
+        What 95 % of the distances of the body should keep; 8 mm at a length of 300 m without it.
+    cutoff : float, m
+        With `previous`, points of lines that have moved by less since the fit of their block was
+        made count as unmoved, and so do control points. With 0 only what is the same in every bit
+        is taken over: the surface then is, in every bit, the one that comes without `previous`.
+
+    Returns
+    -------
+    HullSurface
+        One spline surface a block, for the half y >= 0; `refitted` names the blocks fitted.
+
+    Raises
+    ------
+    BadInputError, UnknownNameError
+        A curve of the hull has failed; there is no such line; lines that no blocks were found
+        between; numbers that are none, or below nil.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> hull = ah.examples.wigley()
+    >>> found = ah.surface(hull)
+    >>> found.refitted, ah.surface(hull, previous=found).refitted
+    (('body',), ())
+    """
     state = state_of(hull, _WHERE)
-    options = fit_options(state.particulars.length, smoothing, tolerance)
-    found = surface_of_net(state, options, tuple(leave_out))
+    if previous is not None:
+        instance(previous, NetSurface, "previous", _WHERE)
+    options = fit_options(state.particulars.length, smoothing, tolerance, cutoff)
+    found = surface_of_net(state, options, tuple(leave_out), previous)
     return HullSurface(*attrs.astuple(found, recurse=False))

@@ -13,26 +13,27 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 LENGTH, DEPTH, HALF = 100.0, 9.0, 8.0
 """Length and depth, and the half-breadth of the control points, m."""
 
-_ALONG = np.linspace(0.0, LENGTH, 4)
 _DECK = np.array([6.0, HALF, HALF, 0.0])
 _FLAT = np.array([2.0, 6.0, 6.0, 0.0])
 _RISE = np.array([3.0, 0.0, 0.0, 0.0])
-"""A transom aft, a sharp stem, a flat bottom that rises aft: ordinates of cubics along the ship."""
+"""A transom aft, a raked stem, a flat bottom that rises aft: ordinates of cubics along the ship."""
 
 
 def bottom() -> SplineSurface:
-    """The bottom, from the centre plane out, cubic by linear."""
-    return SplineSurface.bezier(_net([(0.0 * _FLAT, _RISE), (_FLAT, _RISE)]), "bottom")
+    """The bottom, to the centre plane, cubic by linear."""
+    return SplineSurface.bezier(_net([(94.0, _FLAT, _RISE), (94.0, 0.0 * _FLAT, _RISE)]), "bottom")
 
 
 def side() -> SplineSurface:
-    """Bilge and side, which leave the bottom smoothly, cubic by quadratic."""
-    rows = [(_FLAT, _RISE), (_DECK, _RISE), (_DECK, np.full(4, DEPTH))]
+    """Side and bilge, which meets the bottom smoothly, cubic by quadratic."""
+    top = np.full(4, DEPTH)
+    rows = [(LENGTH, _DECK, top), (97.0, _DECK, _RISE), (94.0, _FLAT, _RISE)]
     return SplineSurface.bezier(_net(rows), "side")
 
 
-def _net(rows: Sequence[tuple[FloatArray, FloatArray]]) -> FloatArray:
-    return np.stack([np.column_stack([_ALONG, y, z]) for y, z in rows], axis=1)
+def _net(rows: Sequence[tuple[float, FloatArray, FloatArray]]) -> FloatArray:
+    """Rows of control points, each with its foremost x, half-breadths and heights."""
+    return np.stack([np.column_stack([np.linspace(0, x, 4), y, z]) for x, y, z in rows], axis=1)
 
 
 def port() -> list[SplineSurface]:

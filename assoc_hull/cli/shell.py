@@ -15,6 +15,7 @@ __all__ = ["add"]
 _SHELLS = ("bash", "zsh", "fish")
 _DOCUMENTS = (
     "hull", "form-catalogue", "form-parameters", "comparison", "design", "surfaces", "plates",
+    "hull-plates",
 )  # fmt: skip
 
 
@@ -101,6 +102,10 @@ def _schema_of(document: str) -> dict[str, Any]:
         from assoc_hull.io.plates_schema import plates_schema
 
         return plates_schema()
+    if document == "hull-plates":
+        from assoc_hull.io.hull_plates_schema import hull_plates_schema
+
+        return hull_plates_schema()
     from assoc_hull.io.form_schema import catalogue_schema, form_schema
 
     return catalogue_schema() if document == "form-catalogue" else form_schema()

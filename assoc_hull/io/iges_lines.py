@@ -26,7 +26,7 @@ from collections.abc import Iterator, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.arguments import choice, flag
+from assoc_hull.arguments import all_of, choice, file_path, flag, instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.control_polygon import control_polygon
 from assoc_hull.geometry.curves import FloatArray
@@ -100,6 +100,7 @@ def write_iges_lines(
         Another unit or family, no line of these, a curve that has failed, or a file that cannot
         be written.
     """
+    file_path(path, _WHERE)
     text, report = iges_of_lines(state, unit=unit, half=half, families=families)
     write_whole(path, text.encode())
     return attrs.evolve(report, path=os.fspath(path))
@@ -115,7 +116,9 @@ def iges_of_lines(
     """Lay out the lines of a hull as the text of an IGES file; as `write_iges_lines`."""
     factor = 1.0 / METRES[choice(unit, "unit", ("m", "mm"), _WHERE)]
     alone = flag(half, "half", _WHERE)
-    wanted = [choice(each, "family", FAMILIES, _WHERE) for each in families]
+    given = all_of(families, str, "families", _WHERE)
+    wanted = [choice(each, "family", FAMILIES, _WHERE) for each in given]
+    instance(state, HullState, "state", _WHERE)
     layout, size, points, curves = Layout(), 0.0, 0, 0
     lines = list(_lines(state, wanted))
     for family, line in lines:

@@ -75,7 +75,7 @@ def _find_unit(size: float, book: Notebook) -> str:
     return chosen
 
 
-def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
+def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -> Triangles:
     """Turn a mesh in metres into ship axes, centre plane at y = 0.
 
     Parameters
@@ -87,6 +87,8 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
         sign: ``"+x+y+z"``, ``"-x-y+z"`` for a bow at negative x, ``"+x-z+y"`` for y up.
     book : Notebook
         Takes what was found.
+    doubt : float, m
+        How far vertices may be off what they stand for: a centre plane nearer to y = 0 is there.
 
     Raises
     ------
@@ -94,10 +96,10 @@ def place_mesh(mesh: Triangles, axes: str, book: Notebook) -> Triangles:
         Unknown axes, or a mesh whose axes cannot be told.
     """
     if word(axes, "axes", "as an argument") != "auto":
-        placed = _centred(_turned(mesh, _parse(axes)), book)
+        placed = _centred(_turned(mesh, _parse(axes)), book, doubt)
     else:
         moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
-        moved = _upright(_centred(moved, book), book)
+        moved = _upright(_centred(moved, book, doubt), book)
         placed = _grounded(_bow_forward(moved, book), book)
     _tell_proportions(placed, book)
     return placed
@@ -122,7 +124,7 @@ def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
     return Triangles(xyz, face, mesh.origin)
 
 
-def _centred(mesh: Triangles, book: Notebook) -> Triangles:
+def _centred(mesh: Triangles, book: Notebook, doubt: float) -> Triangles:
     """Put the centre plane at y = 0, a half hull on the side of positive y."""
     size = float(np.ptp(mesh.xyz, axis=0).max())
     low, high = float(mesh.xyz[:, 1].min()), float(mesh.xyz[:, 1].max())
@@ -132,7 +134,7 @@ def _centred(mesh: Triangles, book: Notebook) -> Triangles:
         side = 0.0 if abs(side) < 1e-3 * size else None
     middle = side if side is not None else 0.5 * (low + high)
     xyz = mesh.xyz.copy()
-    if abs(middle) > 1e-6 * size:
+    if abs(middle) > max(1e-6 * size, doubt if side is None else 0.0):
         book.repair("centre plane", _WHERE, f"moved from y = {middle:.6g} m to 0", middle)
         xyz[:, 1] -= middle
     elif side is None:

@@ -18,8 +18,8 @@ from assoc_hull.io.slice_features import FeatureRules
 from assoc_hull.io.slice_net import SliceReport, net_from_slices
 from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import Gaps, Slices
+from assoc_hull.io.surface_faces import small
 from assoc_hull.io.surface_hull import cad_kind, read_surface_lines
-from assoc_hull.io.surface_slices import small
 from assoc_hull.model.state import DECKS, HullState, Particulars
 
 __all__ = ["holds_lines", "read_slices", "require_file"]

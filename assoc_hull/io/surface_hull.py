@@ -26,7 +26,8 @@ from assoc_hull.io.iges_text import looks_like_iges
 from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import Gaps, Slices
-from assoc_hull.io.surface_slices import Faces, slice_surfaces
+from assoc_hull.io.surface_faces import Faces
+from assoc_hull.io.surface_slices import slice_surfaces
 from assoc_hull.io.surface_units import checked_unit
 
 __all__ = ["cad_kind", "faces_of_file", "read_surface_lines"]

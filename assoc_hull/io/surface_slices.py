@@ -9,7 +9,8 @@ A Wigley hull of one surface, exactly:
 
 >>> import numpy as np
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
->>> from assoc_hull.io.surface_slices import Faces, slice_surfaces
+>>> from assoc_hull.io.surface_faces import Faces
+>>> from assoc_hull.io.surface_slices import slice_surfaces
 >>> u, v = np.mgrid[0:1:3j, 0:1:3j]
 >>> net = np.stack([100.0 * u, 5.0 * 2.0 * (u == 0.5) * (v > 0.0), 6.25 * v], axis=2)
 >>> faces = Faces.of([SplineSurface.bezier(net, "wigley")], "m")
@@ -21,17 +22,15 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.patches.facets import Facets, facets_of
-from assoc_hull.geometry.patches.meeting import meet_plane
+from assoc_hull.geometry.patches.facets import Facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.patches.stitching import outward_parts, stitched
 from assoc_hull.geometry.triangles import check_mesh
 from assoc_hull.io.mesh import cut_placed
 from assoc_hull.io.mesh_doctor import mend_mesh
@@ -40,85 +39,10 @@ from assoc_hull.io.offset_report import Notebook
 from assoc_hull.io.progress import Tell, silent
 from assoc_hull.io.slice_places import Places
 from assoc_hull.io.slice_types import AXES, Gaps, Piece, SliceLine, Slices
-from assoc_hull.io.surface_units import METRES
+from assoc_hull.io.surface_faces import FINE, Faces, facets_at_scale, size_of, small
+from assoc_hull.io.surface_points import Motion, on_surfaces
 
-__all__ = ["Faces", "slice_surfaces", "small"]
-
-_WELD = 2e-3
-"""Borders at most so far apart (m) are one."""
-
-_SHIP = 50.0
-"""A hull shorter than this (m) is taken for a model: limits are less in proportion."""
-
-_LONGEST, _SHORTEST = 600.0, 1.0
-
-_FINE = 1e-5
-"""Triangles lie off their surface by at most this part of the length of the hull."""
-
-_LONG = 1.0 / 150.0
-"""Their sides along the parameters are at most this part of it."""
-
-_FAR = 0.02
-"""A place of a surface farther (m) from the triangles is not the one meant."""
-
-_LEAST_SINE = 0.03
-"""Where a plane cuts at a smaller angle (sine), a point stays on its triangle."""
-
-
-@attrs.frozen(eq=False)
-class Faces:
-    """Surfaces of a hull as a file has them.
-
-    Attributes
-    ----------
-    surfaces : tuple of SplineSurface
-        m, at the scale of the file; a face may be a part of its surface.
-    unit : str
-        The unit of the file.
-    notes : tuple of str
-        What reading it told.
-    facets : callable
-        Gives the triangles of the faces, within a deflection and no longer than a length, m.
-    """
-
-    surfaces: tuple[SplineSurface, ...]
-    unit: str
-    notes: tuple[str, ...]
-    facets: Callable[[float, float], Facets]
-
-    @classmethod
-    def of(cls, surfaces: Sequence[SplineSurface], unit: str, notes: tuple[str, ...] = ()) -> Faces:
-        """Take whole surfaces."""
-        return cls(tuple(surfaces), unit, notes, lambda fine, long: facets_of(surfaces, fine, long))
-
-
-@attrs.frozen(eq=False)
-class _Motion:
-    """From the file to the ship: ``xyz @ turn + shift``; `turn` exchanges and mirrors axes."""
-
-    turn: FloatArray
-    shift: FloatArray
-
-    @classmethod
-    def between(cls, before: FloatArray, after: FloatArray) -> _Motion:
-        """Tell how vertices were moved."""
-        middle = before.mean(axis=0)
-        turn = np.rint(np.linalg.lstsq(before - middle, after - after.mean(axis=0))[0])
-        return cls(turn + 0.0, np.median(after - before @ turn, axis=0))
-
-    def back(self, xyz: FloatArray) -> FloatArray:
-        """Give places of the file."""
-        return np.asarray((xyz - self.shift) @ self.turn.T)
-
-    def ahead(self, xyz: FloatArray) -> FloatArray:
-        """Give places in ship axes."""
-        return np.asarray(xyz @ self.turn + self.shift)
-
-    def plane(self, axis: IntArray, offset: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Give axis and place in the file of planes across axes of the ship."""
-        column = np.abs(self.turn).argmax(axis=0)
-        sign = self.turn[column, np.arange(3)]
-        return column[axis], (offset - self.shift[axis]) * sign[axis]
+__all__ = ["slice_surfaces"]
 
 
 def slice_surfaces(
@@ -156,12 +80,12 @@ def slice_surfaces(
     book = Notebook()
     for note in faces.notes:
         book.assume("file", "the surfaces", note)
-    size = _size(faces, scale, book)
-    facets = _facets(faces, scale, size)
+    size = size_of(faces, scale, book)
+    facets = facets_at_scale(faces, scale, size, book)
     check_mesh(facets.mesh)
     mended = mend_mesh(facets.mesh, book)
-    placed = place_mesh(mended, axes, book)
-    motion = _Motion.between(mended.xyz, placed.xyz)
+    placed = place_mesh(mended, axes, book, 2.0 * FINE * size)
+    motion = Motion.between(mended.xyz, placed.xyz)
     wanted = {"sections": stations, "waterlines": waterlines, "buttocks": buttocks}
     limits = _gaps(size) if gaps is None else gaps
     slices = cut_placed(placed, wanted, limits, name, book, tell)
@@ -172,7 +96,7 @@ def slice_surfaces(
     )
 
 
-def _waterline(motion: _Motion, slices: Slices, book: Notebook) -> float | None:
+def _waterline(motion: Motion, slices: Slices, book: Notebook) -> float | None:
     """Give the height of z = 0 of the file, if it cuts the hull, above the new base line."""
     height = float(motion.shift[2])
     depth = float(slices.high[2] - slices.low[2])
@@ -183,48 +107,8 @@ def _waterline(motion: _Motion, slices: Slices, book: Notebook) -> float | None:
     return height
 
 
-def small(size: float) -> float:
-    """Give what lengths that hold for ships are to be multiplied by: less than 1 for models.
-
-    Examples
-    --------
-    >>> from assoc_hull.io.surface_slices import small
-    >>> small(120.0), small(2.5)
-    (1.0, 0.05)
-    """
-    return min(1.0, size / _SHIP)
-
-
 def _gaps(size: float) -> Gaps:
     return Gaps(small(size) * Gaps().join, small(size) * Gaps().refuse)
-
-
-def _size(faces: Faces, scale: float, book: Notebook) -> float:
-    """Give the longest side of the hull at full scale, m; refuse what is no ship's."""
-    net = np.concatenate([each.net.reshape(-1, 3) for each in faces.surfaces])
-    size = float(np.ptp(net, axis=0).max()) * scale
-    said = f"the surfaces are {size:.4g} m long in {faces.unit}, the unit of the file"
-    where = f"at scale {scale:g}"
-    if not size <= _LONGEST:
-        known = ", ".join(METRES)
-        raise BadInputError(said, where, f"are these millimetres? give unit ({known}), or scale")
-    if size < _SHORTEST:
-        remedy = "are these metres? give unit='m', or the scale of the model"
-        raise BadInputError(said, where, remedy)
-    book.assume("unit", "the surfaces", f"{faces.unit}: the hull is {size:.6g} m long", size)
-    if size < _SHIP:
-        what = f"all limits of gaps and features are {small(size):.3g} of those of a ship"
-        book.assume("small", "the surfaces", f"{what}, since it is short", size)
-    return size
-
-
-def _facets(faces: Faces, scale: float, size: float) -> Facets:
-    """Give triangles at full scale, sewn, and each part outward."""
-    deflection = _FINE * size
-    found = faces.facets(deflection / scale, _LONG * size / scale)
-    mesh = found.mesh.moved(found.mesh.xyz * scale)
-    whole = Facets(mesh, found.surface, found.uv)
-    return outward_parts(stitched(whole, max(small(size) * _WELD, 2.0 * deflection)))
 
 
 def _scaled(surface: SplineSurface, scale: float) -> SplineSurface:
@@ -235,7 +119,7 @@ def _settled(
     slices: Slices,
     facets: Facets,
     surfaces: Sequence[SplineSurface],
-    motion: _Motion,
+    motion: Motion,
     book: Notebook,
 ) -> Slices:
     """Put the points of all lines on their surfaces."""
@@ -246,7 +130,7 @@ def _settled(
     count = [len(piece.points) for _, piece in pieces]
     axis = np.repeat([AXES.get(line.group, 1) for line, _ in pieces], count)
     offset = np.repeat([_place(line) for line, _ in pieces], count)
-    places, sine, good = _on_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
+    places, sine, good = on_surfaces(xyz, axis, offset, owner, facets, surfaces, motion)
     if not good.all():
         x, y, z = xyz[np.argmin(good)].tolist()
         what = (
@@ -282,46 +166,3 @@ def _replaced(line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]]) -
         kept = None if piece.sine is None else sine.copy()
         pieces.append(attrs.evolve(piece, points=points.copy(), sine=kept))
     return attrs.evolve(line, pieces=tuple(pieces))
-
-
-def _on_surfaces(
-    xyz: FloatArray,
-    axis: IntArray,
-    offset: FloatArray,
-    owner: IntArray,
-    facets: Facets,
-    surfaces: Sequence[SplineSurface],
-    motion: _Motion,
-) -> tuple[FloatArray, FloatArray, np.typing.NDArray[np.bool_]]:
-    """Give places on the surfaces, the sine of the angle there, and which were found."""
-    there = motion.back(xyz)
-    uv = _parameters(there, facets.mesh.corners[owner], facets.uv[owner])
-    column, place = motion.plane(axis, offset)
-    centre = xyz[:, 1] == 0.0
-    middle, nil = motion.plane(np.array([1]), np.zeros(1))
-    out, sine, good = xyz.copy(), np.ones(len(xyz)), np.zeros(len(xyz), np.bool_)
-    for number in np.unique(facets.surface[owner]).tolist():
-        rows = np.flatnonzero(facets.surface[owner] == number)
-        second = centre[rows], int(middle[0]), float(nil[0])
-        found = meet_plane(surfaces[number], uv[rows], column[rows], place[rows], second)
-        away = np.sqrt(((found.xyz - there[rows]) ** 2).sum(axis=1))
-        mine = (found.off < 1e-7) & (found.sine > _LEAST_SINE) & (away < _FAR)
-        good[rows] = mine
-        out[rows[mine]] = motion.ahead(found.xyz[mine])
-        sine[rows] = found.sine
-    out[np.arange(len(out)), axis] = offset
-    out[centre, 1] = 0.0
-    return out, sine, good
-
-
-def _parameters(xyz: FloatArray, corner: FloatArray, uv: FloatArray) -> FloatArray:
-    """Give parameters (n, 2) of places on triangles (n, 3, 3), from those of the corners."""
-    b, c, p = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0], xyz - corner[:, 0]
-    bb, bc, cc = ((one * other).sum(axis=1) for one, other in ((b, b), (b, c), (c, c)))
-    pb, pc = (p * b).sum(axis=1), (p * c).sum(axis=1)
-    det = np.maximum(bb * cc - bc * bc, 1e-300)
-    part = np.clip(np.stack([cc * pb - bc * pc, bb * pc - bc * pb], axis=1) / det[:, None], 0, 1)
-    part[np.abs(part) < 1e-9] = 0.0
-    part /= np.maximum(part.sum(axis=1), 1.0)[:, None]
-    first = 1.0 - part.sum(axis=1)
-    return np.asarray(first[:, None] * uv[:, 0] + part[:, :1] * uv[:, 1] + part[:, 1:] * uv[:, 2])

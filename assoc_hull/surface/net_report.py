@@ -8,7 +8,8 @@ from typing import Any
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.surface.net_surface import Border, FittedBlock, NetSurface, Residuals
+from assoc_hull.surface.net_records import Border, Residuals
+from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
 __all__ = ["FORMAT", "ResidualTable", "document_of", "text_of"]
 

@@ -7,44 +7,15 @@ from functools import cached_property
 import attrs
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.model.state import Particulars
-from assoc_hull.surface.blocks.block import Block
+from assoc_hull.surface.blocks.fit_block import Made
+from assoc_hull.surface.blocks.fit_options import FitOptions
+from assoc_hull.surface.net_records import Border, Residuals
 
 __all__ = ["Border", "FittedBlock", "NetSurface", "Residuals"]
-
-
-@attrs.frozen(eq=False)
-class Residuals:
-    """How far points of lines lie from the surface.
-
-    Attributes
-    ----------
-    kind : str
-        ``"fitted"``, or ``"left out"`` of the fit.
-    count : int
-        Points.
-    median, p95, p99, largest : float, m
-        Of the distances.
-    place : (3,), m
-        Where the largest is; nan without points.
-    line : str
-        The line it is on.
-    """
-
-    kind: str
-    count: int
-    median: float
-    p95: float
-    p99: float
-    largest: float
-    place: FloatArray
-    line: str
-
-    def __attrs_post_init__(self) -> None:
-        freeze(self.place)
 
 
 @attrs.frozen(eq=False)
@@ -53,47 +24,61 @@ class FittedBlock:
 
     Attributes
     ----------
-    name : str
-        ``"body"``, ``"bow bulb"`` ...
-    kind : {"body", "bow", "stern"}
-        Where it lies, by which its tolerances go.
-    surface : SplineSurface
-        Its surface, as published: cut at its borders, and joined.
-    fit : SplineSurface
-        As it was fitted, with the overlap and before it was joined.
-    laid : Block
-        As it was laid out on its rectangle, before any fit.
-    samples : Samples
-        What it was fitted to, with their parameters at the end.
+    made : Made
+        Its surface, what it was made from and what it was before it was joined.
     residuals : tuple of Residuals
         On the lines that it was fitted to, and on those left out.
     least_element : float
         The least |S_u x S_v|, as a part of the median.
     singular : tuple of (float, float)
         Parameters of corners at which the sides are tangent.
-    spans : (int, int)
-        Spans of knots in u and in v.
-    smoothing : float, m3
-        The factor of the penalty.
     limit : float, m
         What 95 % of its residuals should keep.
     notes : tuple of str
         What is to be known of it.
     """
 
-    name: str
-    kind: str
-    surface: SplineSurface
-    fit: SplineSurface
-    laid: Block
-    samples: Samples
+    made: Made
     residuals: tuple[Residuals, ...]
     least_element: float
     singular: tuple[tuple[float, float], ...]
-    spans: tuple[int, int]
-    smoothing: float
     limit: float
     notes: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """``"body"``, ``"bow bulb"`` ..."""
+        return self.made.block.name
+
+    @property
+    def kind(self) -> str:
+        """Where it lies, by which its tolerances go: ``"body"``, ``"bow"`` or ``"stern"``."""
+        return self.made.block.kind
+
+    @property
+    def surface(self) -> SplineSurface:
+        """Its surface, as published: cut at its borders, and joined."""
+        return self.made.part.surface
+
+    @property
+    def samples(self) -> Samples:
+        """The points of its lines, with parameters of the places nearest to them."""
+        return self.made.part.samples
+
+    @property
+    def distance(self) -> FloatArray:
+        """How far these points lie from the surface, (k,), m."""
+        return self.made.part.residual
+
+    @property
+    def spans(self) -> tuple[int, int]:
+        """Spans of knots in u and in v."""
+        return self.made.part.spans
+
+    @property
+    def smoothing(self) -> float:
+        """The factor of the penalty, m3."""
+        return self.made.part.smoothing
 
     @property
     def fitted(self) -> Residuals:
@@ -107,37 +92,6 @@ class FittedBlock:
 
 
 @attrs.frozen(eq=False)
-class Border:
-    """Where two blocks meet.
-
-    Attributes
-    ----------
-    names : (str, str)
-        The blocks.
-    gap : (3,), m
-        Median, 95 % and largest distance of the two surfaces, before they were joined.
-    joined_gap : float, m
-        The largest after it.
-    angle : (3,), degrees
-        Median, 95 % and largest angle between the normals as published.
-    place : (3,), m
-        Where the largest angle is.
-    limit : float, degrees
-        What the angle should keep.
-    """
-
-    names: tuple[str, str]
-    gap: FloatArray
-    joined_gap: float
-    angle: FloatArray
-    place: FloatArray
-    limit: float
-
-    def __attrs_post_init__(self) -> None:
-        freeze(self.gap, self.angle, self.place)
-
-
-@attrs.frozen(eq=False)
 class NetSurface:
     """The surface of a half hull (y >= 0), one spline surface a block.
 
@@ -145,6 +99,8 @@ class NetSurface:
     ----------
     particulars : Particulars
         Of the hull.
+    options : FitOptions
+        Penalty, tolerances and cut-off that it was made with.
     net : Net
         The lines of the hull, as they were.
     blocks : tuple of FittedBlock
@@ -162,6 +118,7 @@ class NetSurface:
     """
 
     particulars: Particulars
+    options: FitOptions
     net: Net = attrs.field(repr=False)
     blocks: tuple[FittedBlock, ...]
     borders: tuple[Border, ...]

@@ -44,9 +44,12 @@ from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.classical.portion import Portion, require_apart, three_eighths
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.classical.read import holds_definition, read_definition
+from assoc_hull.io.iges_lines import write_iges_lines
 from assoc_hull.sources import Examples
 from assoc_hull.surface.seams import Seams
+from tests.cut_hulls import three_blocks
 from tests.formed import formed
 
 POINT, LINE, CURVE = "WL 2.5 x ST 3", "WL 2.5", "ST 3"
@@ -248,6 +251,20 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
         },
     ),
     "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
+    "write_cad": (
+        write_cad,
+        {
+            "surfaces": three_blocks(), "path": "a.igs", "form": "iges-surfaces", "unit": "m",
+            "half": True, "name": "hull",
+        },
+    ),
+    "write_iges_lines": (
+        write_iges_lines,
+        {
+            "state": ah.examples.wigley().state, "path": "a.igs", "unit": "m", "half": True,
+            "families": ["sections"],
+        },
+    ),
     "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),
     "sectional_area": (

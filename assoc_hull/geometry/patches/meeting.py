@@ -113,7 +113,7 @@ def meet_plane(
     near = _BORDER * (high - low)
     at = np.where(at < low + near, low, np.where(at > high - near, high, at))
     held = (at == low) | (at == high)
-    both = np.asarray(chosen, np.bool_) & ~held.any(axis=1) & (axes != other)
+    both: NDArray[np.bool_] = np.array(chosen, np.bool_) & ~held.any(axis=1) & (axes != other)
     every = np.arange(len(at))
     for _ in range(_STEPS):
         r, ru, rv = slopes(surface, at)

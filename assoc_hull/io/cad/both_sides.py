@@ -19,7 +19,7 @@ import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
-__all__ = ["both_sides", "mirrored"]
+__all__ = ["both_sides", "mirrored", "off_centre"]
 
 _ACROSS = np.array([1.0, -1.0, 1.0])
 
@@ -28,6 +28,25 @@ def both_sides(surfaces: Sequence[SplineSurface]) -> list[SplineSurface]:
     """Give surfaces to port, and their images to starboard, which are named so."""
     port = [attrs.evolve(each, name=_named(each, "port")) for each in surfaces]
     return port + [mirrored(each, _named(each, "starboard")) for each in surfaces]
+
+
+def off_centre(surfaces: Sequence[SplineSurface]) -> tuple[float, str]:
+    """Say how far off the centre plane the nearest side of all is (m), and whose it is.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+    >>> from assoc_hull.io.cad.both_sides import off_centre
+    >>> side = SplineSurface.bezier([[[0, 1, 0], [0, 2, 2]], [[5, 1, 0], [5, 2, 2]]], "side")
+    >>> off_centre([side])
+    (1.0, 'side')
+    """
+    found = []
+    for each in surfaces:
+        off = np.abs(each.restricted(*each.domain).net[..., 1])
+        sides = (off[0], off[-1], off[:, 0], off[:, -1])
+        found.append((min(float(side.max()) for side in sides), each.name))
+    return min(found)
 
 
 def _named(surface: SplineSurface, side: str) -> str:

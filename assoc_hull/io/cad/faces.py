@@ -141,7 +141,7 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     sewing.Perform()
     shell = sewing.SewedShape()
     if shell.IsNull() or shell.ShapeType() != TopAbs_ShapeEnum.TopAbs_SHELL:
-        raise _apart(surfaces)
+        raise _apart(surfaces, _parts(shell))
     return Sewn(shell, [sewing.ModifiedSubShape(each) for each in given])
 
 
@@ -155,12 +155,23 @@ def _shell_of(face: Any) -> Any:
     return shell
 
 
-def _apart(surfaces: Sequence[SplineSurface]) -> BadInputError:
+def _parts(shape: Any) -> int:
+    """Count the parts that a shape is in: the shells, and the faces of none."""
+    from OCP.TopoDS import TopoDS_Iterator
+
+    if shape.IsNull():
+        return 0
+    count, walk = 0, TopoDS_Iterator(shape)
+    while walk.More():
+        count += 1
+        walk.Next()
+    return count
+
+
+def _apart(surfaces: Sequence[SplineSurface], parts: int) -> BadInputError:
     names = ", ".join(repr(each.name) for each in surfaces[:6])
-    what = f"{len(surfaces)} surfaces ({names}) do not hang together along their sides"
-    return BadInputError(
-        what, "in write_cad", "join their borders, or write a half that reaches the centre plane"
-    )
+    what = f"{len(surfaces)} surfaces ({names}) do not hang together: they are in {parts} parts"
+    return BadInputError(what, "in write_cad", "join the sides they have in common")
 
 
 def faces_in(shape: Any) -> list[Any]:

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import re
 import tempfile
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +27,8 @@ from assoc_hull.io.iges_file import UNITS, IgesFile
 
 __all__ = ["Found", "find_in", "read_shape", "told_unit"]
 
-_AREA = 1e-8
-"""The part to which areas are integrated: what OpenCASCADE takes by default leaves 1e-5."""
+_AREA, _SPANS = 1e-8, 12
+"""The part to which areas are integrated, and the least spans: OpenCASCADE leaves 1e-5 else."""
 
 _ENDINGS = {"step": ".step", "iges": ".igs"}
 _SI = re.compile(rb"LENGTH_UNIT\s*\(\s*\).{0,40}?SI_UNIT\s*\(\s*([$.A-Z]+)\s*,\s*\.METRE\.", re.S)
@@ -136,11 +138,12 @@ def find_in(data: bytes, kind: str) -> Found:
         if face.Orientation() != TopAbs_Orientation.TopAbs_FORWARD
     )
     free, joined = free_edges(shape)
+    valid = bool(BRepCheck_Analyzer(shape).IsValid())
     return Found(
         told_unit(data, kind),
         tuple(surface_of(face, str(number)) for number, face in enumerate(faces)),
-        _shells(shape), tuple(turned), len(free), joined, lie_along(free), _area(shape),
-        bool(BRepCheck_Analyzer(shape).IsValid()),
+        _shells(shape), tuple(turned), len(free), joined, lie_along(free), _area(shape, faces),
+        valid,
     )  # fmt: skip
 
 
@@ -155,10 +158,25 @@ def _shells(shape: Any) -> int:
     return count
 
 
-def _area(shape: Any) -> float:
+def _area(shape: Any, faces: Sequence[Any]) -> float:
+    """Integrate the area; surfaces of few spans get more, between which it is integrated."""
+    from OCP.BRep import BRep_Tool
     from OCP.BRepGProp import BRepGProp
     from OCP.GProp import GProp_GProps
 
+    for face in faces:
+        surface = BRep_Tool.Surface_s(face)
+        _refine(surface.InsertUKnot, surface.UKnot, surface.NbUKnots())
+        _refine(surface.InsertVKnot, surface.VKnot, surface.NbVKnots())
     found = GProp_GProps()
     BRepGProp.SurfaceProperties_s(shape, found, _AREA)
     return float(found.Mass()) / MILLIMETRES**2
+
+
+def _refine(insert: Callable[..., None], knot: Callable[[int], float], count: int) -> None:
+    """Part each span, so that there are enough of them."""
+    knots = [knot(i) for i in range(1, count + 1)]
+    parts = -(-_SPANS // (count - 1))
+    for low, high in pairwise(knots):
+        for part in range(1, parts):
+            insert(low + (high - low) * part / parts, 1, 0.0)

@@ -24,7 +24,7 @@ import attrs
 from assoc_hull.arguments import all_of, choice, flag, text
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.both_sides import both_sides
+from assoc_hull.io.cad.both_sides import both_sides, off_centre
 from assoc_hull.io.cad.check import area_of, breadth_flux, control_point_error, require_written
 from assoc_hull.io.cad.faces import sewn
 from assoc_hull.io.cad.found import find_in
@@ -52,6 +52,9 @@ CAD_ENDINGS: Mapping[str, str] = MappingProxyType(
 
 CAD_UNITS = ("mm", "m")
 """Units of length that files are written in."""
+
+_CENTRED = 4e-6
+"""Sides nearer to the centre plane than this (m) are joined to their images."""
 
 _WHERE = "in write_cad"
 
@@ -159,6 +162,8 @@ def cad_bytes(
     called = text(name, "name", _WHERE)
     alone = flag(half, "half", _WHERE)
     _require_outward(given)
+    if not alone and form != "iges-surfaces":
+        _require_centred(given)
     whole = list(given) if alone else both_sides(given)
     if form == "iges-surfaces":
         return _bare(whole, unit, alone)
@@ -170,6 +175,14 @@ def _require_outward(surfaces: Sequence[SplineSurface]) -> None:
     if sum(map(breadth_flux, surfaces)) < 0.0:
         what, remedy = "normals point into the hull", "turn u or v of all surfaces"
         raise BadInputError(what, _WHERE, remedy)
+
+
+def _require_centred(surfaces: Sequence[SplineSurface]) -> None:
+    """Refuse a half that does not reach its image."""
+    off, name = off_centre(surfaces)
+    if off > _CENTRED:
+        what = f"no side lies on the centre plane: the nearest, of {name!r}, is {1e3 * off:.4g} mm"
+        raise BadInputError(f"{what} off it", _WHERE, "write the half alone, or close the keel")
 
 
 def _bare(surfaces: list[SplineSurface], unit: str, half: bool) -> tuple[bytes, CadReport]:

@@ -1,22 +1,34 @@
-"""A block laid out on its rectangle, bays beyond its sides on rectangles beside it."""
+"""A block laid out on its rectangle, bays beyond its sides on rectangles beside it.
+
+Parameters of nodes are rounded to a grid of about a centimetre: the fit corrects them anyway, and
+where a line has moved by less, far from an edit, they stay as they are to the bit. Along a border
+that follows another block they are those of that block, in proportion.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.vectors import dot
 from assoc_hull.surface.blocks.harmonic import laid_out
 from assoc_hull.surface.blocks.plan import BlockPlan
 from assoc_hull.surface.blocks.quad import SIDES, Quad
+from assoc_hull.surface.blocks.region import Chord
 
 __all__ = ["BlockMap", "Laid", "block_map"]
 
 _GIRTH = 40
 """Parts of a girth at which the distance of neighbouring sections is taken."""
+_GRID, _COARSE = 2.0**-15, 2.0**-11
+"""Parts of the ship's length to which nodes and the sides of rectangles are rounded."""
+
+_TOUCHING = {"u0": "u1", "u1": "u0", "v0": "v1", "v1": "v0"}
 
 
 @attrs.frozen(eq=False)
@@ -66,75 +78,146 @@ class BlockMap:
         return np.stack([boxes[:, :, 0].min(axis=0), boxes[:, :, 1].max(axis=0)], axis=1)
 
 
-def block_map(plan: BlockPlan) -> BlockMap:
+@attrs.frozen(eq=False)
+class _Sheet:
+    """What is laid out so far: parameters of nodes, nan where there are none yet, (n, 2), m."""
+
+    uv: FloatArray
+    grid: float
+
+    def rounded(self, value: FloatArray) -> FloatArray:
+        return np.asarray(np.round(value / self.grid) * self.grid)
+
+
+def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -> BlockMap:
     """Lay a block and its bays out.
 
     Parameters
     ----------
     plan : BlockPlan
         The block.
+    length : float, m
+        Of the ship.
+    masters : mapping of str to BlockMap
+        The blocks it follows, laid out, by their names.
     """
-    core = _with_rails(plan) if plan.rails else _laid(plan.core, _box(plan.core))
-    bays = {name: _beside(core, name, quad) for name, quad in plan.bays.items() if " " not in name}
-    for name, quad in plan.bays.items():
-        if " " in name:
-            across, along = (bays.get(part) for part in name.split())
-            if across is not None and along is not None:
-                bays[name] = _laid(quad, np.stack([across.box[0], along.box[1]]))
+    count = len(plan.core.region.graph.place)
+    sheet = _Sheet(np.full((count, 2), np.nan), _GRID * length)
+    box = _railed(plan, sheet) if plan.rails else _box(plan.core, sheet)
+    for seam in plan.seams:
+        _follow(plan.core, seam.side, masters[seam.master].core, box, sheet)
+    core = _laid(plan.core, box, sheet)
+    if plan.rails:
+        core = _paced(core, plan.rails, sheet)
+    bays = dict[str, Laid]()
+    for name in sorted(plan.bays, key=len):
+        if " " not in name:
+            bays[name] = _laid(plan.bays[name], _beside(core, name, plan.bays[name], sheet), sheet)
+        elif all(part in bays for part in name.split()):
+            across, along = (bays[part] for part in name.split())
+            corner = np.stack([across.box[0], along.box[1]])
+            bays[name] = _laid(plan.bays[name], corner, sheet)
     return BlockMap(plan, core, bays)
 
 
-def _box(quad: Quad) -> FloatArray:
-    u, v = quad.extent()
-    return np.array([[0.0, u], [0.0, v]])
+def _box(quad: Quad, sheet: _Sheet) -> FloatArray:
+    """Give the rectangle of a quad: the mean lengths of opposite sides, roughly."""
+    coarse = sheet.grid * (_COARSE / _GRID)
+    size = [max(round(each / coarse), 1) * coarse for each in quad.extent()]
+    return np.array([[0.0, size[0]], [0.0, size[1]]])
 
 
-def _laid(quad: Quad, box: FloatArray, inside: Mapping[int, FloatArray] | None = None) -> Laid:
-    """Lay a quad out, sides by their length; nodes inside it may be given."""
-    uv = np.full((len(quad.region.graph.place), 2), np.nan)
-    for node, place in (inside or {}).items():
-        uv[node] = place
+def _follow(quad: Quad, side: str, master: Laid, box: FloatArray, sheet: _Sheet) -> None:
+    """Give the nodes of a side the parameters of its master, in proportion."""
+    nodes, axis = quad.nodes(side), _axis(side)
+    others = [each for each in SIDES if np.isin(nodes, master.quad.nodes(each)).all()]
+    if not others:
+        raise BadInputError(
+            "a border bends round a corner of the block that it follows",
+            "in the blocks of a surface", "look for a profile that turns nowhere else",
+        )  # fmt: skip
+    other = others[0]
+    at = master.uv[nodes, _axis(other)]
+    low, high = box[axis]
+    sheet.uv[nodes, axis] = low + (high - low) * ((at - at[0]) / (at[-1] - at[0]))
+    sheet.uv[nodes, 1 - axis] = box[1 - axis, int(side[1])]
+
+
+def _axis(side: str) -> int:
+    """Tell which parameter runs along a side."""
+    return 0 if side[0] == "v" else 1
+
+
+def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> Laid:
+    """Lay a quad out: sides by their length, but for nodes that lie somewhere already."""
+    uv = np.full_like(sheet.uv, np.nan)
+    inner = np.unique(quad.region.graph.edge[quad.region.edges])
+    uv[inner] = sheet.uv[inner]
     for side in SIDES:
-        axis = 0 if side[0] == "v" else 1
-        along = quad.along(side)
-        nodes = quad.nodes(side)
+        nodes, along, axis = quad.nodes(side), quad.along(side), _axis(side)
         low, high = box[axis]
-        if inside is None or axis == 1:
-            uv[nodes, axis] = low + (high - low) * along / along[-1]
+        even = sheet.rounded(low + (high - low) * along / along[-1])
+        even[0], even[-1] = low, high
+        known = np.isfinite(uv[nodes, axis])
+        uv[nodes, axis] = np.where(known, uv[nodes, axis], even)
         uv[nodes, 1 - axis] = box[1 - axis, int(side[1])]
-    if inside is not None:
-        for side in ("v0", "v1"):
-            _between(quad, side, uv)
-    return Laid(quad, box, laid_out(quad.region, uv))
+    found = laid_out(quad.region, uv)
+    free = inner[~np.isfinite(uv[inner]).all(axis=1)]
+    found[free] = sheet.rounded(found[free])
+    sheet.uv[inner] = found[inner]
+    return Laid(quad, box, found)
 
 
-def _between(quad: Quad, side: str, uv: FloatArray) -> None:
-    """Give the nodes of a side between sections their u, by length."""
-    nodes, along = quad.nodes(side), quad.along(side)
-    given = np.isfinite(uv[nodes, 0])
-    uv[nodes, 0] = np.interp(along, along[given], uv[nodes[given], 0])
-
-
-def _with_rails(plan: BlockPlan) -> Laid:
-    """Lay a body out: u by the mean distance of sections, v by parts of the mean girth."""
+def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
+    """Lay the sections of a body: u by their mean distance, v by parts of the mean girth."""
     quad = plan.core
     graph = quad.region.graph
     halves = [quad.side("u0"), *(rail.half for rail in plan.rails), quad.side("u1")]
     lines = [_even(quad, half) for half in halves]
-    step = [float(np.sqrt(dot(b - a, b - a)).mean()) for a, b in zip(lines, lines[1:], strict=False)]
-    u = np.append(0.0, np.cumsum(step))
+    step = [float(np.sqrt(dot(b - a, b - a)).mean()) for a, b in itertools.pairwise(lines)]
     length = [np.append(0.0, np.cumsum(graph.length[half >> 1])) for half in halves]
     girth = np.array([each[-1] for each in length])
-    v = float((0.5 * (girth[1:] + girth[:-1]) * step).sum() / u[-1])
-    inside = {}
+    coarse = sheet.grid * (_COARSE / _GRID)
+    u = np.append(0.0, np.cumsum(np.maximum(np.round(np.array(step) / coarse), 1.0) * coarse))
+    mean = float((0.5 * (girth[1:] + girth[:-1]) * step).sum() / sum(step))
+    v = max(round(mean / coarse), 1) * coarse
     for i, half in enumerate(halves):
         nodes = np.append(quad.region.begin(half), quad.region.end(half[-1:]))
-        for node, along in zip(nodes.tolist(), length[i].tolist(), strict=True):
-            inside[node] = np.array([u[i], v * along / girth[i]])
-    return _laid(quad, np.array([[0.0, u[-1]], [0.0, v]]), inside)
+        at = sheet.rounded(v * length[i] / girth[i])
+        at[0], at[-1] = 0.0, v
+        sheet.uv[nodes] = np.column_stack([np.full(len(nodes), u[i]), at])
+    for side in ("v0", "v1"):
+        _between(quad, side, sheet)
+    return np.array([[0.0, u[-1]], [0.0, v]])
 
 
-def _even(quad: Quad, half: np.ndarray) -> FloatArray:
+def _paced(found: Laid, rails: Sequence[Chord], sheet: _Sheet) -> Laid:
+    """Let u run in proportion to x between sections: lines along the ship keep an even pace."""
+    graph = found.quad.region.graph
+    nodes = [found.quad.nodes("u0"), found.quad.nodes("u1")]
+    nodes += [np.append(found.quad.region.begin(rail.half), rail.last) for rail in rails]
+    flat = [each for each in nodes if np.ptp(graph.place[each, 0]) == 0.0]
+    pairs = np.unique([[graph.place[each[0], 0], found.uv[each[0], 0]] for each in flat], axis=0)
+    if len(pairs) < 2 or (np.diff(pairs, axis=0) <= 0.0).any():
+        return found
+    x, uv = graph.place[:, 0], found.uv.copy()
+    on = np.unique(graph.edge[found.quad.region.edges])
+    on = on[(x[on] > pairs[0, 0]) & (x[on] < pairs[-1, 0])]
+    at = np.interp(x[on], pairs[:, 0], pairs[:, 1])
+    uv[on, 0] = np.where(np.isin(x[on], pairs[:, 0]), at, sheet.rounded(at))
+    sheet.uv[on] = uv[on]
+    return Laid(found.quad, found.box, uv)
+
+
+def _between(quad: Quad, side: str, sheet: _Sheet) -> None:
+    """Give the nodes of a side between sections their u, by length."""
+    nodes, along = quad.nodes(side), quad.along(side)
+    given = np.isfinite(sheet.uv[nodes, 0])
+    at = np.interp(along, along[given], sheet.uv[nodes[given], 0])
+    sheet.uv[nodes, 0] = np.where(given, sheet.uv[nodes, 0], sheet.rounded(at))
+
+
+def _even(quad: Quad, half: IntArray) -> FloatArray:
     """Give places at equal parts of the length of a chain, (41, 3), m."""
     place = quad.region.path(half)
     step = np.diff(place, axis=0)
@@ -143,18 +226,18 @@ def _even(quad: Quad, half: np.ndarray) -> FloatArray:
     return np.stack([np.interp(wanted, along, c) for c in place.T], axis=-1)
 
 
-def _beside(core: Laid, side: str, quad: Quad) -> Laid:
-    """Lay a bay out beside a side of the block, as wide as the block's own lines go on."""
-    axis = 0 if side[0] == "u" else 1
+def _beside(core: Laid, side: str, quad: Quad, sheet: _Sheet) -> FloatArray:
+    """Give the rectangle of a bay, as wide as the block's own lines would go on."""
+    axis = 1 - _axis(side)
     other = ("v0", "v1") if axis == 0 else ("u0", "u1")
+    coarse = sheet.grid * (_COARSE / _GRID)
     width = 0.5 * sum(float(quad.along(each)[-1]) for each in other) * _pace(core, side, axis)
+    width = max(round(width / coarse), 1) * coarse
     box = np.empty((2, 2))
     edge = core.box[axis, int(side[1])]
     box[axis] = (edge - width, edge) if side[1] == "0" else (edge, edge + width)
-    touching = {"u0": "u1", "u1": "u0", "v0": "v1", "v1": "v0"}[side]
-    ends = core.uv[quad.nodes(touching)[[0, -1]], 1 - axis]
-    box[1 - axis] = ends
-    return _laid(quad, box)
+    box[1 - axis] = core.uv[quad.nodes(_TOUCHING[side])[[0, -1]], 1 - axis]
+    return box
 
 
 def _pace(core: Laid, side: str, axis: int) -> float:

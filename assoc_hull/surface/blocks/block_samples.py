@@ -96,6 +96,8 @@ def _edges(found: BlockMap) -> _Edges:
             held[edge, 0 if side[0] == "u" else 1] = True
             border[edge] = True
     held[cut & ~outer] = True
+    for rail in found.plan.rails:
+        held[rail.half >> 1, 0] = True
     chosen = np.flatnonzero(seen)
     bound = _follows(found)
     held[bound] = True

@@ -21,11 +21,12 @@ _WINDOW = 0.02
 _TIP, _SHARP = 0.002, 40.0
 """A border that turns by so many degrees over so small a part of the ship has a corner."""
 _EASED = 10.0
-"""Over the window of smooth borders it may turn by so many degrees less."""
+"""Over a larger part it may turn by so many degrees less."""
 _ROUND = 1.0
 """A smooth border has none where it turns by fewer degrees over the window."""
-_APART = 0.02
-"""Corners lie no nearer to one another than this part of the border."""
+_APART, _BESIDE = 0.02, 0.003
+"""Corners lie no nearer to one another than this part of the border, nor, than the other, to where
+the hull runs on."""
 
 
 def four_corners(
@@ -48,7 +49,7 @@ def four_corners(
     second : sequence of int
         Nodes that are if there are too few sharp ones.
     never : sequence of int
-        Nodes that are none: the hull runs on there.
+        Nodes that are none, nor any near them: the hull runs on there.
 
     Returns
     -------
@@ -59,45 +60,51 @@ def four_corners(
     """
     found = course(region)
     node = found.node.tolist()
-    turn = turns(found, found.start[:-1], min(_WINDOW * length, 0.1 * found.length))
-    sharp = turns(found, found.start[:-1], _TIP * length)
-    rank = np.array([
-        3 if each in first else 1 if each in second else 2 if sharp[i] >= _SHARP <= turn[i] + _EASED else 0
-        for i, each in enumerate(node)
-    ])  # fmt: skip
-    chosen = list[int]()
-    rank[np.isin(node, never)] = -1
-    order = np.lexsort((np.arange(len(node)), -turn, -rank))
-    for i in order[rank[order] > 0].tolist():
-        if len(chosen) < 4 and (rank[i] == 3 or _apart(found, i, chosen)):
-            chosen.append(i)
-    chosen += _smooth(found, np.where(rank == 0, turn, 0.0), chosen)
+    normal = region.graph.normal[found.node]
+    window = min(_WINDOW * length, 0.1 * found.length)
+    turn = turns(found, found.start[:-1], window, normal)
+    sharp = turns(found, found.start[:-1], _TIP * length, normal)
+    rank = np.where((sharp >= _SHARP) & (turn >= _SHARP - _EASED), 2, 0)
+    rank[np.isin(node, second)] = 1
+    rank[[not _apart(found, i, _at(node, never), _BESIDE) for i in range(len(node))]] = -1
+    rank[np.isin(node, first)] = 3
+    chosen = np.flatnonzero(rank == 3).tolist()
+    for level in (2, 1, 0):
+        chosen += _best(found, turn, np.flatnonzero(rank == level).tolist(), chosen)
     chosen.sort()
     return tuple(node[i] for i in chosen), tuple(float(turn[i]) for i in chosen)
 
 
-def _apart(found: Course, i: int, chosen: Sequence[int]) -> bool:
-    """Tell whether a node is far enough round the border from others."""
+def _at(node: Sequence[int], which: Sequence[int]) -> list[int]:
+    return [i for i, each in enumerate(node) if each in which]
+
+
+def _apart(found: Course, i: int, chosen: Sequence[int], part: float = _APART) -> bool:
+    """Tell whether a node is a part of the border away from others."""
     gaps = [abs(float(found.start[i] - found.start[j])) for j in chosen]
-    return all(min(gap, found.length - gap) >= _APART * found.length for gap in gaps)
+    return all(min(gap, found.length - gap) >= part * found.length for gap in gaps)
 
 
-def _smooth(found: Course, turn: FloatArray, chosen: Sequence[int]) -> list[int]:
-    """Choose the corners that a smooth border lacks: it turns there, and sides stay in proportion."""
+def _best(
+    found: Course, turn: FloatArray, of: Sequence[int], chosen: Sequence[int]
+) -> list[int]:
+    """Choose from nodes the corners that lack: they turn most, and sides stay in proportion."""
     lack = 4 - len(chosen)
-    good = [
-        i
-        for i in range(len(turn))
-        if turn[i] >= _ROUND and i not in chosen and _apart(found, i, chosen)
-    ]
-    best, value = (), 0.0
+    good = [i for i in of if turn[i] >= _ROUND and _apart(found, i, chosen)]
+    if len(good) <= lack:
+        return good
+    best, value = tuple[int, ...](), 0.0
     for extra in itertools.combinations(good, lack):
-        if lack > 1 and not all(_apart(found, i, [j for j in extra if j != i]) for i in extra):
-            continue
-        where = np.sort(found.start[[*chosen, *extra]])
-        side = np.diff(np.append(where, where[0] + found.length))
-        shape = min(side[0], side[2]) * min(side[1], side[3]) / (max(side[0], side[2]) * max(side[1], side[3]))
-        worth = float(np.prod(turn[list(extra)]) * shape)
-        if worth > value:
+        apart = (_apart(found, i, extra[:k]) for k, i in enumerate(extra))
+        worth = float(np.prod(turn[list(extra)])) * _shape(found, [*chosen, *extra])
+        if worth > value and all(apart):
             best, value = extra, worth
     return list(best)
+
+
+def _shape(found: Course, corner: Sequence[int]) -> float:
+    """Give how alike opposite sides are, 1 for a rectangle."""
+    where = np.sort(found.start[list(corner)])
+    side = np.diff(np.append(where, where[0] + found.length))
+    pairs = ((side[0], side[2]), (side[1], side[3]))
+    return float(np.prod([min(pair) / max(pair) for pair in pairs]))

@@ -10,9 +10,11 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.folds import Elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.fit_options import FitOptions
-from assoc_hull.surface.net_surface import Border, Residuals
+from assoc_hull.surface.net_records import Border, Residuals
 
-__all__ = ["doubts_of_border", "doubts_of_fit", "doubts_of_shape", "shown_place"]
+__all__ = [
+    "doubts_of_border", "doubts_of_fit", "doubts_of_penalty", "doubts_of_shape", "shown_place",
+]  # fmt: skip
 
 _KNUCKLE = 5.0
 """So many times as large as p95 the p99 is where a bend was smoothed that is a knuckle."""
@@ -67,7 +69,19 @@ def _beside_centre(found: Residuals, options: FitOptions) -> bool:
     return bool(abs(found.place[1]) < _BESIDE * options.length)
 
 
-def doubts_of_shape(surface: SplineSurface, shape: Elements) -> Iterator[str]:
+def doubts_of_penalty(used: float, usual: float) -> Iterator[str]:
+    """Say that a surface was made stiffer than asked for, as it was folded.
+
+    Parameters
+    ----------
+    used, usual : float, m3
+        The factors of the penalty.
+    """
+    if used > usual:
+        yield f"stiffened: the penalty is {used / usual:g} times as large, as it was folded without"
+
+
+def doubts_of_shape(surface: SplineSurface, shape: Elements, folded: FloatArray) -> Iterator[str]:
     """Say where a surface is folded, or almost has no normal.
 
     Parameters
@@ -76,10 +90,12 @@ def doubts_of_shape(surface: SplineSurface, shape: Elements) -> Iterator[str]:
         The surface.
     shape : Elements
         Its normals.
+    folded : (f, 2), m
+        Places of the grid at which it is folded.
     """
-    if len(shape.folded):
-        place = surface.at(*shape.folded[0])
-        yield f"folded at {shown_place(place)} and {len(shape.folded) - 1} other places of the grid"
+    if len(folded):
+        where = shown_place(surface.at(*folded[0]))
+        yield f"folded: the normal turns over at {len(folded)} place(s) of the grid, as at {where}"
     for corner in shape.singular:
         yield f"singular corner: the sides are tangent at {shown_place(surface.at(*corner))}"
     if shape.least < _LEAST and shape.place not in shape.singular:

@@ -9,6 +9,7 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.fit import Fit
+from assoc_hull.geometry.fitting.folds import Elements, elements
 from assoc_hull.geometry.fitting.foot_points import foot_points
 from assoc_hull.geometry.fitting.held_controls import HeldControls
 from assoc_hull.geometry.fitting.joints import joined, joint_at
@@ -18,13 +19,19 @@ from assoc_hull.geometry.fitting.strips import Strip, strip_of
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
 from assoc_hull.surface.blocks.spans import Breaks, breaks_of
-from assoc_hull.surface.net_surface import Border
+from assoc_hull.surface.net_records import Border
 
-__all__ = ["Made", "fitted", "held_on_centre", "joined_to_masters"]
+__all__ = ["Made", "folded_places", "made_without_folds"]
 
 _PASSES = 4
 _STEPS = 8
-_ENOUGH = 0.75
+_STIFFER = (1.0, 3.0, 9.0, 27.0)
+"""Penalties that are tried while a surface is folded, over the one asked for."""
+
+_CORNER = 0.05
+"""So far from a singular corner, as a part of the sides, is beside it."""
+
+_ENOUGH = 0.95
 """With 95 % of the residuals below this part of the limit a fit has knots enough: more of them would
 follow the lines more closely, and what is between less."""
 
@@ -60,7 +67,64 @@ class Made:
         return surface.knots_u[3:-3], surface.knots_v[3:-3]
 
 
-def fitted(block: Block, options: FitOptions, known: Mapping[str, Breaks]) -> Fit:
+def made_without_folds(
+    block: Block,
+    options: FitOptions,
+    made: Mapping[str, Made],
+    ends: tuple[FloatArray, FloatArray],
+) -> Made:
+    """Fit and join a block; one that is folded is made stiffer until it is not.
+
+    Parameters
+    ----------
+    block : Block
+        The block.
+    options : FitOptions
+        Penalty and tolerances.
+    made : mapping of str to Made
+        Its masters.
+    ends : (n,), (n,), m
+        Where borders of other blocks end on its sides, in u and in v.
+
+    Returns
+    -------
+    Made
+        The first that is not folded; as asked for, if all are.
+    """
+    known = {name: made[name].breaks for name in block.masters}
+    first = None
+    for stiffer in _STIFFER:
+        fit = fitted(block, options, known, ends, stiffer)
+        found = joined_to_masters(block, fit, made)
+        if not len(folded_places(elements(found.part.surface))):
+            return found
+        first = first or found
+    assert first is not None
+    return first
+
+
+def folded_places(shape: Elements) -> FloatArray:
+    """Give the places at which a surface is folded, those beside singular corners left out.
+
+    There the normal itself goes to nil, and its direction on a grid tells nothing.
+    """
+    found = shape.folded
+    for corner in shape.singular:
+        beside = [
+            np.abs(found[:, axis] - corner[axis]) <= _CORNER * np.ptp(each)
+            for axis, each in enumerate((shape.u, shape.v))
+        ]
+        found = found[~(beside[0] & beside[1])]
+    return found
+
+
+def fitted(
+    block: Block,
+    options: FitOptions,
+    known: Mapping[str, Breaks],
+    ends: tuple[FloatArray, FloatArray],
+    stiffer: float = 1.0,
+) -> Fit:
     """Fit a surface to the points of a block, with its overlap.
 
     Parameters
@@ -71,14 +135,18 @@ def fitted(block: Block, options: FitOptions, known: Mapping[str, Breaks]) -> Fi
         Penalty and tolerances.
     known : mapping of str to (breaks in u, breaks in v)
         Where spans of its masters meet.
+    ends : (n,), (n,), m
+        Where borders of other blocks end on its sides, in u and in v.
+    stiffer : float
+        How many times the penalty is that of the options.
     """
-    breaks = breaks_of(block, options.girth_span, options.length, known)
+    breaks = breaks_of(block, options.girth_span, options.length, known, ends)
     limit = options.limit(block.kind)
     return fit_refined(
         block.name,
         block.samples,
         *breaks,
-        options.smoothing_of(block.kind),
+        stiffer * options.smoothing_of(block.kind),
         limit,
         held=lambda u, v: held_on_centre(block, u, v),
         passes=_PASSES,
@@ -138,9 +206,7 @@ def joined_to_masters(block: Block, fit: Fit, made: Mapping[str, Made]) -> Made:
         joint = joint_at(side, strips[side], fit.surface, part.surface)
         names, kinds = (master.name, block.name), (master.kind, block.kind)
         borders.append(
-            Border(
-                names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds)
-            )
+            Border(names, joint.gap, joint.joined_gap, joint.angle, joint.place, angle_limit(kinds))
         )
     return Made(block, fit, part, tuple(borders))
 

@@ -16,7 +16,7 @@ import attrs
 
 from assoc_hull.arguments import not_negative, positive
 
-__all__ = ["FitOptions", "angle_limit", "fit_options"]
+__all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options"]
 
 _LENGTH = 300.0
 SMOOTHING = 2.4e-10
@@ -25,6 +25,9 @@ SMOOTHING = 2.4e-10
 _BODY, _ENDS, _MEDIAN = 0.008, 0.015, 0.0015
 _END_SMOOTHING = 1.0 / 3.0
 """The penalty of bow and stern blocks, as a part of that of the body: their radii are smaller."""
+
+CUTOFF = 1e-7
+"""Points and control points that move by less, m, count as unmoved."""
 
 _BODY_ANGLE, _END_ANGLE = 0.1, 0.5
 
@@ -42,7 +45,8 @@ class FitOptions:
     body_limit : float, m
         What 95 % of the residuals of the body should keep; bulb and stern have 15/8 of it.
     cutoff : float, m
-        Control points that move by less keep their place when a surface follows an edit.
+        Points of lines that move by less leave their block as it is when a surface follows an
+        edit; control points that do keep their place.
     """
 
     length: float
@@ -88,7 +92,7 @@ def fit_options(
     length: float,
     smoothing: float | None = None,
     tolerance: float | None = None,
-    cutoff: float = 0.0,
+    cutoff: float = CUTOFF,
 ) -> FitOptions:
     """Take options, or what is usual for a ship.
 

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import attrs
 import numpy as np
 
 from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.geometry.fitting.folds import elements
 from assoc_hull.model.state import HullState
-from assoc_hull.surface.blocks.block import Block
-from assoc_hull.surface.blocks.layout import lay_out
-from assoc_hull.surface.blocks.doubts import doubts_of_border, doubts_of_fit, doubts_of_shape
-from assoc_hull.surface.blocks.fit_block import Made, fitted, joined_to_masters
+from assoc_hull.surface.blocks.doubts import (
+    doubts_of_border,
+    doubts_of_fit,
+    doubts_of_penalty,
+    doubts_of_shape,
+)
+from assoc_hull.surface.blocks.fit_block import Made, folded_places
 from assoc_hull.surface.blocks.fit_options import FitOptions
+from assoc_hull.surface.blocks.follow import Earlier, Followed, made_of
+from assoc_hull.surface.blocks.layout import lay_out
 from assoc_hull.surface.blocks.residuals import Misses, misses_of, residuals_of
-from assoc_hull.surface.net_surface import FittedBlock, NetSurface, Residuals
+from assoc_hull.surface.net_records import Residuals
+from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
 __all__ = ["surface_of_net"]
 
@@ -24,7 +31,10 @@ _WHERE = "in surface"
 
 
 def surface_of_net(
-    state: HullState, options: FitOptions, leave_out: Sequence[str] = ()
+    state: HullState,
+    options: FitOptions,
+    leave_out: Sequence[str] = (),
+    previous: NetSurface | None = None,
 ) -> NetSurface:
     """Fit a surface to the lines of a hull.
 
@@ -36,6 +46,8 @@ def surface_of_net(
         Penalty and tolerances.
     leave_out : sequence of str
         Names of lines that are not used at all, but measured.
+    previous : NetSurface, optional
+        An earlier surface; of use if it was made with the same options and lines left out.
 
     Raises
     ------
@@ -47,7 +59,8 @@ def surface_of_net(
     net = gather(state)
     omitted = _left_out(net, leave_out)
     blocks = lay_out(net, options.length, omitted)
-    made = _made(blocks, options)
+    followed = made_of(blocks, options, net.name, _earlier(previous, options, leave_out))
+    made = _forward(followed)
     surfaces = [each.part.surface for each in made]
     misses = misses_of(surfaces, net, omitted, options.point_step)
     found = tuple(
@@ -55,11 +68,22 @@ def surface_of_net(
     )
     borders = tuple(border for each in made for border in each.borders)
     notes = tuple(note for border in borders for note in doubts_of_border(border))
-    names = tuple(block.name for block in found)
+    refitted = tuple(block.name for block in found if block.name in followed.refitted)
     return NetSurface(
-        state.particulars, net, found, borders, tuple(leave_out), names, notes,
+        state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
         _of_all(made, misses, net),
     )  # fmt: skip
+
+
+def _earlier(
+    previous: NetSurface | None, options: FitOptions, leave_out: Sequence[str]
+) -> Earlier | None:
+    """Give what may be taken from an earlier surface: nothing if other things were asked of it."""
+    if previous is None or previous.left_out != tuple(leave_out):
+        return None
+    if attrs.evolve(previous.options, cutoff=options.cutoff) != options:
+        return None
+    return Earlier({block.name: block.made for block in previous.blocks}, previous.net.name)
 
 
 def _left_out(net: Net, names: Sequence[str]) -> np.typing.NDArray[np.bool_]:
@@ -77,15 +101,14 @@ def _left_out(net: Net, names: Sequence[str]) -> np.typing.NDArray[np.bool_]:
     return found
 
 
-def _made(blocks: Sequence[Block], options: FitOptions) -> tuple[Made, ...]:
-    """Fit and join blocks, which come masters first; give them from aft forward."""
-    made: dict[str, Made] = {}
-    for block in blocks:
-        known = {name: each.breaks for name, each in made.items()}
-        fit = fitted(block, options, known)
-        made[block.name] = joined_to_masters(block, fit, made)
-    forward = sorted(blocks, key=lambda each: (float(each.corners[:, 0].mean()), each.name))
-    return tuple(made[block.name] for block in forward)
+def _forward(followed: Followed) -> tuple[Made, ...]:
+    """Give blocks from aft forward."""
+    return tuple(
+        sorted(
+            followed.made.values(),
+            key=lambda each: (float(each.block.corners[:, 0].mean()), each.block.name),
+        )
+    )
 
 
 def _published(
@@ -95,19 +118,18 @@ def _published(
     block, part = made.block, made.part
     surface, samples = part.surface, part.samples
     shape = elements(surface)
+    folded = folded_places(shape)
     on_lines = residuals_of("fitted", part.residual, samples.point, samples.line, net.name)
     others = _left_out_of(misses, number, net)
     notes = (
         *block.notes,
+        *doubts_of_penalty(part.smoothing, options.smoothing_of(block.kind)),
         *doubts_of_fit(block.kind, on_lines, options),
-        *doubts_of_shape(surface, shape),
+        *doubts_of_shape(surface, shape, folded),
     )
-    spans = tuple(len(np.unique(knots)) - 1 for knots in (surface.knots_u, surface.knots_v))
-    return FittedBlock(
-        block.name, block.kind, surface, made.fit.surface, made.block, made.fit.samples, (on_lines, *others),
-        shape.least, shape.singular, (spans[0], spans[1]), made.fit.smoothing,
-        options.limit(block.kind), notes,
-    )  # fmt: skip
+    limit = options.limit(block.kind)
+    residuals = (on_lines, *others)
+    return FittedBlock(made, residuals, shape.least, shape.singular, limit, notes)
 
 
 def _of_all(made: Sequence[Made], misses: Misses, net: Net) -> tuple[Residuals, ...]:

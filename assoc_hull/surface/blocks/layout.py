@@ -60,9 +60,10 @@ def lay_out(
     ['body', 'stern counter']
     """
     found = cells(with_kinks(net_graph(net, leave_out=leave_out)))
-    maps = [block_map(plan) for plan in block_plans(found, length)]
-    by_name = {each.plan.name: each for each in maps}
-    return tuple(_block(each, by_name, length) for each in maps)
+    maps = dict[str, BlockMap]()
+    for plan in block_plans(found, length):
+        maps[plan.name] = block_map(plan, length, maps)
+    return tuple(_block(each, maps, length) for each in maps.values())
 
 
 def _block(found: BlockMap, every: dict[str, BlockMap], length: float) -> Block:

@@ -20,6 +20,8 @@ WINDOW = 0.012
 LEAST = 60.0
 """From so many degrees on it is a corner: the radius is below 1.2 % of the length."""
 _STEPS = 16
+_AWAY = 0.3
+"""What turns about an axis this far against the normal turns outward; less is undecided."""
 
 
 @attrs.frozen(eq=False)
@@ -90,8 +92,10 @@ def course(region: Region) -> Course:
     return Course(region.begin(loop), along[::_STEPS].copy(), along, place, centre)
 
 
-def turns(found: Course, along: FloatArray, window: float) -> FloatArray:
-    """Give by how much a border turns at places, (k,), degrees, never negative.
+def turns(
+    found: Course, along: FloatArray, window: float, normal: FloatArray | None = None
+) -> FloatArray:
+    """Give by how much a border turns at places, (k,), degrees.
 
     Parameters
     ----------
@@ -101,12 +105,17 @@ def turns(found: Course, along: FloatArray, window: float) -> FloatArray:
         How far round it.
     window : float, m
         Chords of half of it, before and behind, are compared.
+    normal : (k, 3), optional
+        Outward normals: where the border turns away from what it goes round, it counts as nil.
     """
     here = found.at(along)
     before, behind = here - found.at(along - 0.5 * window), found.at(along + 0.5 * window) - here
     sine = np.cross(before, behind)
-    angle: FloatArray = np.arctan2(np.sqrt(dot(sine, sine)), dot(before, behind))
-    return np.degrees(angle)
+    size = np.sqrt(dot(sine, sine))
+    angle: FloatArray = np.degrees(np.arctan2(size, dot(before, behind)))
+    if normal is not None:
+        angle = np.where(dot(sine, normal) < -_AWAY * size, 0.0, angle)
+    return angle
 
 
 def bends_inward(found: Course, length: float, least: float = LEAST) -> tuple[Bend, ...]:

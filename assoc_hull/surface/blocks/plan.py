@@ -167,7 +167,7 @@ def _parted_end(whole: Region, length: float, end: EndCut, region: Region) -> li
         parts[0], length, [section.first, line.first], [line.last], names[0], aft
     )
     lower, turn_lower = _quad(
-        parts[1], length, [line.first, section.last], [line.last], names[1], aft
+        parts[1], length, [line.first, section.last, line.last], (), names[1], aft
     )
     carried = [None if strip is None else _carried(strip, each) for each in end.along]
     bays = [dict[str, Quad](), dict[str, Quad]()]

@@ -18,7 +18,7 @@ from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.fitting.foot_points import foot_points
 from assoc_hull.geometry.patches.knots import limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.net_surface import Residuals
+from assoc_hull.surface.net_records import Residuals
 
 __all__ = ["Misses", "misses_of", "residuals_of"]
 

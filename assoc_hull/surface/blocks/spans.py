@@ -5,7 +5,8 @@ Along a border a block takes the breaks of its master, so that both have the sam
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.breaks import subdivided
 from assoc_hull.surface.blocks.block import Block, Stretch
 
-__all__ = ["Breaks", "breaks_of", "master_part"]
+__all__ = ["Breaks", "breaks_of", "ends_on", "master_part"]
 
 Breaks = tuple[FloatArray, FloatArray]
 
@@ -32,13 +33,23 @@ _FEWEST = 20
 _END_SPAN = 0.6
 """How much shorter spans of bow and stern are."""
 
+_CLOSE = 0.4
+"""Breaks nearer to the end of a border than this part of their spans give way to it."""
+
+_GRID = 2.0**-15
+"""Breaks are rounded to about this part of the length of the ship."""
+
 _SAME = 1e-9
 _ALONG = {"u0": 1, "u1": 1, "v0": 0, "v1": 0}
 """The parameter that runs along each side: 0 for u, 1 for v."""
 
 
 def breaks_of(
-    block: Block, girth_span: float, length: float, known: Mapping[str, Breaks]
+    block: Block,
+    girth_span: float,
+    length: float,
+    known: Mapping[str, Breaks],
+    ends: tuple[FloatArray, FloatArray],
 ) -> Breaks:
     """Give where spans of a block meet, over all of its reach.
 
@@ -52,6 +63,8 @@ def breaks_of(
         Of the ship.
     known : mapping of str to (breaks in u, breaks in v)
         Those of its masters.
+    ends : (n,), (n,), m
+        Where borders of other blocks end on its sides, in u and in v.
     """
     (u0, u1), (v0, v1) = block.reach.tolist()
     if block.kind == "body":
@@ -61,8 +74,41 @@ def breaks_of(
     else:
         along = _evenly(u0, u1, _END_SPAN * girth_span)
         girth_span *= _END_SPAN
-    across = _evenly(v0, v1, girth_span)
-    return _with_masters(block, 0, along, known), _with_masters(block, 1, across, known)
+    own = along, _evenly(v0, v1, girth_span)
+    grid = 2.0 ** round(math.log2(_GRID * length))
+    rounded = (_with_ends(_on_grid(each, grid), at) for each, at in zip(own, ends, strict=True))
+    first, second = rounded
+    return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
+
+
+def ends_on(block: Block, others: Iterable[Block]) -> tuple[FloatArray, FloatArray]:
+    """Give where borders of other blocks end within the sides of a block, in u and in v, m."""
+    found: tuple[set[float], set[float]] = set(), set()
+    for other in others:
+        for stretches in other.sides.values():
+            for each in stretches:
+                if each.master == block.name:
+                    found[_ALONG[each.master_side]].update((each.master_low, each.master_high))
+    inner = [
+        sorted(at for at in places if low + _SAME < at < high - _SAME)
+        for places, (low, high) in zip(found, block.reach.tolist(), strict=True)
+    ]
+    return np.array(inner[0]), np.array(inner[1])
+
+
+def _on_grid(places: FloatArray, grid: float) -> FloatArray:
+    """Round places within to a grid: small changes of lengths shall not move all knots."""
+    found = np.round(places[1:-1] / grid) * grid
+    return np.concatenate([places[:1], found, places[-1:]])
+
+
+def _with_ends(places: FloatArray, ends: FloatArray) -> FloatArray:
+    """Put places in where borders end; those within that are near to one give way."""
+    spans = np.minimum(np.diff(places, prepend=-np.inf), np.diff(places, append=np.inf))
+    kept = np.ones(len(places), np.bool_)
+    for end in ends.tolist():
+        kept[1:-1] &= (np.abs(places - end) > _CLOSE * spans)[1:-1]
+    return np.sort(np.concatenate([places[kept], ends]))
 
 
 def _along_ship(places: FloatArray, length: float, least: float) -> FloatArray:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.vectors import dot
@@ -56,19 +57,29 @@ class FilledCells:
         return np.asarray(found)
 
     def triangles(self) -> tuple[IntArray, IntArray]:
-        """Cut the elements along their shorter diagonals; give the triangles and their cells."""
+        """Cut the elements along diagonals; give the triangles and their cells.
+
+        The shorter one is taken, but none from edge to edge of a cell: beside a node of two edges
+        both cells would have it.
+        """
         a, b, c, d = self.quad.T
         one, other = (self.xyz[p] - self.xyz[q] for p, q in ((a, c), (b, d)))
-        # A triangle has no diagonal between its equal corners.
-        first = (dot(one, one) <= dot(other, other)) | (a == b) | (c == d)
-        first &= ~((b == c) | (d == a)) | (a == b) | (c == d)
-        cut = np.where(
-            first[:, None, None],
-            np.stack([np.column_stack([a, b, c]), np.column_stack([a, c, d])], axis=1),
-            np.stack([np.column_stack([a, b, d]), np.column_stack([b, c, d])], axis=1),
-        ).reshape(-1, 3)
-        real = (cut != np.roll(cut, 1, axis=1)).all(axis=1)
-        return cut[real], self.cell.repeat(2)[real]
+        graph = self.cells.graph
+        inside = self.quad >= len(graph.place) + len(graph.edge) * (self.steps - 1)
+        allowed, allowed_too = inside[:, 0] | inside[:, 2], inside[:, 1] | inside[:, 3]
+        first = np.where(allowed == allowed_too, dot(one, one) <= dot(other, other), allowed)
+        # An element with two equal corners has one diagonal only, from one of these.
+        first |= (a == b) | (c == d)
+        return _cut(self.quad, first, self.cell)
+
+
+def _cut(quad: IntArray, first: NDArray[np.bool_], cell: IntArray) -> tuple[IntArray, IntArray]:
+    """Cut elements from their first corner to their third, or from the second to the fourth."""
+    one = quad[:, [[0, 1, 2], [0, 2, 3]]]
+    other = quad[:, [[0, 1, 3], [1, 2, 3]]]
+    cut = np.where(first[:, None, None], one, other).reshape(-1, 3)
+    real = (cut != np.roll(cut, 1, axis=1)).all(axis=1)
+    return cut[real], cell.repeat(2)[real]
 
 
 def edge_vertices(cells: Cells, steps: int) -> IntArray:

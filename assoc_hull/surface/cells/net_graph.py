@@ -113,7 +113,7 @@ def net_graph(net: Net, *, leave_out: NDArray[np.bool_] | None = None) -> NetGra
     found = _settled(net, find_stops(net, keep))
     edge, node = _numbered(found.edge, len(found.stops.place))
     place = found.stops.place[node >= 0]
-    row_node = np.where(found.stops.row_node >= 0, node[found.stops.row_node], -1)
+    row_node = np.append(node, -1)[found.stops.row_node]
     leave = _directions(found.pieces, place[edge], _size(net) / _SHIP)
     normal = node_normals(place, edge, leave)
     strict = np.flatnonzero(keep & ~net.flat & ~net.knuckle)

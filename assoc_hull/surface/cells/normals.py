@@ -38,6 +38,8 @@ def node_normals(place: FloatArray, edge: IntArray, leave: FloatArray) -> FloatA
         The mean of the neighbours where all lines are tangent to one another, and where some lie
         on one another as seen along the normal of the others: at corners of the hull.
     """
+    if not len(place):
+        return np.empty((0, 3))
     normal, size = _widest(len(place), edge, leave)
     good = size >= _TANGENT
     sign = _one_side(normal, good, edge, leave)

@@ -15,12 +15,16 @@ from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.geometry.vectors import dot
 from assoc_hull.surface.cells.unnoted import unnoted_crossings
 
 __all__ = ["RANK", "Stops", "find_stops", "united", "united_stops"]
 
 _SAME = 1e-5
 """Places on one curve this part of the length of the hull apart are one node."""
+
+_CORNER = 0.9986
+"""A curve that turns at a point by an angle of a smaller cosine (3 degrees) has a corner there."""
 
 RANK = {name: i for i, name in enumerate(("boundary", "sections", "waterlines", "buttocks"))}
 """Where lines pass one another by a gap, the node lies on that of the lowest rank."""
@@ -37,7 +41,7 @@ class Stops:
     t : (s,), m
         Where on them, ascending on each.
     node : (s,) int
-        The node there; on one curve each node once.
+        The node there; on one curve each node once, but where a ring closes.
     place : (n, 3), m
         The nodes: on the curve of lowest rank, where curves pass one another.
     row_node : (k,) int
@@ -131,10 +135,11 @@ def united_stops(net: Net, stops: Stops, pairs: IntArray) -> Stops:
 def _numbered(
     net: Net, rows: IntArray, of_rows: IntArray, found: tuple[IntArray, FloatArray, IntArray]
 ) -> Stops:
-    """Put stops together: each node once on a curve, numbers in the order of the curves."""
+    """Put stops together: no node twice in a row on a curve, numbers in their order."""
     curve, t, node = found
-    once = _first_of(np.column_stack([curve, node]))
-    curve, t, node = curve[once], t[once], node[once]
+    # A ring passes the node at which it closes twice.
+    again = (np.diff(curve, prepend=-1) == 0) & (np.diff(node, prepend=-1) == 0)
+    curve, t, node = curve[~again], t[~again], node[~again]
     numbers, node = _in_order(node)
     row_node = np.full(len(net.meets), -1, np.int64)
     row_node[rows] = numbers[of_rows[: len(rows)]]
@@ -142,35 +147,61 @@ def _numbered(
 
 
 def _crossings(net: Net, keep: NDArray[np.bool_], near: float) -> _Crossings:
-    """Give all that meets: rows of the table, ends of boundary curves, borders of flats."""
+    """Give all that meets: rows, ends without a row, borders of flats; and corners of curves."""
     rows = np.flatnonzero(keep[net.meets].all(axis=1))
     joint, joint_t = _joints(net, keep, near)
     lost = unnoted_crossings(net, keep, np.flatnonzero(keep & (net.flat | net.knuckle)))
+    corner, corner_t = _corners(net, keep)
     return _Crossings(
-        np.concatenate([net.meets[rows], joint, lost.pair]),
-        np.concatenate([net.place[rows], joint_t, lost.t]),
+        np.concatenate([net.meets[rows], joint, lost.pair, corner]),
+        np.concatenate([net.place[rows], joint_t, lost.t, corner_t]),
         rows,
     )
 
 
+def _corners(net: Net, keep: NDArray[np.bool_]) -> tuple[IntArray, FloatArray]:
+    """Give corners of curves as crossings of each with itself, so that no edge has one."""
+    batch = net.batch
+    before, after = (
+        each / np.sqrt(dot(each, each))[:, None] for each in (batch.arrive, batch.leave)
+    )
+    curve = np.repeat(np.arange(batch.count), np.diff(batch.start))
+    bent = (dot(before, after) < _CORNER) & keep[curve]
+    bent[batch.start[:-1]] = bent[batch.start[1:] - 1] = False
+    return np.column_stack([curve, curve])[bent], np.column_stack([batch.knot, batch.knot])[bent]
+
+
 def _joints(net: Net, keep: NDArray[np.bool_], near: float) -> tuple[IntArray, FloatArray]:
-    """Give where ends of curves without a row lie on boundary curves at which the hull ends.
+    """Give where ends of curves without a row lie on other curves, or on their own beginning.
 
     Curves, (j, 2), and parameters on them, (j, 2), m.
     """
     ends = np.array(_bare_ends(net, keep, near), np.int64).reshape(-1, 2)
-    hosts = np.flatnonzero(keep & net.end)
+    hosts = np.flatnonzero(keep)
     own, host = ends.repeat(len(hosts), axis=0), np.tile(hosts, len(ends))
     apart = own[:, 0] != host
     own, host = own[apart], host[apart]
-    if not len(own):
-        return np.empty((0, 2), np.int64), np.empty((0, 2))
     knot = net.batch.start[own[:, 0] + own[:, 1]] - own[:, 1]
     t, _, distance = closest_each(net.batch, host, net.batch.xyz[knot])
     good = distance <= near
-    return np.column_stack([own[:, 0], host])[good], np.column_stack([net.batch.knot[knot], t])[
-        good
-    ]
+    ring = _rings(net, keep, near)
+    length = net.batch.knot[net.batch.start[ring + 1] - 1]
+    return (
+        np.concatenate([np.column_stack([own[:, 0], host])[good], np.column_stack([ring, ring])]),
+        np.concatenate(
+            [
+                np.column_stack([net.batch.knot[knot], t])[good],
+                np.column_stack([0.0 * length, length]),
+            ]
+        ),
+    )
+
+
+def _rings(net: Net, keep: NDArray[np.bool_], near: float) -> IntArray:
+    """Give the curves that end where they begin."""
+    start = net.batch.start
+    away = net.batch.xyz[start[1:] - 1] - net.batch.xyz[start[:-1]]
+    return np.flatnonzero(keep & (np.sqrt(dot(away, away)) <= near))
 
 
 def _bare_ends(net: Net, keep: NDArray[np.bool_], near: float) -> list[tuple[int, int]]:
@@ -201,11 +232,6 @@ def united(count: int, pairs: IntArray) -> IntArray:
     return np.array([top(i) for i in range(count)], np.int64)
 
 
-def _first_of(rows: IntArray) -> IntArray:
-    """Give where each row occurs first, ascending."""
-    return np.sort(np.unique(rows, axis=0, return_index=True)[1])
-
-
 def _in_order(node: IntArray) -> tuple[IntArray, IntArray]:
     """Give nodes new numbers as they occur; and each stop that of its node."""
     old, first, back = np.unique(node, return_index=True, return_inverse=True)
@@ -220,5 +246,5 @@ def _places(net: Net, curve: IntArray, t: FloatArray, node: IntArray) -> FloatAr
     """Give each node the place on the curve of the lowest rank that passes it, (n, 3), m."""
     rank = np.array([RANK.get(each, len(RANK)) for each in net.family], np.int64)[curve]
     order = np.lexsort((curve, rank, node))
-    lowest = order[np.append(True, np.diff(node[order]) != 0)]
+    lowest = order[np.diff(node[order], prepend=-1) != 0]
     return np.array(evaluate(net.batch, curve[lowest], t[lowest]))

@@ -1,0 +1,209 @@
+"""Plates of a hull as a table: names, units, text.
+
+Examples
+--------
+>>> from assoc_hull.surface.hull_plates.hull_plate_table import COLUMNS
+>>> [column.name for column in COLUMNS][:4]
+['name', 'range', 'area', 'length']
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import shown, shown_name
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.surface.hull_plates.hull_plate import HullPlate
+from assoc_hull.surface.hull_plates.hull_seams import HullSeams
+from assoc_hull.surface.hull_plates.shell import Shell
+from assoc_hull.surface.plate_options import PlateOptions
+from assoc_hull.surface.region_result import RegionResult
+from assoc_hull.surface.suggestions import CAVEAT
+
+__all__ = ["COLUMNS", "HullColumn", "HullPlates"]
+
+_NIL = 1e-12
+"""Below this a number is printed as 0."""
+
+
+@attrs.frozen
+class HullColumn:
+    """A column of the table; see `assoc_hull.surface.plate_table.Column`."""
+
+    name: str
+    unit: str
+    head: str
+    style: str
+    value: Callable[[HullPlate], Any]
+
+    def printed(self, plate: HullPlate) -> str:
+        """Write the value: a dash where there is none, 0 for what rounding leaves of nil."""
+        value = self.value(plate)
+        if isinstance(value, float) and abs(value) < _NIL:
+            value = 0.0
+        return "-" if value is None else format(value, self.style)
+
+
+def _share(name: str) -> Callable[[HullPlate], float]:
+    return lambda plate: 100.0 * float(getattr(plate.shares, name))
+
+
+def _own(name: str) -> Callable[[HullPlate], Any]:
+    return lambda plate: getattr(plate, name)
+
+
+COLUMNS: tuple[HullColumn, ...] = (
+    HullColumn("name", "", "plate", "s", _own("name")),
+    HullColumn("range", "", "", "s", lambda plate: str(plate.range)),
+    HullColumn("area", "m2", "area", ".3f", _own("area")),
+    HullColumn("length", "m", "a", ".2f", _own("length")),
+    HullColumn("breadth", "m", "b", ".2f", _own("breadth")),
+    HullColumn("k0", "1/m2", "K0", ".3g", _own("k0")),
+    HullColumn("dk", "1/m2", "dK", ".1e", _own("dk")),
+    HullColumn("convex", "%", "convex", ".1f", _share("convex")),
+    HullColumn("saddle", "%", "saddle", ".1f", _share("saddle")),
+    HullColumn("cylinder", "%", "cyl.", ".1f", _share("cylinder")),
+    HullColumn("flat", "%", "flat", ".1f", _share("flat")),
+    HullColumn("unresolved", "%", "unres.", ".1f", _share("unresolved")),
+    HullColumn("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
+    HullColumn("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
+    HullColumn("kind", "", "class", "s", _own("kind")),
+    HullColumn("roll_axis", "deg", "axis", ".1f", _own("roll_axis")),
+    HullColumn("coherence", "", "coh.", ".2f", _own("coherence")),
+    HullColumn("least_radius", "m", "R least", ".2f", _own("least_radius")),
+    HullColumn("mean_strain", "", "strain", ".1e", _own("mean_strain")),
+    HullColumn("order", "", "", "", _own("order")),
+    HullColumn("rollable", "", "", "", _own("rollable")),
+    HullColumn("largest_radius", "m", "", "", _own("largest_radius")),
+    HullColumn("total_curvature", "", "", "", _own("total_curvature")),
+    HullColumn("largest_strain", "", "", "", _own("largest_strain")),
+    HullColumn("area_error", "m2", "", "", _own("area_error")),
+    HullColumn("suggestion", "", "", "", _own("suggestion")),
+)
+"""The columns, in the order of files; those with a head are printed."""
+
+
+@attrs.frozen(eq=False)
+class HullPlates:
+    """Plates of a hull, one row each, from aft forward and from below upward.
+
+    Attributes
+    ----------
+    rows : tuple of HullPlate
+        The plates.
+    seams : HullSeams
+        What cuts them.
+    options : PlateOptions
+        By what they were told apart.
+    regions : RegionResult
+        The regions of the whole surface, with lines at K0/2 and 2 K0, too.
+    fits : int
+        With how many other fits of the net curvature was compared.
+    shell : Shell
+        The surface as it was cut.
+    """
+
+    rows: tuple[HullPlate, ...]
+    seams: HullSeams
+    options: PlateOptions
+    regions: RegionResult = attrs.field(repr=False)
+    fits: int
+    shell: Shell = attrs.field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[HullPlate]:
+        return iter(self.rows)
+
+    def __getitem__(self, which: int | str) -> HullPlate:
+        """Give a plate by its number from 0, or by its name.
+
+        Raises
+        ------
+        BadInputError, UnknownNameError, WrongTypeError
+            No such number or name.
+        """
+        if isinstance(which, str):
+            for plate in self.rows:
+                if plate.name == which:
+                    return plate
+            raise UnknownNameError(
+                "plate", shown_name(which), tuple(plate.name for plate in self.rows)
+            )
+        where = "in HullPlates"
+        if isinstance(which, bool) or not isinstance(which, int | np.integer):
+            raise WrongTypeError(f"a plate is {shown(which)}", where, "give a number or a name")
+        if not -len(self.rows) <= which < len(self.rows):
+            remedy = f"give 0 to {len(self.rows) - 1}"
+            raise BadInputError(f"there is no plate {shown(which)}", where, remedy)
+        return self.rows[which]
+
+    @property
+    def area(self) -> float:
+        """The area of all plates, m2; of half the hull."""
+        return float(sum(plate.area for plate in self.rows))
+
+    @property
+    def computed(self) -> int:
+        """How many Bezier patches were computed; the others were taken from earlier plates."""
+        return self.regions.computed
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of the plates, each a sentence."""
+        found = [note for plate in self.rows for note in plate.notes]
+        if not self.fits:
+            found.append(
+                "Curvature was compared with no other fit of the net: dK is not known, and what "
+                "is contested is told by the factor of 2 alone."
+            )
+        return tuple(found)
+
+    def column(self, name: str) -> list[Any]:
+        """Give what all plates have in a column.
+
+        Raises
+        ------
+        UnknownNameError
+            No such column.
+        """
+        wanted = shown_name(name)
+        for each in COLUMNS:
+            if each.name == wanted:
+                return [each.value(plate) for plate in self.rows]
+        raise UnknownNameError("column", wanted, tuple(each.name for each in COLUMNS))
+
+    def table(self) -> list[dict[str, Any]]:
+        """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
+        return [{each.name: each.value(plate) for each in COLUMNS} for plate in self.rows]
+
+    def __str__(self) -> str:
+        """Write the table, and what is to be known."""
+        advice = (f"{plate.name}, {plate.range}: {plate.suggestion}." for plate in self.rows)
+        return "\n".join([*self._printed(), "", *advice, CAVEAT, *self._facts(), *self.notes])
+
+    def _printed(self) -> Iterator[str]:
+        """Write the columns that have a head."""
+        seen = [each for each in COLUMNS if each.head]
+        body = [[each.printed(plate) for each in seen] for plate in self.rows]
+        rows = [[each.head for each in seen], [each.unit for each in seen], *body]
+        wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        for row in rows:
+            first, *others = (
+                f"{text:<{width}}" if i == 0 else f"{text:>{width}}"
+                for i, (text, width) in enumerate(zip(row, wide, strict=True))
+            )
+            yield "  ".join([first, *others]).rstrip()
+
+    def _facts(self) -> Iterator[str]:
+        """Say what counted as no curvature, and of what the areas are."""
+        yield f"{self.regions.band}; doubled where dK is larger."
+        yield (
+            f"{len(self.rows)} plates of {self.area:.6g} m2 of half the hull, on "
+            f"{self.regions.count} Bezier patches, of which {self.computed} were computed."
+        )

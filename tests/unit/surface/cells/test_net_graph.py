@@ -1,0 +1,220 @@
+"""The graph of a net: nodes from rows, edges between them, normals, cells; what is refused."""
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.errors import OpenNetError
+from assoc_hull.geometry.curves import SplineBatch
+from assoc_hull.geometry.length import arc_length
+from assoc_hull.surface.cells.faces import Cells, cells
+from assoc_hull.surface.cells.net_graph import net_graph
+from tests.nets import A, B, C, ellipsoid_net
+
+
+@pytest.fixture(scope="module")
+def wigley() -> Net:
+    """19 sections, 10 waterlines, profile and deck edge."""
+    return gather(ah.examples.wigley().state)
+
+
+def named(net: Net, name: str) -> int:
+    """The first curve of a line."""
+    return net.name.index(name)
+
+
+def without_rows(net: Net, gone: np.ndarray) -> Net:
+    """The net without some of its crossings."""
+    kept = ~gone
+    return attrs.evolve(
+        net, meets=net.meets[kept], place=net.place[kept], watched=net.watched[kept],
+        row=net.row[kept],
+    )  # fmt: skip
+
+
+def rows_of(net: Net, one: str, other: str) -> np.ndarray:
+    """Which crossings are those of two lines."""
+    names = np.array(net.name)[net.meets]
+    return np.asarray((names == one).any(axis=1) & (names == other).any(axis=1))
+
+
+def joined(one: Net, other: Net) -> Net:
+    """Two nets side by side."""
+    count = one.batch.count
+    both = {
+        name: np.concatenate([getattr(one, name), getattr(other, name)])
+        for name in ("curve", "end", "flat", "knuckle", "x", "centre", "normal", "watched", "row")
+    }
+    return Net(
+        batch=SplineBatch.join([one.batch, other.batch]),
+        name=one.name + other.name, family=one.family + other.family,
+        meets=np.concatenate([one.meets, other.meets + count]),
+        place=np.concatenate([one.place, other.place]), **both,
+    )  # fmt: skip
+
+
+def moved(net: Net, way: float) -> Net:
+    """The net farther forward."""
+    xyz = net.batch.xyz + [way, 0.0, 0.0]
+    return attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
+
+
+def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> None:
+    """Every row has its node at its place; pieces of a line are as long together as the line."""
+    graph = net_graph(wigley)
+    hull = ah.examples.wigley()
+    row = np.flatnonzero(rows_of(wigley, "WL 2.5", "ST 7"))[0]
+    assert graph.place[graph.row_node[row]].tolist() == hull.find("WL 2.5 x ST 7").position.tolist()
+    assert (graph.row_node >= 0).all()
+    total = np.bincount(graph.curve, graph.length, minlength=wigley.batch.count)
+    assert total == pytest.approx(arc_length(wigley.batch), rel=2e-4)
+    node, t = graph.stops(named(wigley, "WL 2.5"))
+    assert len(node) == 21
+    assert (np.diff(t) > 0.0).all()
+    assert graph.points(4)[:, [0, -1]].tolist() == graph.place[graph.edge].tolist()
+
+
+def test_points_along_edges_lie_at_equal_steps(wigley: Net) -> None:
+    """Chords of an edge differ in length by as much as its bend makes them."""
+    step = np.diff(net_graph(wigley).points(8), axis=1)
+    size = np.sqrt((step * step).sum(axis=2))
+    assert (size.max(axis=1) <= 1.01 * size.min(axis=1)).all()
+
+
+def test_normals_are_those_of_the_formula() -> None:
+    """On an ellipsoid to 1.5 degrees, but at its tips, where all lines run to one point."""
+    graph = net_graph(gather(ellipsoid_net(31, 13)))
+    place = graph.place - [A, 0.0, C]
+    true = place / np.array([A, B, C]) ** 2
+    true /= np.sqrt((true * true).sum(axis=1))[:, None]
+    cosine = (graph.normal * true).sum(axis=1)
+    tips = np.abs(place[:, 0]) > A - 1e-6
+    assert np.degrees(np.arccos(cosine[~tips].clip(-1.0, 1.0))).max() < 1.5
+    assert (cosine[tips] > 0.5).all()
+
+
+def test_cells_of_a_net_of_two_families() -> None:
+    """Between 19 stations, 10 waterlines, profile and deck edge; each node is told from outside."""
+    found: Cells = cells(net_graph(gather(ah.examples.wigley().state)))
+    graph = found.graph
+    assert len(graph.place) - len(graph.edge) + found.count + 1 == 2
+    assert found.count == 220
+    assert (found.sides == 4).all()  # at the foot of stem and sternpost, too: corners are nodes
+    assert (found.cell_of[found.outline] == -1).all()
+    assert (np.delete(found.cell_of, found.outline) >= 0).all()
+    first = graph.place[found.nodes(0)]
+    turn = np.cross(first[1] - first[0], first[2] - first[1])
+    assert turn @ graph.normal[found.nodes(0)].mean(axis=0) > 0.0
+
+
+def test_a_line_that_is_left_out_takes_its_nodes_with_it(wigley: Net) -> None:
+    """The lines that it crossed go on through: one row of cells less."""
+    without = np.array(wigley.name) == "WL 2.5"
+    graph = net_graph(wigley, leave_out=without)
+    gone = rows_of(wigley, "WL 2.5", "ST 7") | (
+        np.array(wigley.name)[wigley.meets] == "WL 2.5"
+    ).any(axis=1)
+    assert (graph.row_node[gone] == -1).all()
+    assert (graph.row_node[~gone] >= 0).all()
+    assert cells(graph).count == 200
+
+
+def test_borders_of_flats_meet_lines_that_do_not_know_them(series60_70: ah.Hull) -> None:
+    """Rows of a flat bottom and the sections are found again where they lay, to 1 mm."""
+    net = gather(series60_70.state)
+    flat = named(net, "flat of bottom")
+    family = np.array(net.family)
+    gone = (net.meets == flat).any(axis=1) & (family[net.meets] == "sections").any(axis=1)
+    whole, found = net_graph(net), net_graph(without_rows(net, gone))
+    assert gone.sum() == 39
+    assert len(found.place) == len(whole.place)
+    assert len(found.edge) == len(whole.edge)
+    assert cells(found).count == cells(whole).count
+    own, other = (graph.place[graph.stops(flat)[0]] for graph in (whole, found))
+    assert np.abs(own - other).max() < 1e-3
+
+
+def test_lines_that_lie_on_one_another_are_one(wigley: Net) -> None:
+    """A section drawn twice, once by another name, makes the cells that it makes drawn once."""
+    own = named(wigley, "ST 7")
+    twice = np.flatnonzero((wigley.meets == own).any(axis=1))
+    again = wigley.batch.count
+    meets = np.where(wigley.meets[twice] == own, again, wigley.meets[twice])
+    keep = np.append(np.arange(again), own)
+    doubled = attrs.evolve(
+        wigley,
+        batch=SplineBatch.join([wigley.batch, wigley.batch.curve(own)]),
+        name=(*wigley.name, "ST 7 again"), family=(*wigley.family, "sections"),
+        meets=np.concatenate([wigley.meets, meets]),
+        place=np.concatenate([wigley.place, wigley.place[twice]]),
+        watched=np.concatenate([wigley.watched, wigley.watched[twice]]),
+        row=np.concatenate([wigley.row, wigley.row[twice]]),
+        **{
+            name: getattr(wigley, name)[keep]
+            for name in ("curve", "end", "flat", "knuckle", "x", "centre", "normal")
+        },
+    )  # fmt: skip
+    one, two = net_graph(wigley), net_graph(doubled)
+    assert len(two.edge) == len(one.edge)
+    assert len(two.place) == len(one.place)
+    assert cells(two).count == 220
+
+
+def refused(net: Net, leave_out: np.ndarray | None = None) -> str:
+    """The message with which the cells of a net are refused."""
+    with pytest.raises(OpenNetError) as caught:
+        cells(net_graph(net, leave_out=leave_out))
+    return str(caught.value)
+
+
+def test_a_crossing_without_a_row_is_named(wigley: Net) -> None:
+    """Inside the hull the edges do not fit on it any more; at an end the line ends nowhere."""
+    told = refused(without_rows(wigley, rows_of(wigley, "WL 2.5", "ST 7")))
+    assert "nodes - edges + faces is 0" in told
+    assert "ST 7 x WL 2.5 near (35.000, " in told
+    told = refused(without_rows(shortened(wigley), rows_of(wigley, "profile", "WL 2.5")))
+    assert "lines end on no other line: WL 2.5 at (" in told
+
+
+def shortened(net: Net) -> Net:
+    """The net with a waterline that ends 5 cm outside the profile."""
+    curve = named(net, "WL 2.5")
+    xyz = net.batch.xyz.copy()
+    xyz[[net.batch.start[curve], net.batch.start[curve + 1] - 1], 1] = 0.05
+    return attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        pytest.param(
+            lambda net: (net, np.array(net.name) == "deck edge"),
+            "lines end on no other line: profile at (0.000, 0.000, 9.375) m",
+            id="no deck edge",
+        ),
+        pytest.param(
+            lambda net: (net, np.array(net.family) != "sections"),
+            "they cross nowhere, or enclose nothing",
+            id="sections alone",
+        ),
+        pytest.param(
+            lambda net: (joined(net, moved(net, 500.0)), None),
+            "they fall into 2 parts that do not meet: deck edge, ",
+            id="two nets that do not meet",
+        ),
+        pytest.param(
+            lambda net: (attrs.evolve(net, end=net.end | (np.array(net.name) == "ST 7")), None),
+            "more than one outer face; lines at which the hull ends lie within it: ST 7",
+            id="an end within the hull",
+        ),
+    ],
+)
+def test_lines_that_enclose_no_half_hull_are_refused(
+    wigley: Net, change: Callable[[Net], tuple[Net, np.ndarray | None]], told: str
+) -> None:
+    """With the lines at fault, and what to do."""
+    assert told in refused(*change(wigley))
