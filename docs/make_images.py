@@ -208,7 +208,7 @@ PLANS = (
     "dtc",
 )
 COLOURS = {**dict.fromkeys(PLANS, 16)}
-COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0}  # 0: all
+COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0, "lines_plan_dxf": 256}  # 0: all
 
 
 def write(name: str) -> int:

@@ -23,7 +23,7 @@ def lines_plan_dxf() -> Figure:
     look = Configuration(
         background_policy=BackgroundPolicy.WHITE,
         lineweight_policy=LineweightPolicy.ABSOLUTE,
-        lineweight_scaling=0.4,
+        lineweight_scaling=0.15,
     )
     backend = MatplotlibBackend(axes)
     Frontend(RenderContext(drawing), backend, config=look).draw_layout(drawing.modelspace())

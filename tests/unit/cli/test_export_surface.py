@@ -1,16 +1,20 @@
 """The commands `surface`, and `export` to CAD files, meshes and drawings."""
 
 import sys
+from importlib import resources
 from pathlib import Path
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from assoc_hull.cli import main
 from assoc_hull.cli.export import _ENDINGS, _FORMS, _SURFACES
 from assoc_hull.cli.surface import every_fourth
 from assoc_hull.hull import Hull
 from assoc_hull.io.export import ENDINGS, FORMS
+from assoc_hull.io.hull_schema import dumps_schema
 from assoc_hull.io.hull_surface_file import SURFACE_ENDINGS, SURFACE_FORMS
+from assoc_hull.io.net_surface_schema import net_surface_schema
 from assoc_hull.sources import examples
 from tests.unit.cli.conftest import Json
 
@@ -110,11 +114,18 @@ def test_a_surface_is_fitted_told_and_written(small: Path, facts: Json, tmp_path
     found = facts(
         "surface", small, "-o", tmp_path / "a.igs", "--leave-out", "WL 2.5", "ST 3"
     )  # fmt: skip
-    assert found["format"] == "assoc-hull surface"
-    assert found["left_out"] == ["ST 3", "WL 2.5"] or found["left_out"] == ["WL 2.5", "ST 3"]
+    Draft202012Validator(net_surface_schema()).validate(found)
+    assert sorted(found["left_out"]) == ["ST 3", "WL 2.5"]
     kinds = [each["kind"] for block in found["blocks"] for each in block["residuals"]]
     assert kinds == ["fitted", "left out"]
     assert found["saved"] == [str(tmp_path / "a.igs")]
+
+
+def test_the_schema_beside_the_module_is_the_one_in_use() -> None:
+    """If not: ``python -m assoc_hull schema --of hull-surface -o`` writes it."""
+    Draft202012Validator.check_schema(net_surface_schema())
+    shipped = resources.files("assoc_hull.io").joinpath("hull_surface.schema.json")
+    assert shipped.read_text("utf-8") == dumps_schema(net_surface_schema())
 
 
 def test_every_fourth_line_is_left_out(
