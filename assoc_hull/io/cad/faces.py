@@ -26,7 +26,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.kernel import MILLIMETRES, require_opencascade
 
-__all__ = ["Sewn", "face_of", "faces_in", "sewn", "surface_of"]
+__all__ = ["Sewn", "face_of", "faces_in", "sewn", "spline_of", "surface_of"]
 
 _DEGENERATE = 1e-6
 """A side of a face shorter than this (mm) is a point."""
@@ -213,6 +213,17 @@ def surface_of(face: Any, name: str) -> SplineSurface:
     if not isinstance(found, Geom_BSplineSurface) or found.IsUPeriodic() or found.IsVPeriodic():
         what = f"face {name!r} lies on a {type(found).__name__}"
         raise BadInputError(what, "in the file", "only clamped spline surfaces are written")
+    return spline_of(found, name)
+
+
+def spline_of(found: Any, name: str) -> SplineSurface:
+    """Give a spline surface of OpenCASCADE that does not close on itself, in m.
+
+    Raises
+    ------
+    BadInputError
+        It is torn, or of a degree over 7.
+    """
     rows, columns = range(1, found.NbUPoles() + 1), range(1, found.NbVPoles() + 1)
     net = np.array([[_place(found.Pole(i, j)) for j in columns] for i in rows])
     weights: FloatArray | None = None
