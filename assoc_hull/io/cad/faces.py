@@ -131,7 +131,7 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     """
     given = [face_of(each) for each in surfaces]
     if len(given) == 1:
-        return Sewn(_shell_of(given[0]), given)
+        return Sewn(_shell_of(given), given)
     from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
     from OCP.TopAbs import TopAbs_ShapeEnum
 
@@ -142,16 +142,20 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     shell = sewing.SewedShape()
     if shell.IsNull() or shell.ShapeType() != TopAbs_ShapeEnum.TopAbs_SHELL:
         raise _apart(surfaces, _parts(shell))
-    return Sewn(shell, [sewing.ModifiedSubShape(each) for each in given])
+    # Sewing puts them in another order; as they stand in the shell they look to one side.
+    turned, made = faces_in(shell), [sewing.ModifiedSubShape(each) for each in given]
+    faces = [next(each for each in turned if each.IsSame(one)) for one in made]
+    return Sewn(_shell_of(faces), faces)
 
 
-def _shell_of(face: Any) -> Any:
+def _shell_of(faces: Sequence[Any]) -> Any:
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Shell
 
     shell, builder = TopoDS_Shell(), BRep_Builder()
     builder.MakeShell(shell)
-    builder.Add(shell, face)
+    for face in faces:
+        builder.Add(shell, face)
     return shell
 
 
