@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from assoc_hull.analysis.measured_hull import HasState, state_of
-from assoc_hull.arguments import instance, number
+from assoc_hull.arguments import all_of, instance, number
 from assoc_hull.geometry.patches.below import Below, below
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
 from assoc_hull.surface.blocks.fitting import surface_of_net
@@ -164,5 +164,6 @@ def surface(
     if previous is not None:
         instance(previous, NetSurface, "previous", _WHERE)
     options = fit_options(state.particulars.length, smoothing, tolerance, cutoff)
-    found = surface_of_net(state, options, tuple(leave_out), previous)
+    names = all_of(leave_out, str, "leave_out", _WHERE)
+    found = surface_of_net(state, options, tuple(names), previous)
     return HullSurface(*attrs.astuple(found, recurse=False))

@@ -70,7 +70,7 @@ class Block:
     corners : (4, 3), m
         The places of the corners: least u and v, greatest u, both greatest, greatest v.
     turns : (4,), degrees
-        By how much the border turns there, 90 for a rectangle.
+        By how much the border turns there, 90 for a rectangle, little where it is round.
     singular : tuple of (float, float), m
         Parameters of corners at which the sides are tangent, or nearly.
     notes : tuple of str
