@@ -10,8 +10,9 @@ Examples
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import attrs
 
@@ -23,6 +24,10 @@ from assoc_hull.surface.blocks.fitting import surface_of_net
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
 from assoc_hull.surface.net_surface import NetSurface
+
+if TYPE_CHECKING:
+    from assoc_hull.io.cad.write import CadReport
+    from assoc_hull.io.closed_mesh_file import MeshFile
 
 __all__ = ["HullSurface", "surface"]
 
@@ -71,6 +76,37 @@ class HullSurface(NetSurface):
     def document(self) -> dict[str, Any]:
         """Give the report as plain values: lengths in m, angles in degrees."""
         return document_of(self)
+
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        form: str | None = None,
+        *,
+        unit: str | None = None,
+        half: bool = False,
+    ) -> CadReport | MeshFile:
+        """Write it for CAD programs, or the closed mesh; see `assoc_hull.io.hull_surface_file`.
+
+        Parameters
+        ----------
+        path : path
+            ``.step``, ``.stp``, ``.igs`` or ``.iges``; a mesh: ``.stl``, ``.obj``, ``.ply``,
+            ``.glb``.
+        form : str or None
+            Where the ending does not tell it, such as "iges-surfaces" or "stl-text".
+        unit : {"m", "mm"} or None
+            Of the file: mm of CAD files if None, m of meshes.
+        half : bool
+            The half y >= 0 only; both sides otherwise.
+
+        Raises
+        ------
+        BadInputError, MissingExtraError, OpenNetError, OpenMeshError
+            See there.
+        """
+        from assoc_hull.io.hull_surface_file import write_surface
+
+        return write_surface(self, path, form, unit=unit, half=half)
 
     def __str__(self) -> str:
         return text_of(self)

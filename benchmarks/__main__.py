@@ -15,7 +15,12 @@ from benchmarks.clock import Figure
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
     "form_curves", "created_hulls", "biarcs", "production_arcs", "classical_splines",
+<<<<<<< HEAD
     "conformal_sections", "curvature_regions", "closed_mesh",
+=======
+    "conformal_sections", "curvature_regions", "surface_fit",
+    "conformal_sections", "curvature_regions", "cad_files",
+>>>>>>> main
 )  # fmt: skip
 
 

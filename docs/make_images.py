@@ -31,6 +31,7 @@ from drawings.curvature import (
 )
 from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
+from drawings.dxf import lines_plan_dxf
 from drawings.edits import pinned_or_field, pull
 from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
@@ -193,6 +194,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curvature_mixed": curvature_mixed,
     "curvature_lines": curvature_lines,
     "plate_flat": plate_flat,
+    "lines_plan_dxf": lines_plan_dxf,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
@@ -202,6 +204,17 @@ DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 11
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
 COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 40}
 COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0}  # 0: all
+       "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
+PLANS = (
+    "lines_plan_dxf",
+    "series60",
+    "bulk_carrier",
+    "bulk_carrier_180m",
+    "container_ship_225m",
+    "dtc",
+)
+COLOURS = {**dict.fromkeys(PLANS, 16)}
+COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0, "lines_plan_dxf": 256}  # 0: all
 
 
 def write(name: str) -> int:

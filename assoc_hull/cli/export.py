@@ -19,6 +19,7 @@ __all__ = ["add", "export_words"]
 _LINES = {
     "hull": ".hull.json", "csv": ".csv", "xlsx": ".xlsx", "britfair": ".bri", "delftship": ".txt",
     "delftship-offsets": "", "gf": ".gf", "dxf": ".dxf", "dxf-polylines": "", "dxf-plan": "",
+    "iges-lines": "",
 }  # fmt: skip
 """Forms of lines, with their endings; the writers tell the same, and are loaded when needed."""
 

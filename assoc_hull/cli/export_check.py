@@ -63,7 +63,7 @@ def check_form(arguments: argparse.Namespace, form: str, *, mesh_or_surface: boo
         "--half is for surfaces and meshes": arguments.half and not mesh_or_surface,
         "--points is for meshes": arguments.points is not None and form not in _MESHES,
         "--unit is for drawings, surfaces and meshes": arguments.unit is not None
-        and not (drawn or mesh_or_surface),
+        and not (drawn or mesh_or_surface or form == "iges-lines"),
     }  # fmt: skip
     _refuse(told, str(arguments.out), "leave it out")
     chosen = "dxf-plan" if arguments.views == "2d" else form

@@ -15,7 +15,7 @@ __all__ = ["add"]
 _SHELLS = ("bash", "zsh", "fish")
 _DOCUMENTS = (
     "hull", "form-catalogue", "form-parameters", "comparison", "design", "surfaces", "plates",
-    "hull-plates",
+    "hull-surface", "hull-plates",
 )  # fmt: skip
 
 
@@ -102,6 +102,10 @@ def _schema_of(document: str) -> dict[str, Any]:
         from assoc_hull.io.plates_schema import plates_schema
 
         return plates_schema()
+    if document == "hull-surface":
+        from assoc_hull.io.net_surface_schema import net_surface_schema
+
+        return net_surface_schema()
     if document == "hull-plates":
         from assoc_hull.io.hull_plates_schema import hull_plates_schema
 

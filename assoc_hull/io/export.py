@@ -29,6 +29,7 @@ from assoc_hull.io.dxf_document import DXF_UNITS
 from assoc_hull.io.export_book import ExportBook, ExportReport
 from assoc_hull.io.gf import FOOT, dumps_gf
 from assoc_hull.io.hull_json import readable_text
+from assoc_hull.io.iges_lines import iges_of_lines
 from assoc_hull.io.line_points import lines_as_points
 from assoc_hull.io.lines_dxf import lines_drawing
 from assoc_hull.io.offset_out import csv_text, offsets_of
@@ -128,6 +129,12 @@ def _dxf_plan(state: HullState, book: ExportBook) -> bytes:
     return plan_drawing(state, book, book.paper).encode()
 
 
+def _iges_lines(state: HullState, book: ExportBook) -> bytes:
+    text, report = iges_of_lines(state, unit=book.unit)
+    book.lines, book.curves, book.points = report.lines, report.curves, report.points
+    return text.encode()
+
+
 FORMS: Mapping[str, Form] = MappingProxyType({
     "hull": Form("the hull itself as canonical text", (".hull.json",), _hull, _EXACT),
     "csv": Form("table of offsets", (".csv",), _csv, 4),
@@ -144,6 +151,9 @@ FORMS: Mapping[str, Form] = MappingProxyType({
     ),
     "dxf-plan": Form(
         "lines plan in three views, DXF", (), _dxf_plan, _EXACT, units=_UNITS, on_paper=True
+    ),
+    "iges-lines": Form(
+        "all lines in their places as splines, IGES 126", (), _iges_lines, _EXACT, units=_UNITS
     ),
 })  # fmt: skip
 """The forms by name."""

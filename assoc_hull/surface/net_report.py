@@ -11,9 +11,9 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.surface.net_records import Border, Residuals
 from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
-__all__ = ["FORMAT", "ResidualTable", "document_of", "text_of"]
+__all__ = ["FORMAT", "SCHEMA", "ResidualTable", "document_of", "text_of"]
 
-FORMAT = "assoc-hull surface"
+FORMAT, SCHEMA = "assoc-hull surface", 1
 _MM = 1000.0
 _HEAD = (
     f"{'block':16}{'lines':10}{'points':>8}{'median':>9}{'p95':>9}{'p99':>9}{'max mm':>9}"
@@ -112,6 +112,7 @@ def document_of(surface: NetSurface) -> dict[str, Any]:
     """
     return {
         "format": FORMAT,
+        "schema": SCHEMA,
         "ship": attrs.asdict(surface.particulars),
         "blocks": [_block(block) for block in surface.blocks],
         "borders": [_plain(border) for border in surface.borders],

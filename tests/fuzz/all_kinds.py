@@ -6,7 +6,7 @@ from tests.fuzz.kind import Kind
 from tests.fuzz.kinds.curves import CURVE
 from tests.fuzz.kinds.definitions import DEFINITIONS
 from tests.fuzz.kinds.edits import EDITS
-from tests.fuzz.kinds.exports import BRITFAIR, DELFTSHIP, GF, XLSX
+from tests.fuzz.kinds.exports import BRITFAIR, DELFTSHIP, DXF, GF, XLSX
 from tests.fuzz.kinds.hull_file import HULL_FILE
 from tests.fuzz.kinds.hull_json import HULL_JSON
 from tests.fuzz.kinds.lines import DIGITISED, DRAWINGS
@@ -17,7 +17,7 @@ from tests.fuzz.kinds.surfaces import SURFACES
 __all__ = ["KINDS"]
 
 _TABLES = (OFFSETS, XLSX)
-_LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, GF)
+_LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, DXF, GF)
 _REST = (DEFINITIONS, *_LINES, STL, OBJ, SURFACES)
 
 KINDS: dict[str, Kind] = {

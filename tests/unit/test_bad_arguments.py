@@ -46,8 +46,11 @@ from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.classical.read import holds_definition, read_definition
+from assoc_hull.io.closed_mesh_file import write_mesh
+from assoc_hull.io.hull_surface_file import write_surface
 from assoc_hull.io.iges_lines import write_iges_lines
 from assoc_hull.sources import Examples
+from assoc_hull.surface.cells.hull_mesh import closed_mesh
 from assoc_hull.surface.seams import Seams
 from tests.cut_hulls import three_blocks
 from tests.formed import formed
@@ -80,6 +83,8 @@ BAD: dict[str, Any] = {
     "array of text": np.array(["a", "b"]),
 }
 
+SMALL = ah.examples.wigley(stations=5, waterlines=4)
+
 Given = dict[str, Any]
 
 HULL: dict[str, Given] = {
@@ -109,7 +114,7 @@ HULL: dict[str, Given] = {
     "go": {"name": "nowhere"},
     "diff": {"before": "nowhere", "after": None},
     "replay": {"other": None, "skip": False},
-    "export": {"path": "no-such-folder/a.csv", "form": None},
+    "export": {"path": "no-such-folder/a.dxf", "form": None, "unit": None},
 }  # fmt: skip
 EDIT: dict[str, Given] = {
     "move": {"point": POINT, "x": None, "y": 3.0, "z": None},
@@ -264,6 +269,15 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "state": ah.examples.wigley().state, "path": "a.igs", "unit": "m", "half": True,
             "families": ["sections"],
         },
+    ),
+    "write_mesh": (
+        write_mesh,
+        {"mesh": closed_mesh(SMALL, points=2), "path": "a.ply", "form": None, "unit": "m",
+         "name": "a"},
+    ),
+    "write_surface": (
+        write_surface,
+        {"found": ah.surface(SMALL), "path": "a.ply", "form": None, "unit": None, "half": True},
     ),
     "read_classical": (ah.read_classical, {"path": "a"}),
     "course": (ah.course, {**ANGLES, "rule": "form", "name": None}),

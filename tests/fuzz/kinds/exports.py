@@ -1,4 +1,4 @@
-"""Texts and workbooks as other programs take them: BRITFAIR, DELFTship, GHS, XLSX."""
+"""Texts and workbooks as other programs take them: BRITFAIR, DELFTship, GHS, DXF, XLSX."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.hulls import plain_text
 from tests.fuzz.text import change_bytes, change_text
 
-__all__ = ["BRITFAIR", "DELFTSHIP", "GF", "XLSX"]
+__all__ = ["BRITFAIR", "DELFTSHIP", "DXF", "GF", "XLSX"]
 
 OPTIONS: tuple[list[str], ...] = ([], ["--tolerance", "0.1"], ["--draught", "5"], ["--unit", "m"])
 TABLE_OPTIONS: tuple[list[str], ...] = ([], ["--length", "100"], ["--station-zero", "ap"])
@@ -48,6 +48,15 @@ def make_delftship(rng: Random) -> bytes:
 def make_gf(rng: Random) -> bytes:
     """A changed geometry file."""
     return _text(rng, "ship.gf", "gf")
+
+
+def make_dxf(rng: Random) -> bytes:
+    """A drawing whose entities are changed: lines in their places, or a plan of three views."""
+    text = exported("lines.dxf", rng.choice(("dxf", "dxf-plan"))).decode("ascii")
+    head, mark, rest = text.partition("ENTITIES\n")
+    entities, end, tail = rest.partition("ENDSEC\n")
+    changed = change_text(rng, entities).decode("utf-8", "replace")
+    return f"{head}{mark}{changed}{end}{tail}".encode("utf-8", "replace")
 
 
 def make_xlsx(rng: Random) -> bytes:
@@ -90,6 +99,11 @@ def of_gf(data: bytes) -> list[list[str]]:
     return _import("ship.gf", data, OPTIONS)
 
 
+def of_dxf(data: bytes) -> list[list[str]]:
+    """Import it."""
+    return _import("lines.dxf", data, OPTIONS)
+
+
 def of_xlsx(data: bytes) -> list[list[str]]:
     """Import it."""
     return _import("ship.xlsx", data, TABLE_OPTIONS)
@@ -98,4 +112,5 @@ def of_xlsx(data: bytes) -> list[list[str]]:
 BRITFAIR = Kind("britfair", "ship.bri", make_britfair, of_britfair, weight=2)
 DELFTSHIP = Kind("delftship", "ship.txt", make_delftship, of_delftship, weight=2)
 GF = Kind("gf", "ship.gf", make_gf, of_gf, weight=2)
+DXF = Kind("dxf-lines", "lines.dxf", make_dxf, of_dxf, weight=2)
 XLSX = Kind("xlsx", "ship.xlsx", make_xlsx, of_xlsx, weight=2)

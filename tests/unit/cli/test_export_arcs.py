@@ -75,7 +75,6 @@ def test_words_tell_the_same(
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["-o", "a.dxf"], "a .dxf file holds arcs"),
         (["-o", "a.csv", "--lines", "WL 5"], "--lines chooses lines for arcs"),
         (["-o", "a.csv", "--least-radius", "5cm"], "--least-radius is one of arcs"),
         (["-o", "a.csv", "--entities", "arcs"], "--entities is for a drawing of arcs"),
@@ -85,7 +84,7 @@ def test_words_tell_the_same(
         (["-o", "a.csv", "--biarcs", "2m"], "within is 2 m"),
         (["-o", "a.csv", "--biarcs", "1mm", "--lines", "WL 99"], "no object named 'WL 99'"),
     ],
-    ids=["drawing", "lines", "radius", "entities", "format", "ending", "unit", "coarse", "name"],
+    ids=["lines", "radius", "entities", "format", "ending", "unit", "coarse", "name"],
 )  # fmt: skip
 def test_what_makes_no_sense_is_refused(
     hull: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
