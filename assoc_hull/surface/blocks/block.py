@@ -96,6 +96,11 @@ class Block:
         freeze(self.corners, self.turns)
 
     @property
+    def area(self) -> float:
+        """The area of its rectangle, m2."""
+        return float(np.prod(np.diff(self.extent, axis=1)))
+
+    @property
     def masters(self) -> tuple[str, ...]:
         """The blocks whose borders it takes over, each once."""
         every = [stretch.master for side in self.sides.values() for stretch in side]
