@@ -21,6 +21,7 @@ from assoc_hull.arguments import instance, number
 from assoc_hull.geometry.patches.below import Below, below
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
 from assoc_hull.surface.blocks.fitting import surface_of_net
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
 from assoc_hull.surface.net_surface import NetSurface
 
@@ -52,6 +53,25 @@ class HullSurface(NetSurface):
         """
         level = self.particulars.draught if draught is None else number(draught, "draught", _WHERE)
         return below(self.patches, level)
+
+    def mesh(self, *, half: bool = False, points: int = 4) -> ClosedMesh:
+        """Give the closed mesh on the lines that the surface was fitted to.
+
+        It is made of the lines, not of the surface: see `assoc_hull.closed_mesh`.
+
+        Parameters
+        ----------
+        half : bool
+            The port half only, open in the centre plane.
+        points : int
+            Into how many parts each piece of a line between two crossings is cut: even, 2 to 64.
+
+        Raises
+        ------
+        BadInputError, OpenNetError, OpenMeshError
+            As `assoc_hull.closed_mesh`.
+        """
+        return mesh_of_net(self.net, half=half, points=points)
 
     def document(self) -> dict[str, Any]:
         """Give the report as plain values: lengths in m, angles in degrees."""

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from drawings.battens import classical_splines
 from drawings.biarcs import biarc_kinds
+from drawings.closed_mesh import closed_mesh_stern
 from drawings.common import ship
 from drawings.comparison import comparison
 from drawings.conics import combined_waterline, conformal_sections
@@ -157,6 +158,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "righting_levers": levers,
     "curve_series": series,
     "panels": mesh,
+    "closed_mesh": closed_mesh_stern,
     "form_curve": form_curve,
     "biarcs": biarc_kinds,
     "production_arcs": production_arcs_picture,
@@ -198,6 +200,10 @@ PICTURES: dict[str, Callable[[], Figure]] = {
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
        "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
+       "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 84}  # fmt: skip
+PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
+COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 24}
+COLOURS |= {**dict.fromkeys(("form_curve", "curvature_lines"), 256), "plate_flat": 0}  # 0: all
        "variant_plan": 110, "form_sheet": 100, "panels": 105}  # fmt: skip
 PLANS = (
     "lines_plan_dxf",

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assoc_hull.cli.arguments import PICTURE_ENDINGS, Commands, add_command, add_json
+from assoc_hull.cli.hull_plates import add_seams, hull_plates, is_hull, refuse_seams
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_target
 from assoc_hull.errors import BadInputError
@@ -29,16 +30,19 @@ def add(commands: Commands) -> None:
         """assoc-hull plates plates.csv
         assoc-hull plates shell.igs -o plates.json --picture map.png
         assoc-hull plates shell.igs --seams-u 0.25 0.5 0.75 --breadth own -o plates.pdf
-        assoc-hull plates plates.csv --strain-tol 0.002 --development flat.csv --json""",
+        assoc-hull plates plates.csv --strain-tol 0.002 --development flat.csv --json
+        assoc-hull plates ship.hull --butts 24:300:12 --seams-girth 2.5:40:2.5 -o plates.pdf
+        assoc-hull plates ship.hull --butts 240 252 --seams-z 4 8 --inside --picture map.png""",
     )  # fmt: skip
     parser.add_argument(
         "file", metavar="FILE", type=Path,
-        help="surfaces: control nets (.csv, .json) or untrimmed IGES 128 (.igs)",
+        help="surfaces: control nets (.csv, .json) or untrimmed IGES 128 (.igs); or a hull",
     )  # fmt: skip
     parser.add_argument(
         "--unit", choices=_UNITS, help="of lengths in FILE (default: as it says; m of a table)"
     )
     _add_options(parser)
+    add_seams(parser)
     parser.add_argument(
         "-o", "--out", type=Path, metavar="TABLE", help="write a .csv, .json or .pdf file"
     )
@@ -105,6 +109,9 @@ def _plates(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.surface_file import read_surface_file
 
     _check_targets(arguments)
+    if is_hull(arguments.file):
+        return hull_plates(arguments)
+    refuse_seams(arguments)
     with progress(f"reading {arguments.file}"):
         surfaces = read_surface_file(arguments.file, arguments.unit)
     with progress("finding regions"):

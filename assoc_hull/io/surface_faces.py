@@ -19,7 +19,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.patches.facets import Facets, facets_of
+from assoc_hull.geometry.patches.facets import Facets, facets_of, kept_facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.stitching import outward_parts, stitched
 from assoc_hull.io.offset_report import Notebook
@@ -38,6 +38,9 @@ _LONGEST, _SHORTEST = 600.0, 1.0
 FINE = 2e-5
 """Triangles lie off their surface by at most this part of the length of the hull."""
 
+_COARSE, _ROUGH = 1e-3, 100.0
+"""Triangles this part of the nets off their surface tell how long it is; nets of this size, m."""
+
 _LONG = 1.0 / 150.0
 """Their sides along the parameters are at most this part of it."""
 
@@ -48,8 +51,9 @@ class Faces:
 
     Attributes
     ----------
-    surfaces : tuple of SplineSurface
-        m, at the scale of the file; a face may be a part of its surface.
+    surfaces : tuple of SplineSurface or None
+        m, at the scale of the file; a face may be a part of its surface. None where it lies on
+        what is no spline of ours: its lines are those of its triangles.
     unit : str
         The unit of the file.
     notes : tuple of str
@@ -58,7 +62,7 @@ class Faces:
         Gives the triangles of the faces, within a deflection and no longer than a length, m.
     """
 
-    surfaces: tuple[SplineSurface, ...]
+    surfaces: tuple[SplineSurface | None, ...]
     unit: str
     notes: tuple[str, ...]
     facets: Callable[[float, float], Facets]
@@ -98,8 +102,7 @@ def size_of(faces: Faces, scale: float, book: Notebook) -> float:
     BadInputError
         Less than 1 m or more than 600 m: a unit was taken for another.
     """
-    net = np.concatenate([each.net.reshape(-1, 3) for each in faces.surfaces])
-    size = float(np.ptp(net, axis=0).max()) * scale
+    size = _extent(faces) * scale
     said = f"the surfaces are {size:.4g} m long in {faces.unit}, the unit of the file"
     where = f"at scale {scale:g}"
     if not size <= _LONGEST:
@@ -113,6 +116,14 @@ def size_of(faces: Faces, scale: float, book: Notebook) -> float:
         what = f"all limits of gaps and features are {small(size):.3g} of those of a ship"
         book.assume("small", "the surfaces", f"{what}, since it is short", size)
     return size
+
+
+def _extent(faces: Faces) -> float:
+    """Give the longest side at the scale of the file, m: of faces, not of whole surfaces."""
+    nets = [each.net.reshape(-1, 3) for each in faces.surfaces if each is not None]
+    box = max((float(np.ptp(net, axis=0).max()) for net in nets), default=_ROUGH)
+    found = faces.facets(_COARSE * box, box).mesh.xyz
+    return float(np.ptp(found, axis=0).max()) if len(found) else 0.0
 
 
 def facets_at_scale(faces: Faces, scale: float, size: float, book: Notebook) -> Facets:

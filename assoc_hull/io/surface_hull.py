@@ -20,6 +20,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from assoc_hull.errors import BadInputError, MissingExtraError, NeedsCadError
+from assoc_hull.io.iges_curves import holds_surfaces
 from assoc_hull.io.iges_file import UNITS, IgesFile
 from assoc_hull.io.iges_read import surfaces_of_iges
 from assoc_hull.io.iges_text import looks_like_iges
@@ -38,15 +39,21 @@ _WHERE = "as an argument"
 
 
 def cad_kind(path: Path) -> str | None:
-    """Tell by its content what a file of CAD is: "iges", "step", or None for anything else."""
+    """Tell by its content what a file of CAD is: "iges", "step", or None for anything else.
+
+    IGES without surfaces is something else: its curves are digitised lines.
+    """
     try:
         with path.open("rb") as file:
             head = file.read(_HEAD).decode("latin-1")
+            if looks_like_iges(head):
+                text = head + file.read(_MOST_BYTES).decode("latin-1")
+                return "iges" if holds_surfaces(text) else None
     except OSError:
         return None
     if head.lstrip("\ufeff\u00ef\u00bb\u00bf \t\r\n").startswith("ISO-10303-21"):
         return "step"
-    return "iges" if looks_like_iges(head) else None
+    return None
 
 
 def faces_of_file(path: Path, unit: str = "auto") -> Faces:

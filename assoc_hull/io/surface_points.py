@@ -66,10 +66,33 @@ def on_surfaces(
     offset: FloatArray,
     owner: IntArray,
     facets: Facets,
-    surfaces: Sequence[SplineSurface],
+    surfaces: Sequence[SplineSurface | None],
     motion: Motion,
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Give places on the surfaces, the sine of the angle there, and which were found."""
+    """Put places that were cut from triangles on their surfaces.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+        Places in ship axes.
+    axis : (n,) int
+        The coordinate that is constant on the line of each.
+    offset : (n,), m
+        What it is there.
+    owner : (n,) int
+        The triangle of each.
+    facets : Facets
+        The triangles, in axes of the file.
+    surfaces : sequence of SplineSurface or None
+        What they stand for.
+    motion : Motion
+        From the file to the ship.
+
+    Returns
+    -------
+    (n, 3) m, (n,), (n,) bool
+        Places, the sine of the angle between plane and surface, and which lie on a surface now.
+    """
     there = motion.back(xyz)
     uv = _parameters(there, facets.mesh.corners[owner], facets.uv[owner])
     column, place = motion.plane(axis, offset)
@@ -79,7 +102,10 @@ def on_surfaces(
     for number in np.unique(facets.surface[owner]).tolist():
         rows = np.flatnonzero(facets.surface[owner] == number)
         second = centre[rows], int(middle[0]), float(nil[0])
-        found = meet_plane(surfaces[number], uv[rows], column[rows], place[rows], second)
+        surface = surfaces[number]
+        if surface is None:
+            continue
+        found = meet_plane(surface, uv[rows], column[rows], place[rows], second)
         away = np.sqrt(((found.xyz - there[rows]) ** 2).sum(axis=1))
         mine = (found.off < 1e-7) & (found.sine > _LEAST_SINE) & (away < _FAR)
         good[rows] = mine

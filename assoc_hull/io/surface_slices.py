@@ -44,6 +44,9 @@ from assoc_hull.io.surface_points import Motion, on_surfaces
 
 __all__ = ["slice_surfaces"]
 
+_POINTS, _TURN = 100.0, 0.05
+"""A piece keeps so many points, and one more wherever it turns by so much (rad)."""
+
 
 def slice_surfaces(
     faces: Faces,
@@ -111,14 +114,16 @@ def _gaps(size: float) -> Gaps:
     return Gaps(small(size) * Gaps().join, small(size) * Gaps().refuse)
 
 
-def _scaled(surface: SplineSurface, scale: float) -> SplineSurface:
-    return surface if scale == 1.0 else attrs.evolve(surface, net=surface.net * scale)
+def _scaled(surface: SplineSurface | None, scale: float) -> SplineSurface | None:
+    if surface is None or scale == 1.0:
+        return surface
+    return attrs.evolve(surface, net=surface.net * scale)
 
 
 def _settled(
     slices: Slices,
     facets: Facets,
-    surfaces: Sequence[SplineSurface],
+    surfaces: Sequence[SplineSurface | None],
     motion: Motion,
     book: Notebook,
 ) -> Slices:
@@ -159,10 +164,30 @@ def _place(line: SliceLine) -> float:
 
 
 def _replaced(line: SliceLine, found: Iterator[tuple[FloatArray, FloatArray]]) -> SliceLine:
-    """Give a line with the next places, and sines where it had some."""
+    """Give a line with the next places, thinned, and sines where it had some."""
     pieces = []
     for piece in line.pieces:
         points, sine = next(found)
-        kept = None if piece.sine is None else sine.copy()
-        pieces.append(attrs.evolve(piece, points=points.copy(), sine=kept))
+        kept = _thinned(points) if line.group != "boundary" else np.arange(len(points))
+        angle = None if piece.sine is None else sine[kept]
+        owner = None if piece.owner is None else piece.owner[kept]
+        pieces.append(attrs.evolve(piece, points=points[kept], sine=angle, owner=owner))
     return attrs.evolve(line, pieces=tuple(pieces))
+
+
+def _thinned(points: FloatArray) -> IntArray:
+    """Choose points that stand at equal lengths, closer where the line turns; ends stay.
+
+    Points are exact, so that more of them tell no more.
+    """
+    step = np.diff(points, axis=0)
+    length = np.sqrt((step * step).sum(axis=1))
+    ahead = step / np.maximum(length, 1e-300)[:, None]
+    turn = np.arccos(np.clip((ahead[1:] * ahead[:-1]).sum(axis=1), -1.0, 1.0))
+    way = np.cumsum(length) * (_POINTS / max(float(length.sum()), 1e-300))
+    way[:-1] += np.cumsum(turn) / _TURN
+    way[-1:] += turn.sum() / _TURN
+    place = np.floor(np.append(0.0, way))
+    kept = np.append(True, np.diff(place) > 0.0)
+    kept[-1] = True
+    return np.flatnonzero(kept)

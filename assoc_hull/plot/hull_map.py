@@ -25,7 +25,7 @@ from assoc_hull.surface.hull_plates.hull_seams import AXES
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["hull_map"]
+__all__ = ["hull_map", "map_sheet"]
 
 _BLOCK, _SIDE = 96.0, 14.0
 """Width of the block, and room beside the long views, mm at A3."""
@@ -94,15 +94,20 @@ def hull_map(
     >>> figure = hull_map(hull_plates((side,), HullSeams(x=12.0)))
     """
     instance(found, HullPlates, "found", "in hull_map")
-    named = text(title, "title", "in hull_map")
-    sheet = Sheet(paper)
-    scene = _Scene.of(found)
-    frame(sheet, MARGIN * sheet.paper.factor)
-    low = _legend(sheet, _block(sheet, found, named))
-    _body(sheet, scene, _long_views(sheet, scene), low)
+    sheet = map_sheet(found, text(title, "title", "in hull_map"), paper)
     if path is not None:
         save(sheet.figure, path)
     return sheet.figure
+
+
+def map_sheet(found: HullPlates, title: str, paper: PaperName) -> Sheet:
+    """Draw the map as a page."""
+    sheet = Sheet(paper)
+    scene = _Scene.of(found)
+    frame(sheet, MARGIN * sheet.paper.factor)
+    low = _legend(sheet, _block(sheet, found, title))
+    _body(sheet, scene, _long_views(sheet, scene), low)
+    return sheet
 
 
 @attrs.frozen(eq=False)

@@ -349,6 +349,7 @@ FLOATING: dict[str, Given] = {
         "draughts": [2.0, 4.0], "trims": (0.0,), **OPTIONS, "estimate": False, "date": None,
     },
     "hydrostatic_derivatives": {"wrt": [DRAUGHT], **ONE, **OPTIONS},
+    "closed_mesh": {"half": False, "points": 2, "leave_out": ()},
     "panels": {
         **ONE, "heel_deg": 0.0, "count": None, "stations": 7, "points": 5, "spacing": "arc",
         "side": None, "knuckle_deg": None, "transom": True, "origin": None, "on_error": "refuse",

@@ -145,7 +145,7 @@ def _steps(
     free = np.where((e <= _FLAT * g)[:, None], along_v, free)
     free = np.where((g <= _FLAT * e)[:, None], along_u, free)
     found = np.where(held[:, :1], along_v, np.where(held[:, 1:], along_u, free))
-    return np.where(held.all(axis=1)[:, None], 0.0, found)
+    return np.where(held[:, :1] & held[:, 1:], 0.0, found)
 
 
 def _two(

@@ -26,7 +26,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.kernel import MILLIMETRES, require_opencascade
 
-__all__ = ["Sewn", "face_of", "faces_in", "sewn", "surface_of"]
+__all__ = ["Sewn", "face_of", "faces_in", "sewn", "spline_of", "surface_of"]
 
 _DEGENERATE = 1e-6
 """A side of a face shorter than this (mm) is a point."""
@@ -131,7 +131,7 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     """
     given = [face_of(each) for each in surfaces]
     if len(given) == 1:
-        return Sewn(_shell_of(given[0]), given)
+        return Sewn(_shell_of(given), given)
     from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
     from OCP.TopAbs import TopAbs_ShapeEnum
 
@@ -142,16 +142,20 @@ def sewn(surfaces: Sequence[SplineSurface]) -> Sewn:
     shell = sewing.SewedShape()
     if shell.IsNull() or shell.ShapeType() != TopAbs_ShapeEnum.TopAbs_SHELL:
         raise _apart(surfaces, _parts(shell))
-    return Sewn(shell, [sewing.ModifiedSubShape(each) for each in given])
+    # Sewing puts them in another order; as they stand in the shell they look to one side.
+    turned, made = faces_in(shell), [sewing.ModifiedSubShape(each) for each in given]
+    faces = [next(each for each in turned if each.IsSame(one)) for one in made]
+    return Sewn(_shell_of(faces), faces)
 
 
-def _shell_of(face: Any) -> Any:
+def _shell_of(faces: Sequence[Any]) -> Any:
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Shell
 
     shell, builder = TopoDS_Shell(), BRep_Builder()
     builder.MakeShell(shell)
-    builder.Add(shell, face)
+    for face in faces:
+        builder.Add(shell, face)
     return shell
 
 
@@ -209,6 +213,17 @@ def surface_of(face: Any, name: str) -> SplineSurface:
     if not isinstance(found, Geom_BSplineSurface) or found.IsUPeriodic() or found.IsVPeriodic():
         what = f"face {name!r} lies on a {type(found).__name__}"
         raise BadInputError(what, "in the file", "only clamped spline surfaces are written")
+    return spline_of(found, name)
+
+
+def spline_of(found: Any, name: str) -> SplineSurface:
+    """Give a spline surface of OpenCASCADE that does not close on itself, in m.
+
+    Raises
+    ------
+    BadInputError
+        It is torn, or of a degree over 7.
+    """
     rows, columns = range(1, found.NbUPoles() + 1), range(1, found.NbVPoles() + 1)
     net = np.array([[_place(found.Pole(i, j)) for j in columns] for i in rows])
     weights: FloatArray | None = None

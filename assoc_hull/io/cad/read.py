@@ -25,12 +25,12 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.facets import Facets, joined_facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.cad.faces import faces_in, surface_of
+from assoc_hull.io.cad.faces import faces_in, spline_of
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
 from assoc_hull.io.surface_faces import Faces
 from assoc_hull.io.surface_units import METRES, unit_note
 
-__all__ = ["read_faces", "step_unit"]
+__all__ = ["read_faces", "read_shape", "step_unit"]
 
 _TURN = 0.35
 """Triangles of a face turn by at most so much (rad) from one to the next."""
@@ -76,21 +76,21 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Fac
         OpenCASCADE is not installed.
     """
     with quiet():
-        shape = _splines(_shape(path, kind))
+        shape = _splines(read_shape(path, kind))
         faces = faces_in(shape)
         if not faces:
             raise BadInputError(
                 "there is no surface", f"in {path.name}", "export the surfaces of the hull"
             )
-        surfaces, notes = _surfaces(faces, path.name)
+        surfaces = [_surface(face, f"face {i}") for i, face in enumerate(faces, 1)]
     used = unit or told
     if used is None:
         what = "the file tells no unit of length that is known"
         raise BadInputError(what, f"in {path.name}", f"give unit: {', '.join(METRES)}")
     factor = METRES[used] / METRES[told] if told else 1.0
     if factor != 1.0:
-        surfaces = [attrs.evolve(each, net=each.net * factor) for each in surfaces]
-    notes = (*unit_note(path.name, told, used), *notes)
+        surfaces = [each and attrs.evolve(each, net=each.net * factor) for each in surfaces]
+    notes = (*unit_note(path.name, told, used), *_unheld(surfaces, path.name))
 
     def facets(deflection: float, longest: float) -> Facets:
         with quiet():
@@ -99,8 +99,14 @@ def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Fac
     return Faces(tuple(surfaces), used, notes, facets)
 
 
-def _shape(path: Path, kind: str) -> Any:
-    """Read a file; lengths become mm, whatever its unit."""
+def read_shape(path: Path, kind: str) -> Any:
+    """Give the shape that OpenCASCADE reads, in mm whatever the file's unit; within `quiet`.
+
+    Raises
+    ------
+    BadInputError
+        It reads nothing.
+    """
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.IGESControl import IGESControl_Reader
     from OCP.STEPControl import STEPControl_Reader
@@ -120,9 +126,30 @@ def _splines(shape: Any) -> Any:
     return BRepBuilderAPI_NurbsConvert(shape, True).Shape()
 
 
-def _surfaces(faces: Sequence[Any], source: str) -> tuple[list[SplineSurface], tuple[str, ...]]:
-    """Give the surface of each face, m."""
-    return [surface_of(face, f"face {i}") for i, face in enumerate(faces, 1)], ()
+def _unheld(surfaces: Sequence[SplineSurface | None], source: str) -> tuple[str, ...]:
+    count = sum(each is None for each in surfaces)
+    if not count:
+        return ()
+    what = "are cut as triangles: they are no splines of degree 7 or less"
+    return (f"{count} of {len(surfaces)} faces of {source} {what}.",)
+
+
+def _surface(face: Any, name: str) -> SplineSurface | None:
+    """Give the surface of a face, m, with the parameters it has; None if it cannot be held."""
+    from OCP.BRep import BRep_Tool
+    from OCP.Geom import Geom_BSplineSurface
+
+    found = BRep_Tool.Surface_s(face)
+    if not isinstance(found, Geom_BSplineSurface):
+        return None
+    if found.IsUPeriodic():
+        found.SetUNotPeriodic()
+    if found.IsVPeriodic():
+        found.SetVNotPeriodic()
+    try:
+        return spline_of(found, name)
+    except BadInputError:  # of a higher degree, or torn
+        return None
 
 
 def _meshed(shape: Any, faces: Sequence[Any], deflection: float, factor: float) -> Facets:

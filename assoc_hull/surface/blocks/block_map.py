@@ -21,11 +21,11 @@ from assoc_hull.surface.blocks.plan import BlockPlan
 from assoc_hull.surface.blocks.quad import SIDES, Quad
 from assoc_hull.surface.blocks.region import Chord
 
-__all__ = ["BlockMap", "Laid", "block_map"]
+__all__ = ["GRID", "BlockMap", "Laid", "block_map"]
 
 _GIRTH = 40
 """Parts of a girth at which the distance of neighbouring sections is taken."""
-_GRID, _COARSE = 2.0**-15, 2.0**-11
+GRID, _COARSE = 2.0**-15, 2.0**-11
 """Parts of the ship's length to which nodes and the sides of rectangles are rounded."""
 
 _TOUCHING = {"u0": "u1", "u1": "u0", "v0": "v1", "v1": "v0"}
@@ -102,7 +102,7 @@ def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -
         The blocks it follows, laid out, by their names.
     """
     count = len(plan.core.region.graph.place)
-    sheet = _Sheet(np.full((count, 2), np.nan), _GRID * length)
+    sheet = _Sheet(np.full((count, 2), np.nan), GRID * length)
     box = _railed(plan, sheet) if plan.rails else _box(plan.core, sheet)
     for seam in plan.seams:
         _follow(plan.core, seam.side, masters[seam.master].core, box, sheet)
@@ -122,7 +122,7 @@ def block_map(plan: BlockPlan, length: float, masters: Mapping[str, BlockMap]) -
 
 def _box(quad: Quad, sheet: _Sheet) -> FloatArray:
     """Give the rectangle of a quad: the mean lengths of opposite sides, roughly."""
-    coarse = sheet.grid * (_COARSE / _GRID)
+    coarse = sheet.grid * (_COARSE / GRID)
     size = [max(round(each / coarse), 1) * coarse for each in quad.extent()]
     return np.array([[0.0, size[0]], [0.0, size[1]]])
 
@@ -154,7 +154,7 @@ def _laid(quad: Quad, box: FloatArray, sheet: _Sheet) -> Laid:
     inner = np.unique(quad.region.graph.edge[quad.region.edges])
     uv[inner] = sheet.uv[inner]
     for side in SIDES:
-        nodes, along, axis = quad.nodes(side), quad.along(side), _axis(side)
+        nodes, along, axis = quad.nodes(side), quad.along(side, 8.0 * sheet.grid), _axis(side)
         low, high = box[axis]
         even = sheet.rounded(low + (high - low) * along / along[-1])
         even[0], even[-1] = low, high
@@ -177,7 +177,7 @@ def _railed(plan: BlockPlan, sheet: _Sheet) -> FloatArray:
     step = [float(np.sqrt(dot(b - a, b - a)).mean()) for a, b in itertools.pairwise(lines)]
     length = [np.append(0.0, np.cumsum(graph.length[half >> 1])) for half in halves]
     girth = np.array([each[-1] for each in length])
-    coarse = sheet.grid * (_COARSE / _GRID)
+    coarse = sheet.grid * (_COARSE / GRID)
     u = np.append(0.0, np.cumsum(np.maximum(np.round(np.array(step) / coarse), 1.0) * coarse))
     mean = float((0.5 * (girth[1:] + girth[:-1]) * step).sum() / sum(step))
     v = max(round(mean / coarse), 1) * coarse
@@ -230,7 +230,7 @@ def _beside(core: Laid, side: str, quad: Quad, sheet: _Sheet) -> FloatArray:
     """Give the rectangle of a bay, as wide as the block's own lines would go on."""
     axis = 1 - _axis(side)
     other = ("v0", "v1") if axis == 0 else ("u0", "u1")
-    coarse = sheet.grid * (_COARSE / _GRID)
+    coarse = sheet.grid * (_COARSE / GRID)
     width = 0.5 * sum(float(quad.along(each)[-1]) for each in other) * _pace(core, side, axis)
     width = max(round(width / coarse), 1) * coarse
     box = np.empty((2, 2))

@@ -10,6 +10,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.surface.blocks.block_map import BlockMap
 from assoc_hull.surface.blocks.quad import SIDES
+from assoc_hull.surface.blocks.region import BRIDGE
 from assoc_hull.surface.blocks.run_slopes import slopes_along
 from assoc_hull.surface.cells.net_graph import NetGraph
 
@@ -98,7 +99,8 @@ def _edges(found: BlockMap) -> _Edges:
     held[cut & ~outer] = True
     for rail in found.plan.rails:
         held[rail.half >> 1, 0] = True
-    chosen = np.flatnonzero(seen)
+    bridge = np.array([name == BRIDGE for name in graph.net.family])
+    chosen = np.flatnonzero(seen & ~bridge[graph.curve])
     bound = _follows(found)
     held[bound] = True
     return _Edges(chosen, uv[chosen], held[chosen], border[chosen], core.edges[chosen])

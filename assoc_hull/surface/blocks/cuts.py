@@ -5,9 +5,8 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.curves import IntArray
 from assoc_hull.surface.blocks.outline import WINDOW, Bend, Course, bends_inward, course
-from assoc_hull.surface.blocks.region import Chord, Region
+from assoc_hull.surface.blocks.region import BRIDGE, Chord, Region
 
 __all__ = ["EndCut", "end_cut", "whole_sections"]
 
@@ -184,15 +183,23 @@ def _waterlines(
         return ()
     _, level, cut = min(near, key=lambda each: each[:2])
     above = sorted((each for each in found if each[1] > level), key=lambda each: each[1])
+    cut = _over_bridge(part, cut)
     return (cut, above[0][2]) if above else (cut,)
+
+
+def _over_bridge(region: Region, line: Chord) -> Chord:
+    """Let a waterline end over the bridge that leaves its last crossing, if there is one."""
+    graph = region.graph
+    last = int(region.begin(line.half[-1:])[0])
+    for edge in np.flatnonzero(region.interior).tolist():
+        if graph.net.family[int(graph.curve[edge])] == BRIDGE and last in graph.edge[edge]:
+            half = 2 * edge + int(graph.edge[edge, 1] == last)
+            run = np.append(line.half[:-1], half)
+            return Chord(run, line.curve, line.first, int(region.end(run[-1:])[0]))
+    return line
 
 
 def _has(part: Region, bend: Bend, near: float) -> bool:
     """Tell whether the border of a part passes a bend."""
     found = part.path(part.loop)
     return bool(np.abs(found - np.array(bend.place)).max(axis=1).min() <= near)
-
-
-def heads(region: Region, chord: Chord) -> IntArray:
-    """Give the nodes along a chord."""
-    return np.append(region.begin(chord.half), chord.last)

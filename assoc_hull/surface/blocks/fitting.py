@@ -25,7 +25,7 @@ from assoc_hull.surface.blocks.residuals import Misses, misses_of, residuals_of
 from assoc_hull.surface.net_records import Residuals
 from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
-__all__ = ["surface_of_net"]
+__all__ = ["earlier_of", "surface_of_net"]
 
 _WHERE = "in surface"
 
@@ -59,7 +59,7 @@ def surface_of_net(
     net = gather(state)
     omitted = _left_out(net, leave_out)
     blocks = lay_out(net, options.length, omitted)
-    followed = made_of(blocks, options, net.name, _earlier(previous, options, leave_out))
+    followed = made_of(blocks, options, net.name, earlier_of(previous, options, leave_out))
     made = _forward(followed)
     surfaces = [each.part.surface for each in made]
     misses = misses_of(surfaces, net, omitted, options.point_step)
@@ -75,7 +75,7 @@ def surface_of_net(
     )  # fmt: skip
 
 
-def _earlier(
+def earlier_of(
     previous: NetSurface | None, options: FitOptions, leave_out: Sequence[str]
 ) -> Earlier | None:
     """Give what may be taken from an earlier surface: nothing if other things were asked of it."""

@@ -5,6 +5,7 @@
 
 The weight of an edge is the width of the strips on both sides of it over its length: that of
 finite volumes, so that a net of any density is laid out as the smooth (harmonic) map would be.
+Weights are rounded to powers of two: a line that moves a little changes none.
 """
 
 from __future__ import annotations
@@ -38,8 +39,9 @@ def edge_weights(region: Region) -> FloatArray:
     found = np.zeros(len(graph.edge))
     np.add.at(found, edge, np.where(region.inside[owner], share, 0.0))
     used = found > 0.0
-    middle = float(np.median(found[used])) if used.any() else 1.0
-    return np.where(region.edges, np.clip(found, _LEAST * middle, middle / _LEAST), 0.0)
+    middle = float(np.exp2(np.round(np.log2(np.median(found[used]))))) if used.any() else 1.0
+    even = np.exp2(np.round(np.log2(np.clip(found, _LEAST * middle, middle / _LEAST))))
+    return np.where(region.edges, even, 0.0)
 
 
 def _areas(region: Region) -> FloatArray:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.surface.blocks.block import Block, Stretch
-from assoc_hull.surface.blocks.block_map import BlockMap, Laid, block_map
+from assoc_hull.surface.blocks.block_map import GRID, BlockMap, Laid, block_map
 from assoc_hull.surface.blocks.block_samples import block_samples
 from assoc_hull.surface.blocks.kinks import with_kinks
 from assoc_hull.surface.blocks.plan import block_plans
@@ -79,7 +79,7 @@ def _block(found: BlockMap, every: dict[str, BlockMap], length: float) -> Block:
     return Block(
         plan.name, plan.kind, box.copy(), found.reach, samples, inside,
         {side: _stretches(found, side, every) for side in SIDES},
-        _means(found, 0), _means(found, 1), place[list(plan.core.corner)], np.array(plan.turns),
+        _means(found, 0, GRID * length), _means(found, 1, GRID * length), place[list(plan.core.corner)], np.array(plan.turns),
         singular, plan.notes,
     )  # fmt: skip
 
@@ -122,7 +122,7 @@ def _following(master: Laid, low: float, high: float, nodes: IntArray, name: str
     raise AssertionError(name)
 
 
-def _means(found: BlockMap, axis: int) -> FloatArray:
+def _means(found: BlockMap, axis: int, grid: float) -> FloatArray:
     """Give the mean parameter of each line that runs across an axis, rising, (n,), m."""
     graph, core = found.core.quad.region.graph, found.core
     family = np.array(graph.net.family)
@@ -132,4 +132,5 @@ def _means(found: BlockMap, axis: int) -> FloatArray:
     curves, index = np.unique(graph.curve[edge], return_inverse=True)
     weight = graph.length[edge]
     total = np.bincount(index, weight, len(curves))
-    return np.sort(np.bincount(index, weight * middle, len(curves)) / np.maximum(total, 1e-12))
+    mean = np.bincount(index, weight * middle, len(curves)) / np.maximum(total, 1e-12)
+    return np.sort(np.round(mean / grid) * grid)

@@ -13,6 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.surface.blocks.bridges import bridged
 from assoc_hull.surface.blocks.corners import four_corners
 from assoc_hull.surface.blocks.cuts import EndCut, end_cut
 from assoc_hull.surface.blocks.quad import Quad
@@ -92,7 +93,11 @@ def block_plans(cells: Cells, length: float) -> tuple[BlockPlan, ...]:
     """
     whole = Region.whole(cells)
     _require_disc(whole, "the half hull")
-    ends = [end_cut(whole, length, kind) for kind in ("stern", "bow")]
+    ends = tuple(end_cut(whole, length, kind) for kind in ("stern", "bow"))
+    found = bridged(cells, ends, length)
+    if found is not cells:
+        whole = Region.whole(found)
+        ends = tuple(end_cut(whole, length, kind) for kind in ("stern", "bow"))
     stern, bow = ends
     plans = [_body(whole, length, stern, bow)]
     for end in ends:

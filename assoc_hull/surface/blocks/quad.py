@@ -50,9 +50,12 @@ class Quad:
         half = self.side(name)
         return np.append(self.region.begin(half), self.region.end(half[-1:]))
 
-    def along(self, name: str) -> FloatArray:
-        """Give how far along a side its nodes are, m."""
-        return np.append(0.0, np.cumsum(self.region.graph.length[self.side(name) >> 1]))
+    def along(self, name: str, grid: float = 0.0) -> FloatArray:
+        """Give how far along a side its nodes are, m; edges rounded to a grid, at least one step."""
+        length = self.region.graph.length[self.side(name) >> 1]
+        if grid:
+            length = np.maximum(np.round(length / grid), 1.0) * grid
+        return np.append(0.0, np.cumsum(length))
 
     def extent(self) -> tuple[float, float]:
         """Give the mean lengths of opposite sides in u and in v, m."""

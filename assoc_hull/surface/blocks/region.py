@@ -17,7 +17,10 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.surface.cells.faces import Cells
 from assoc_hull.surface.cells.net_graph import NetGraph
 
-__all__ = ["Chord", "Region"]
+__all__ = ["BRIDGE", "Chord", "Region"]
+
+BRIDGE = "bridge"
+"""The family of edges that are no lines of the hull: cuts run along them, nothing is sampled."""
 
 
 @attrs.frozen(eq=False)

@@ -18,7 +18,7 @@ __all__ = ["Breaks", "breaks_of", "ends_on", "master_part"]
 
 Breaks = tuple[FloatArray, FloatArray]
 
-_EACH_BAY = 2
+_EACH_BAY = 3
 """Spans between two stations, or other places worth a knot, along the ship."""
 
 _LONGEST = 0.05
@@ -33,8 +33,11 @@ _FEWEST = 20
 _END_SPAN = 0.6
 """How much shorter spans of bow and stern are."""
 
-_CLOSE = 0.4
-"""Breaks nearer to the end of a border than this part of their spans give way to it."""
+_FINER = np.array([1.0, 0.5, 0.25, 0.12, 0.06])
+"""Where breaks are put beside the end of a border, as parts of the span there ..."""
+
+_CLEAR = 1.4
+"""... and within so many of it others give way."""
 
 _GRID = 2.0**-15
 """Breaks are rounded to about this part of the length of the ship."""
@@ -103,12 +106,14 @@ def _on_grid(places: FloatArray, grid: float) -> FloatArray:
 
 
 def _with_ends(places: FloatArray, ends: FloatArray) -> FloatArray:
-    """Put places in where borders end; those within that are near to one give way."""
-    spans = np.minimum(np.diff(places, prepend=-np.inf), np.diff(places, append=np.inf))
-    kept = np.ones(len(places), np.bool_)
+    """Put places in where borders end, and finer spans beside them: the border turns there."""
     for end in ends.tolist():
-        kept[1:-1] &= (np.abs(places - end) > _CLOSE * spans)[1:-1]
-    return np.sort(np.concatenate([places[kept], ends]))
+        span = float(np.diff(places)[np.clip(np.searchsorted(places, end) - 1, 0, len(places) - 2)])
+        fine = end + span * np.concatenate([-_FINER, [0.0], _FINER[::-1]])
+        fine = fine[(fine > places[0]) & (fine < places[-1])]
+        kept = (np.abs(places - end) > _CLEAR * span) | np.isin(places, places[[0, -1]])
+        places = np.unique(np.concatenate([places[kept], fine]))
+    return places
 
 
 def _along_ship(places: FloatArray, length: float, least: float) -> FloatArray:

@@ -143,6 +143,23 @@ class ClosedMesh:
         total = np.bincount(self.group, size, minlength=len(self.names))
         return dict(zip(self.names, total.tolist(), strict=True))
 
+    def __str__(self) -> str:
+        report = self.report
+        sides = "port half, open in the centre plane" if self.half else "both sides"
+        areas = ", ".join(f"{name} {area:.3f} m2" for name, area in self.areas.items())
+        volume = " ".join(f"{each:.3f}" for each in report.fluxes.tolist())
+        closed = f"yes: each edge in two triangles, Euler {report.euler}"
+        median, most, nearly = report.slenderness.tolist()
+        rows = (
+            ("mesh", f"{sides}; {self.cells} cells a half, {self.steps} points to an edge"),
+            ("triangles", f"{report.triangles}, {report.vertices} vertices, {report.nil} nil"),
+            ("area", areas),
+            ("watertight", closed if report.sound else f"no: {report.open_edges} open edges"),
+            ("volume", f"{volume} m3, by x, y and z" if report.sound else "none: it is open"),
+            ("slenderness", f"median {median:.1f}, 95 % below {most:.1f}, 99 % below {nearly:.1f}"),
+        )
+        return "\n".join(f"{name:<12}{text}" for name, text in rows)
+
 
 def require_closed(report: MeshReport, asked: str, half: bool) -> None:
     """Refuse what only a closed mesh has.

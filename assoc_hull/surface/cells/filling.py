@@ -59,15 +59,15 @@ class FilledCells:
     def triangles(self) -> tuple[IntArray, IntArray]:
         """Cut the elements along diagonals; give the triangles and their cells.
 
-        The shorter one is taken, but none from edge to edge of a cell: beside a node of two edges
-        both cells would have it.
+        The shorter one is taken, but at a node of two edges that from the node: the other would
+        belong to both cells there, or to both halves of the hull.
         """
         a, b, c, d = self.quad.T
         one, other = (self.xyz[p] - self.xyz[q] for p, q in ((a, c), (b, d)))
-        graph = self.cells.graph
-        inside = self.quad >= len(graph.place) + len(graph.edge) * (self.steps - 1)
-        allowed, allowed_too = inside[:, 0] | inside[:, 2], inside[:, 1] | inside[:, 3]
-        first = np.where(allowed == allowed_too, dot(one, one) <= dot(other, other), allowed)
+        bare = np.append(self.cells.graph.degree == 2, False)
+        bare = bare[np.minimum(self.quad, len(bare) - 1)]
+        first = (dot(one, one) <= dot(other, other)) | bare[:, 0] | bare[:, 2]
+        first &= ~(bare[:, 1] | bare[:, 3])
         # An element with two equal corners has one diagonal only, from one of these.
         first |= (a == b) | (c == d)
         return _cut(self.quad, first, self.cell)

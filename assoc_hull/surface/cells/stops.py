@@ -23,8 +23,8 @@ __all__ = ["RANK", "Stops", "find_stops", "united", "united_stops"]
 _SAME = 1e-5
 """Places on one curve this part of the length of the hull apart are one node."""
 
-_CORNER = 0.9986
-"""A curve that turns at a point by an angle of a smaller cosine (3 degrees) has a corner there."""
+_CORNER = 0.985
+"""A curve that turns at a point by an angle of a smaller cosine (10 degrees) has a corner there."""
 
 RANK = {name: i for i, name in enumerate(("boundary", "sections", "waterlines", "buttocks"))}
 """Where lines pass one another by a gap, the node lies on that of the lowest rank."""

@@ -95,6 +95,18 @@ def test_a_rational_surface_keeps_its_weights() -> None:
         assert back.weights == pytest.approx(weights, abs=1e-9)
 
 
+def test_faces_keep_order_and_names_where_sewing_turns_them_over() -> None:
+    """As where the first two do not touch: each name stands with its own control points."""
+    whole = half_hull()
+    cuts = {"bow": (0.0, 30.0), "stern": (75.0, 100.0), "body": (30.0, 75.0)}
+    given = [whole.restricted(u, (0.0, 20.0), name) for name, u in cuts.items()]
+    text = cad_bytes(given, "step", half=True)[0].decode()
+    assert re.findall(r"ADVANCED_FACE\('(.*?)'", text) == list(cuts)
+    found = surfaces_of_iges(cad_bytes(given, "iges", half=True)[0].decode(), "hull.igs")[0]
+    assert [each.name for each in found] == list(cuts)
+    assert [len(each.net) for each in found] == [len(each.net) for each in given]
+
+
 def test_our_own_reader_reads_what_both_writers_make(
     written: dict[tuple[str, str, bool], tuple[bytes, Found]],
 ) -> None:

@@ -97,6 +97,8 @@ def test_opencascade_reads_the_same_curves(ship: Hull) -> None:
     text, report = iges_of_lines(ship.state, unit="mm", half=False, families=["sections"])
     found = curves_of_iges(text, "lines.igs")[0]
     assert report.curves == len(found) == 2 * len({each.name for each in found})
+    for port, starboard in zip(found[::2], found[1::2], strict=True):
+        assert np.array_equal(port.points * [1.0, -1.0, 1.0], starboard.points)
     walk = TopExp_Explorer(read_shape(text.encode(), "iges"), TopAbs_ShapeEnum.TopAbs_EDGE)
     for each in found:
         curve = BRep_Tool.Curve_s(TopoDS.Edge(walk.Current()), 0.0, 0.0)
@@ -120,6 +122,8 @@ def test_lines_polylines_and_chains_are_read() -> None:
         spline(status="00010500"),
         spline(status="01000000"),
         Entity(100, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]),
+        Entity(102, [1, 21], status="01000000"),
+        spline(status="00010000"),
     ]
     found, _, notes = curves_of_iges(iges(entities), "lines.igs")
     assert [each.name for each in found] == ["WL 3", "WL 3", "ST 4", "curve D11"]
@@ -130,7 +134,7 @@ def test_lines_polylines_and_chains_are_read() -> None:
     assert found[3].points.tolist() == [[0, 1, 7], [5, 2, 7]]
     assert notes == (
         "Of lines.igs only curves are read; left out are 1 of type 100 (circular arc).",
-        "1 curves are blanked in the file and left out.",
+        "2 curves are blanked in the file and left out.",
     )
 
 

@@ -59,7 +59,7 @@ def joined(one: Net, other: Net) -> Net:
 
 def moved(net: Net, way: float) -> Net:
     """The net farther forward."""
-    xyz = net.batch.xyz + [way, 0.0, 0.0]
+    xyz = net.batch.xyz + np.array([way, 0.0, 0.0])
     return attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
 
 

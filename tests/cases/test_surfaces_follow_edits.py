@@ -1,0 +1,84 @@
+"""A surface follows an edit: blocks whose lines stayed are taken over to the last bit."""
+
+from collections.abc import Iterator
+
+import attrs
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.hull import Hull
+from assoc_hull.shell import HullSurface
+from assoc_hull.surface.blocks.previous import share_kept
+from assoc_hull.surface.net_surface import FittedBlock
+
+STAYED = ("stern counter", "stern boss", "body")
+
+
+def bits(block: FittedBlock) -> bytes:
+    """All bits of a block's surface."""
+    surface = block.surface
+    return surface.knots_u.tobytes() + surface.knots_v.tobytes() + surface.net.tobytes()
+
+
+@attrs.frozen
+class Story:
+    """The surface of the carrier, and those after her bow was pulled by 2 cm."""
+
+    before: HullSurface
+    same: HullSurface
+    after: HullSurface
+    exact: HullSurface
+    scratch: HullSurface
+
+
+@pytest.fixture(scope="module")
+def story(bulk_carrier: Hull) -> Iterator[Story]:
+    """Before the pull, nothing pulled, then with a cut-off, with none, and from scratch."""
+    before = ah.surface(bulk_carrier)
+    same = ah.surface(bulk_carrier, previous=before, cutoff=0.0)
+    with bulk_carrier.edit("pull") as edit:
+        edit.pull("WL 8 x ST 20.175", d=0.02, radius=(4.0, 3.0))
+    yield Story(
+        before, same,
+        ah.surface(bulk_carrier, previous=before),
+        ah.surface(bulk_carrier, previous=before, cutoff=0.0),
+        ah.surface(bulk_carrier),
+    )  # fmt: skip
+    bulk_carrier.undo()
+
+
+def test_a_surface_of_lines_that_stayed_is_the_earlier_one(story: Story) -> None:
+    """Nothing is fitted, and not a bit changes, where no line has moved."""
+    assert story.before.refitted == tuple(block.name for block in story.before.blocks)
+    assert story.same.refitted == ()
+    assert [bits(b) for b in story.same.blocks] == [bits(b) for b in story.before.blocks]
+    assert story.same.borders == story.before.borders
+
+
+def test_a_pull_in_the_bow_leaves_stern_and_body_bit_for_bit(story: Story) -> None:
+    """Exactly the bow is fitted again, though waterlines are splines and ripple to the stern."""
+    assert story.after.refitted == ("bow",)
+    old = {block.name: block for block in story.before.blocks}
+    new = {block.name: block for block in story.after.blocks}
+    assert [bits(new[name]) == bits(old[name]) for name in STAYED] == [True] * 3
+    assert bits(new["bow"]) != bits(old["bow"])
+    assert np.abs(new["bow"].surface.net - old["bow"].surface.net).max() > 0.01
+    # The joint holds as before: the body's row, and its tangent planes.
+    border = next(each for each in story.after.borders if "bow" in each.names)
+    assert border.joined_gap < 1e-12
+    assert border.angle[2] < 0.1
+
+
+def test_without_a_cutoff_it_is_the_surface_from_scratch(story: Story) -> None:
+    """Blocks taken over with a cut-off of 0 are those that would be fitted, in every bit."""
+    assert story.exact.refitted == ("stern counter", "body", "bow")
+    assert [bits(b) for b in story.exact.blocks] == [bits(b) for b in story.scratch.blocks]
+    assert story.exact.borders[0].gap.tolist() == story.scratch.borders[0].gap.tolist()
+
+
+def test_with_a_cutoff_it_stays_beside_the_surface_from_scratch(story: Story) -> None:
+    """Control points stay within the cut-off of where a fit from scratch puts them."""
+    for one, other in zip(story.after.blocks, story.scratch.blocks, strict=True):
+        assert np.abs(one.surface.net - other.surface.net).max() < 1e-7
+    assert share_kept(story.after.patches[:3], story.before.patches) == 1.0

@@ -1,0 +1,214 @@
+"""The closed mesh of small hulls with a formula: closed, convergent, symmetric, or refused."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.analysis.net.gather import Net, gather
+from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError, UnknownNameError
+from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
+from assoc_hull.surface.cells.faces import cells
+from assoc_hull.surface.cells.filling import FilledCells, fill_cells
+from assoc_hull.surface.cells.mesh_report import examined
+from assoc_hull.surface.cells.net_graph import net_graph
+from tests.net_strategies import fresh
+from tests.nets import A, B, C, ellipsoid_net
+
+
+@pytest.fixture(scope="module")
+def wigley() -> ah.Hull:
+    """100 x 10 x 6.25 m, to z = 9.375 m."""
+    return ah.examples.wigley()
+
+
+@pytest.fixture(scope="module")
+def ellipsoid() -> Net:
+    """All of it, as one half of a ship: no border but the centre plane."""
+    return gather(ellipsoid_net(15, 7))
+
+
+def closed_by_counting(mesh: ClosedMesh) -> bool:
+    """Whether every edge is met once in each sense, counted one by one."""
+    seen: dict[tuple[int, int], int] = {}
+    for a, b, c in mesh.triangle.tolist():
+        for pair in ((a, b), (b, c), (c, a)):
+            seen[pair] = seen.get(pair, 0) + 1
+    return all(seen.get((b, a)) == 1 == times for (a, b), times in seen.items())
+
+
+def test_the_mesh_is_closed_and_faces_outward(wigley: ah.Hull) -> None:
+    """Counted edge by edge; Euler's number is 2, and the volume is the same by x, y and z."""
+    mesh = ah.closed_mesh(wigley)
+    report = mesh.report
+    assert closed_by_counting(mesh)
+    assert report.sound
+    assert (report.open_edges, report.euler, report.nil, report.collapsed) == (0, 2, 0, 0)
+    assert report.fluxes == pytest.approx(np.full(3, mesh.volume), rel=1e-12)
+    assert mesh.names == ("shell", "deck")
+    assert mesh.cells == 220
+    assert mesh.area == pytest.approx(sum(mesh.areas.values()))
+
+
+def test_the_volume_below_the_waterline_converges_to_that_of_the_splines(wigley: ah.Hull) -> None:
+    """Half a step is a quarter of the error, in the end; the centre lies at half length."""
+    splines = ah.hydrostatics(wigley, draught=6.25).volume
+    below = [ah.closed_mesh(wigley, points=points).below(6.25) for points in (2, 4, 8)]
+    off = [splines - each.volume for each in below]
+    assert off[0] > 3.0 * off[1] > 0.0
+    assert off[1] / off[2] == pytest.approx(4.0, rel=0.1)
+    assert off[2] < 1.1e-4 * splines
+    assert below[2].lcb == pytest.approx(50.0, abs=1e-8)
+    assert below[2].vcb == pytest.approx(0.625 * 6.25, rel=1e-4)
+
+
+def lines_and_cells(filled: FilledCells, off: FloatArray) -> tuple[float, float]:
+    """The largest of some distances on lines, and within cells."""
+    graph = filled.cells.graph
+    inner = len(graph.place) + len(graph.edge) * (filled.steps - 1)
+    return float(np.abs(off[:inner]).max()), float(np.abs(off[inner:]).max())
+
+
+def test_between_the_lines_the_mesh_is_as_good_as_the_lines(
+    wigley: ah.Hull, ellipsoid: Net
+) -> None:
+    """Vertices within cells lie off the formula by no more than splines between crossings do."""
+    filled = fill_cells(cells(net_graph(gather(wigley.state))), 4)
+    x, y, z = filled.xyz.T
+    off = np.where(z <= 6.25, y - half_breadth(x, z, 100.0, 10.0, 6.25), 0.0)
+    on_lines, in_cells = lines_and_cells(filled, off)
+    assert on_lines < 4e-3
+    assert in_cells < 1.05 * on_lines
+    filled = fill_cells(cells(net_graph(ellipsoid)), 4)
+    size = np.sqrt((((filled.xyz - [A, 0.0, C]) / [A, B, C]) ** 2).sum(axis=1))
+    on_lines, in_cells = lines_and_cells(filled, size - 1.0)
+    assert on_lines < 5e-3
+    assert in_cells < on_lines
+
+
+def test_elements_of_neighbours_fit_together(ellipsoid: Net) -> None:
+    """Whatever the number of their sides, cells share all points of their common edge."""
+    filled: FilledCells = fill_cells(cells(net_graph(ellipsoid)), 4)
+    triangle, cell = filled.triangles()
+    report = examined(filled.xyz, triangle)
+    outline = filled.along(filled.cells.outline)
+    assert report.open_edges == outline.shape[0] * 4
+    assert report.euler == 1
+    assert (np.bincount(cell) == np.where(filled.cells.sides == 3, 24, 32)).all()
+
+
+def test_a_body_without_deck_closes_by_itself(ellipsoid: Net) -> None:
+    """The profile of an ellipsoid is a ring; nothing is covered, volume and centre are right."""
+    mesh = mesh_of_net(ellipsoid, points=8)
+    assert mesh.names == ("shell",)
+    assert mesh.volume == pytest.approx(4.0 / 3.0 * np.pi * A * B * C, rel=2e-3)
+    assert mesh.report.sound
+
+
+def test_a_half_is_open_in_the_centre_plane_only_and_has_no_volume(wigley: ah.Hull) -> None:
+    """It says that it is a half; both together have twice its area."""
+    half, whole = ah.closed_mesh(wigley, half=True), ah.closed_mesh(wigley)
+    assert half.half
+    assert half.report.open_edges > 0
+    assert half.report.off_centre == 0
+    assert half.xyz[:, 1].min() == 0.0
+    assert whole.area == pytest.approx(2.0 * half.area)
+    count = len(half.triangle)
+    assert whole.triangle[:count].tolist() == half.triangle.tolist()
+    with pytest.raises(
+        OpenMeshError, match="this is one half, open in the centre plane: make both"
+    ):
+        _ = half.volume
+    with pytest.raises(OpenMeshError, match=r"the volume below a draught of a mesh with \d+ open"):
+        half.below(6.25)
+
+
+def test_the_mesh_is_the_same_to_the_bit_at_every_call(wigley: ah.Hull) -> None:
+    """And its two sides are mirror images to the bit."""
+    one, again = ah.closed_mesh(wigley), ah.closed_mesh(wigley)
+    assert one.xyz.tobytes() == again.xyz.tobytes()
+    assert one.triangle.tobytes() == again.triangle.tobytes()
+    port = {tuple(each) for each in one.xyz[one.xyz[:, 1] > 0.0].tolist()}
+    starboard = {(x, -y, z) for x, y, z in one.xyz[one.xyz[:, 1] < 0.0].tolist()}
+    assert port == starboard
+    with pytest.raises(ValueError, match="read-only"):
+        one.xyz[0] = 0.0
+
+
+@pytest.mark.parametrize("number", [1, 3, 4, 8, 10])
+def test_nets_drawn_at_random_close_or_are_refused_by_name(number: int) -> None:
+    """Volume and centre as hydrostatics has them, the coarser the net the more roughly.
+
+    Two of the nets have buttocks that pass the deck edge by decimetres and end on nothing.
+    """
+    hull = fresh(number)
+    ship = hull.particulars
+    try:
+        mesh = ah.closed_mesh(hull)
+    except OpenNetError as error:
+        loose = {each.partition(" at ")[0] for each in error.findings}
+        assert all(each.startswith("BTK ") for each in loose)
+        mesh = ah.closed_mesh(hull, leave_out=sorted(loose))
+    assert mesh.report.sound
+    found, wanted = mesh.below(ship.draught), ah.hydrostatics(hull, draught=ship.draught)
+    assert found.volume == pytest.approx(wanted.volume, rel=4e-3)
+    assert found.lcb == pytest.approx(wanted.lcb, abs=2e-4 * ship.length)
+
+
+TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+
+
+@pytest.mark.parametrize(
+    ("change", "open_edges", "euler"),
+    [
+        pytest.param(lambda face: face, 0, 2, id="closed"),
+        pytest.param(lambda face: face[:3], 3, 1, id="a triangle missing"),
+        pytest.param(lambda face: np.vstack([face, face[:1]]), 3, 3, id="a triangle twice"),
+        pytest.param(lambda face: np.vstack([face[:3], face[3:, ::-1]]), 3, 2, id="one turned"),
+        pytest.param(lambda face: face[:, ::-1], 0, 2, id="inside out"),
+        pytest.param(lambda face: np.vstack([face, face + 4]), 0, 4, id="two bodies"),
+    ],
+)
+def test_faults_of_a_mesh_are_found(
+    change: Callable[[np.ndarray], np.ndarray], open_edges: int, euler: int
+) -> None:
+    """Each of them takes the volume away; only the first is sound."""
+    corner = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    face = change(TETRAHEDRON)
+    report = examined(np.vstack([corner, corner + 2.0])[: face.max() + 1], face)
+    assert (report.open_edges, report.euler) == (open_edges, euler)
+    assert report.sound == np.array_equal(face, TETRAHEDRON)
+    if report.sound:
+        return
+    empty = np.zeros(len(face), np.int64)
+    mesh = ClosedMesh(
+        np.vstack([corner, corner + 2.0]), face, empty, empty, ("shell",), False, 2, 1, report
+    )
+    with pytest.raises(OpenMeshError):
+        _ = mesh.volume
+
+
+@pytest.mark.parametrize(
+    ("options", "kind", "told"),
+    [
+        pytest.param({"points": 3}, BadInputError, "3 points to an edge", id="odd"),
+        pytest.param({"points": 0}, BadInputError, "points", id="none"),
+        pytest.param({"half": "no"}, BadInputError, "half", id="half as text"),
+        pytest.param({"leave_out": "WL 2.5"}, BadInputError, "leave_out", id="names as text"),
+        pytest.param({"leave_out": ["WL 9"]}, UnknownNameError, "WL 9", id="no such line"),
+        pytest.param(
+            {"leave_out": ["profile"]}, OpenNetError, "deck edge at (0.000, 0.000, 9.375) m",
+            id="the profile left out",
+        ),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_meant_is_refused(
+    wigley: ah.Hull, options: dict[str, object], kind: type[Exception], told: str
+) -> None:
+    """With the value, or the line."""
+    with pytest.raises(kind) as caught:
+        ah.closed_mesh(wigley, **options)  # type: ignore[arg-type]
+    assert told in str(caught.value)
