@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from assoc_hull.analysis.measured_hull import HasState, state_of
-from assoc_hull.arguments import instance, number
+from assoc_hull.arguments import all_of, instance, number
 from assoc_hull.geometry.patches.below import Below, below
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
 from assoc_hull.surface.blocks.fitting import surface_of_net
@@ -133,7 +133,7 @@ def surface(
         An earlier surface of the hull: blocks whose lines have not moved are taken from it. One
         that was made with other options, or other lines left out, is of no use, and no error.
     smoothing : float, m3, optional
-        The factor of the penalty on second derivatives; ``2.4e-10 length**3`` without it.
+        The factor of the penalty on second derivatives; ``8e-10 length**3`` without it.
     tolerance : float, m, optional
         What 95 % of the distances of the body should keep; 8 mm at a length of 300 m without it.
     cutoff : float, m
@@ -164,5 +164,6 @@ def surface(
     if previous is not None:
         instance(previous, NetSurface, "previous", _WHERE)
     options = fit_options(state.particulars.length, smoothing, tolerance, cutoff)
-    found = surface_of_net(state, options, tuple(leave_out), previous)
+    names = all_of(leave_out, str, "leave_out", _WHERE)
+    found = surface_of_net(state, options, tuple(names), previous)
     return HullSurface(*attrs.astuple(found, recurse=False))

@@ -201,15 +201,16 @@ def read(
     join: float | None = None,
     deck: str | None = None,
 ) -> Hull:
-    """Read any supported format, told by content: a saved hull, offsets, lines, a mesh, a text.
+    """Read any supported format, told by content: a hull, offsets, lines, a mesh, surfaces, a text.
 
     The hull lives in memory, also one that was saved, with its history; `open` edits the file.
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
-    (STL, OBJ, PLY, also ``.gz``) take `scale`, full scale over model scale, and the other
-    options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines (CSV, DXF, BRITFAIR,
-    DELFTship, GHS) all but planes and axes. Texts of definitions (`read_classical`) take no
-    options. Tables of offsets may be CSV or XLSX. No form tells
-    whether there is a deck between the deck edges: `deck` does, "open" (the default) or "closed".
+    (STL, OBJ, PLY, also ``.gz``) and surfaces (IGES, STEP) take `scale`, full scale over model
+    scale, and the other options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines
+    (CSV, DXF, curves of IGES, BRITFAIR, DELFTship, GHS) all but planes and axes. Texts of
+    definitions (`read_classical`) take no options. Tables of offsets may be CSV or XLSX. No form
+    tells whether there is a deck between the deck edges: `deck` does, "open" (the default) or
+    "closed".
 
     Raises
     ------
@@ -293,5 +294,5 @@ def _refuse_options(options: Mapping[str, object], file: Path) -> None:
         require_file(file)
         raise BadInputError(
             f"{', '.join(sorted(options))} cannot be given", f"for {file.name}",
-            "leave it out, or read a mesh or digitised lines",
+            "leave it out, or read a mesh, surfaces or digitised lines",
         )  # fmt: skip

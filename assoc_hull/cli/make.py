@@ -63,11 +63,12 @@ def _add_example(commands: Commands) -> None:
 
 def _add_import(commands: Commands) -> None:
     parser = add_command(
-        commands, "import", "make a hull from offsets, a mesh or digitised lines", _import,
+        commands, "import", "make a hull from offsets, a mesh, surfaces or lines", _import,
         """assoc-hull import offsets.csv -o ship.hull
         assoc-hull import ship.hull.json -o ship.hull
         assoc-hull import hull.stl -o ship.hull --scale 59.407 --stations 41
         assoc-hull import hull.stl -o ship.hull --report report.json --picture report.pdf
+        assoc-hull import ship.step -o ship.hull --draught 8.5
         assoc-hull import sections.bri -o ship.hull
         assoc-hull import offsets.csv -o ship.hull --unit mm --draught 8.5
         assoc-hull import offsets.csv -o ship.hull --station-zero fp --report report.json""",
@@ -76,8 +77,8 @@ def _add_import(commands: Commands) -> None:
         "file",
         metavar="FILE",
         type=Path,
-        help="CSV, TSV, XLSX, STL, OBJ, PLY, DXF, BRITFAIR (.bri), DELFTship (.txt), GHS (.gf), "
-        "a text of a classical definition, or a saved hull (.hull, .hull.json)",
+        help="CSV, TSV, XLSX, STL, OBJ, PLY, IGES, STEP, DXF, BRITFAIR (.bri), DELFTship (.txt), "
+        "GHS (.gf), a text of a classical definition, or a saved hull (.hull, .hull.json)",
     )
     _add_target(parser)
     for name, what in (
@@ -93,10 +94,14 @@ def _add_import(commands: Commands) -> None:
     for name, count in (("stations", 41), ("waterlines", 20), ("buttocks", 12)):
         parser.add_argument(
             f"--{name}", type=_places, metavar="N",
-            help=f"of a mesh: how many {name}, or places in m, as 1,2.5; {count} by default",
+            help=f"of a mesh, surfaces: how many {name}, or places in m, as 1,2.5; else {count}",
         )  # fmt: skip
-    parser.add_argument("--scale", type=float, metavar="S", help="of a mesh: full over model scale")
-    parser.add_argument("--axes", metavar="AXES", help="of a mesh: forward, port, up, as +x+y+z")
+    parser.add_argument(
+        "--scale", type=float, metavar="S", help="of a mesh, surfaces: full over model scale"
+    )
+    parser.add_argument(
+        "--axes", metavar="AXES", help="of a mesh, surfaces: forward, port, up, as +x+y+z"
+    )
     parser.add_argument(
         "--tolerance", type=float, metavar="M", help="of a mesh or lines: adopted within this, m"
     )
@@ -217,7 +222,7 @@ def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, A
     if wrong:
         require_file(arguments.file)
         raise BadInputError(
-            f"--{wrong[0]} is for meshes and digitised lines", f"with {arguments.file}",
+            f"--{wrong[0]} is for meshes, surfaces and digitised lines", f"with {arguments.file}",
             "leave it out",
         )  # fmt: skip
     return _adopt_offsets(arguments)

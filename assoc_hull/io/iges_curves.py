@@ -171,6 +171,7 @@ def _polyline(record: Record) -> tuple[FloatArray, int]:
 def _left_out(file: IgesFile, chains: dict[int, Entry], shown: list[Entry]) -> tuple[str, ...]:
     """Tell what of a file is not read."""
     taken = {each.number for each in shown} | {each.number for each in chains.values()}
+    taken |= {number for number, chain in chains.items() if chain.blanked}
     count = Counter(
         entry.kind for entry in file.entries.values()
         if entry.number not in taken and entry.kind not in SILENT and not entry.blanked

@@ -100,8 +100,8 @@ def _text_of(path: Path) -> str:
     """Give the content of a file that may hold surfaces."""
     where = f"at {path}"
     if is_hull_file(path):
-        what = "this is a hull, and the surfaces of hulls are to come"
-        raise BadInputError(what, where, "give control nets or an IGES file")
+        what = "this is a hull, and no file of surfaces"
+        raise BadInputError(what, where, "open it as a hull, and fit its surface")
     try:
         with path.open("rb") as file:
             data = file.read(_MOST_BYTES + 1)

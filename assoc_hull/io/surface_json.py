@@ -136,7 +136,7 @@ def _document(text: str, source: str) -> Any:
         raise BadInputError(what, f"in {source}", "mend it") from error
     form = found.get("format") if isinstance(found, dict) else None
     if form == HULL_FORMAT:
-        what = "this is a hull, and the surfaces of hulls are to come"
+        what = "this is a hull, and no file of surfaces"
         raise BadInputError(what, f"in {source}", "give control nets or an IGES file")
     if form != FORMAT:
         what = f"the format is {shown(form)}"

@@ -382,6 +382,10 @@ FLOATING: dict[str, Given] = {
     "sensitivities": {
         "outputs": ["volume"], "parameters": ["breadth"], "kg": None, "layout": None
     },
+    "surface": {
+        "leave_out": ("WL 2.5",), "previous": None, "smoothing": None, "tolerance": None,
+        "cutoff": 1e-7,
+    },
     "study": {
         "set": {"breadth": 11.0}, "reach": None, "free": (), "bounds": None, "layers": (),
         "outputs": ("volume",), "layout": None, "workers": 1, "progress": None,

@@ -70,7 +70,7 @@ class Block:
     corners : (4, 3), m
         The places of the corners: least u and v, greatest u, both greatest, greatest v.
     turns : (4,), degrees
-        By how much the border turns there, 90 for a rectangle.
+        By how much the border turns there, 90 for a rectangle, little where it is round.
     singular : tuple of (float, float), m
         Parameters of corners at which the sides are tangent, or nearly.
     notes : tuple of str
@@ -94,6 +94,11 @@ class Block:
     def __attrs_post_init__(self) -> None:
         freeze(self.extent, self.reach, self.inside, self.stations, self.levels)
         freeze(self.corners, self.turns)
+
+    @property
+    def area(self) -> float:
+        """The area of its rectangle, m2."""
+        return float(np.prod(np.diff(self.extent, axis=1)))
 
     @property
     def masters(self) -> tuple[str, ...]:

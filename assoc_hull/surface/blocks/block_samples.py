@@ -135,4 +135,4 @@ def _parameters(graph: NetGraph, edges: _Edges, owner: IntArray, part: FloatArra
     da, db = (each[owner] * length[owner, None] for each in (leave, arrive))
     q = 1.0 - p
     cubic = a + (b - a) * p * p * (3.0 - 2.0 * p) + p * q * (q * da - p * db)
-    return np.where(edges.border[owner, None], a + (b - a) * p, cubic)
+    return np.asarray(np.where(edges.border[owner, None], a + (b - a) * p, cubic))

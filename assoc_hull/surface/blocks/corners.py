@@ -56,7 +56,7 @@ def four_corners(
     tuple of int
         Nodes, in their order round the region.
     tuple of float, degrees
-        By how much the border turns at each.
+        By how much the border turns at each, over a short way: little at those of round borders.
     """
     found = course(region)
     node = found.node.tolist()
@@ -72,7 +72,7 @@ def four_corners(
     for level in (2, 1, 0):
         chosen += _best(found, turn, np.flatnonzero(rank == level).tolist(), chosen)
     chosen.sort()
-    return tuple(node[i] for i in chosen), tuple(float(turn[i]) for i in chosen)
+    return tuple(node[i] for i in chosen), tuple(float(sharp[i]) for i in chosen)
 
 
 def _at(node: Sequence[int], which: Sequence[int]) -> list[int]:
@@ -85,9 +85,7 @@ def _apart(found: Course, i: int, chosen: Sequence[int], part: float = _APART) -
     return all(min(gap, found.length - gap) >= part * found.length for gap in gaps)
 
 
-def _best(
-    found: Course, turn: FloatArray, of: Sequence[int], chosen: Sequence[int]
-) -> list[int]:
+def _best(found: Course, turn: FloatArray, of: Sequence[int], chosen: Sequence[int]) -> list[int]:
     """Choose from nodes the corners that lack: they turn most, and sides stay in proportion."""
     lack = 4 - len(chosen)
     good = [i for i in of if turn[i] >= _ROUND and _apart(found, i, chosen)]

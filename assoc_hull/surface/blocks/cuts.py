@@ -8,7 +8,7 @@ import numpy as np
 from assoc_hull.surface.blocks.outline import WINDOW, Bend, Course, bends_inward, course
 from assoc_hull.surface.blocks.region import BRIDGE, Chord, Region
 
-__all__ = ["EndCut", "end_cut", "whole_sections"]
+__all__ = ["LEAST", "EndCut", "end_cut", "passes", "whole_sections"]
 
 _KEEL = 0.1
 """A section stands on the keel where the profile rises by less than this a metre."""
@@ -20,7 +20,7 @@ _BEFORE = 0.01
 """A section beside a bend stands this part of the length off it."""
 _LONG = 0.08
 """An end is at least so long: what is pulled at its tip has faded where the body begins."""
-_LEAST, _SHARP = 35.0, 60.0
+LEAST, _SHARP = 35.0, 60.0
 """An end whose profile bends into the ship by so many degrees has a block of its own; and two, if
 by so many."""
 
@@ -39,7 +39,7 @@ class EndCut:
         The next section towards midship: the bay between is where surfaces overlap.
     along : tuple of Chord
         The waterline that parts the end, from the section to the profile; and the next one above.
-    bend : Bend or None
+    bend : Bend
         The bend it is cut for.
     notes : tuple of str
         What is to be known.
@@ -49,7 +49,7 @@ class EndCut:
     section: Chord
     beside: Chord | None
     along: tuple[Chord, ...]
-    bend: Bend | None
+    bend: Bend
     notes: tuple[str, ...] = ()
 
 
@@ -106,40 +106,55 @@ def end_cut(whole: Region, length: float, kind: str) -> EndCut | None:
     kind : {"bow", "stern"}
         Which end.
     """
-    outline = course(whole)
-    x = whole.graph.place[:, 0]
-    middle = 0.5 * (float(x.min()) + float(x.max()))
-    towards = -1.0 if kind == "bow" else 1.0
-    bends = [
-        bend
-        for bend in bends_inward(outline, length, _LEAST)
-        if (bend.place[0] - middle) * towards < 0.0
-    ]
-    if not bends:
+    bend = _main_bend(whole, length, kind)
+    if bend is None:
         return None
-    bend = max(bends, key=lambda each: (each.turn, each.along))
     through = _section_through(whole, bend, length)
     if through is not None:
         return EndCut(kind, through, None, (), bend)
-    sections = whole_sections(whole, length)
-    if kind == "stern":
-        sections = sections[::-1]
-    tip = float((x * towards).min())
-    limit = max(bend.place[0] * towards + _BEFORE * length, tip + _LONG * length)
-    good = [
-        i
-        for i, chord in enumerate(sections)
-        if float(whole.graph.net.x[chord.curve]) * towards >= limit
-    ]
-    if not good:
+    pair = _section_beside(whole, bend, length, kind)
+    if pair is None:
         return None
-    at = good[-1] if good else 0
-    section = sections[at]
-    beside = sections[at - 1] if at > 0 else None
+    section, beside = pair
     parted = kind == "stern" or bend.turn >= _SHARP
     along = _waterlines(whole, section, bend, length) if parted else ()
-    note = () if along or not parted else (f"no waterline near the bend at {bend.place}",)
+    x, _, z = bend.place
+    note = (
+        () if along or not parted else (f"no waterline ends near the bend at ({x:.2f}, {z:.2f})",)
+    )
     return EndCut(kind, section, beside, along, bend, note)
+
+
+def _towards(kind: str) -> float:
+    """Give the sign of the way from an end to midship."""
+    return -1.0 if kind == "bow" else 1.0
+
+
+def _main_bend(whole: Region, length: float, kind: str) -> Bend | None:
+    """Give the sharpest bend of the profile in a half of the ship."""
+    x = whole.graph.place[:, 0]
+    middle = 0.5 * (float(x.min()) + float(x.max()))
+    bends = [
+        bend
+        for bend in bends_inward(course(whole), length, LEAST)
+        if (bend.place[0] - middle) * _towards(kind) < 0.0
+    ]
+    return max(bends, key=lambda each: (each.turn, each.along)) if bends else None
+
+
+def _section_beside(
+    whole: Region, bend: Bend, length: float, kind: str
+) -> tuple[Chord, Chord | None] | None:
+    """Give the section that cuts an end off, and the next one towards midship."""
+    towards, x = _towards(kind), whole.graph.net.x
+    sections = whole_sections(whole, length)
+    sections = sections[::-1] if kind == "stern" else sections
+    tip = float((whole.graph.place[:, 0] * towards).min())
+    limit = max(bend.place[0] * towards + _BEFORE * length, tip + _LONG * length)
+    good = [i for i, run in enumerate(sections) if float(x[run.curve]) * towards >= limit]
+    if not good:
+        return None
+    return sections[good[-1]], sections[good[-1] - 1] if good[-1] else None
 
 
 def _section_through(whole: Region, bend: Bend, length: float) -> Chord | None:
@@ -156,13 +171,13 @@ def _section_through(whole: Region, bend: Bend, length: float) -> Chord | None:
     return None
 
 
-def _waterlines(
-    whole: Region, section: Chord, bend: Bend, length: float
-) -> tuple[Chord, ...]:
+def _waterlines(whole: Region, section: Chord, bend: Bend, length: float) -> tuple[Chord, ...]:
     """Give the waterline from a section to a bend of the profile, and the next above it."""
     graph = whole.graph
     on_section = set(np.append(whole.begin(section.half), section.last).tolist())
-    parts = [part for part in whole.parted([section.half]) if _has(part, bend, 0.5 * _BEFORE * length)]
+    parts = [
+        part for part in whole.parted([section.half]) if passes(part, bend, 0.5 * _BEFORE * length)
+    ]
     if len(parts) != 1:
         return ()
     (part,) = parts
@@ -178,10 +193,10 @@ def _waterlines(
                 away = abs(where[run.last] - bend.along)
                 away = min(away, outline.length - away)
                 found.append((away, float(graph.place[run.last, 2]), run))
-    near = [each for each in found if each[0] <= _NEAR * length]
-    if not near:
+    close = [each for each in found if each[0] <= _NEAR * length]
+    if not close:
         return ()
-    _, level, cut = min(near, key=lambda each: each[:2])
+    _, level, cut = min(close, key=lambda each: each[:2])
     above = sorted((each for each in found if each[1] > level), key=lambda each: each[1])
     cut = _over_bridge(part, cut)
     return (cut, above[0][2]) if above else (cut,)
@@ -199,7 +214,17 @@ def _over_bridge(region: Region, line: Chord) -> Chord:
     return line
 
 
-def _has(part: Region, bend: Bend, near: float) -> bool:
-    """Tell whether the border of a part passes a bend."""
+def passes(part: Region, bend: Bend, near: float) -> bool:
+    """Tell whether the border of a part passes a bend.
+
+    Parameters
+    ----------
+    part : Region
+        The part.
+    bend : Bend
+        Where the profile bends.
+    near : float, m
+        What counts as passed.
+    """
     found = part.path(part.loop)
     return bool(np.abs(found - np.array(bend.place)).max(axis=1).min() <= near)

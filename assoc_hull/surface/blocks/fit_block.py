@@ -146,7 +146,7 @@ def fitted(
         block.name,
         block.samples,
         *breaks,
-        stiffer * options.smoothing_of(block.kind),
+        stiffer * options.smoothing_of(block.kind, block.area),
         limit,
         held=lambda u, v: held_on_centre(block, u, v),
         passes=_PASSES,

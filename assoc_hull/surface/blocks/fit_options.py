@@ -19,15 +19,18 @@ from assoc_hull.arguments import not_negative, positive
 __all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options"]
 
 _LENGTH = 300.0
-SMOOTHING = 2.4e-10
+SMOOTHING = 8e-10
 """The penalty over the cube of the length."""
 
 _BODY, _ENDS, _MEDIAN = 0.008, 0.015, 0.0015
-_END_SMOOTHING = 1.0 / 3.0
-"""The penalty of bow and stern blocks, as a part of that of the body: their radii are smaller."""
-
 CUTOFF = 1e-7
-"""Points and control points that move by less, m, count as unmoved."""
+"""Control points and points of lines that move by less, m, count as unmoved."""
+
+_OF_ENDS = 0.5
+"""The penalty of bow and stern, as a part of that of the body ..."""
+
+_AREA = 0.005
+"""... if their area is this part of the length squared or more; smaller ones have less."""
 
 _BODY_ANGLE, _END_ANGLE = 0.1, 0.5
 
@@ -64,9 +67,21 @@ class FitOptions:
         """What the median of the residuals should keep, m."""
         return self.body_limit * _MEDIAN / _BODY
 
-    def smoothing_of(self, kind: str) -> float:
-        """Give the factor of the penalty of a kind of block, m3."""
-        return self.smoothing * (1.0 if kind == "body" else _END_SMOOTHING)
+    def smoothing_of(self, kind: str, area: float) -> float:
+        """Give the factor of the penalty of a block, m3.
+
+        Parameters
+        ----------
+        kind : {"body", "bow", "stern"}
+            Its kind.
+        area : float, m2
+            Of its rectangle. The radii of a bulb or a boss are as small as it is itself, so that
+            the penalty of ends goes with the cube of their size.
+        """
+        if kind == "body":
+            return self.smoothing
+        share = min(area / (_AREA * self.length**2), 1.0)
+        return _OF_ENDS * self.smoothing * share**1.5
 
     def limit(self, kind: str) -> float:
         """Give what 95 % of the residuals of a kind of block should keep, m."""
@@ -101,7 +116,7 @@ def fit_options(
     length : float, m
         Of the ship.
     smoothing : float, m3, optional
-        The factor of the penalty of the body; ``2.4e-10 length**3`` if None.
+        The factor of the penalty of the body; ``8e-10 length**3`` if None.
     tolerance : float, m, optional
         What 95 % of the residuals of the body should keep; 8 mm at 300 m if None.
     cutoff : float, m

@@ -123,7 +123,7 @@ def _published(
     others = _left_out_of(misses, number, net)
     notes = (
         *block.notes,
-        *doubts_of_penalty(part.smoothing, options.smoothing_of(block.kind)),
+        *doubts_of_penalty(part.smoothing, options.smoothing_of(block.kind, block.area)),
         *doubts_of_fit(block.kind, on_lines, options),
         *doubts_of_shape(surface, shape, folded),
     )

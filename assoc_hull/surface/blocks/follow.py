@@ -127,7 +127,7 @@ def _taken(
     """Give a block with the fit that it has; None if that is folded now, or was stiffer."""
     if all(_same(made[n].part.surface, before[n].part.surface) for n in old.block.masters):
         return old
-    if old.fit.smoothing != options.smoothing_of(old.block.kind):
+    if old.fit.smoothing != options.smoothing_of(old.block.kind, old.block.area):
         return None
     found = joined_to_masters(old.block, old.fit, made)
     return None if len(folded_places(elements(found.part.surface))) else found

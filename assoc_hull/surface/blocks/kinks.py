@@ -12,6 +12,7 @@ from assoc_hull.surface.cells.net_graph import NetGraph
 
 __all__ = ["with_kinks"]
 
+_SNAP = 1e-9
 _KINK = np.cos(np.radians(20.0))
 
 
@@ -24,17 +25,11 @@ def with_kinks(graph: NetGraph) -> NetGraph:
         Of a net.
     """
     curve, t = _kinks(graph)
-    edge, at = list[int](), list[float]()
-    for i in range(len(curve)):
-        own = np.flatnonzero(
-            (graph.curve == curve[i]) & (graph.t[:, 0] + 1e-9 < t[i]) & (graph.t[:, 1] - 1e-9 > t[i])
-        )
-        edge += own.tolist()
-        at += [float(t[i])] * len(own)
-    while edge:
-        once = np.unique(edge, return_index=True)[1].tolist()
-        graph = _parted(graph, np.array(edge)[once], np.array(at)[once])
-        return with_kinks(graph)
+    for number, at in zip(curve.tolist(), t.tolist(), strict=True):
+        low, high = graph.t.T
+        within = (graph.curve == number) & (low + _SNAP < at) & (high - _SNAP > at)
+        for edge in np.flatnonzero(within).tolist():
+            graph = _parted(graph, edge, at)
     return graph
 
 
@@ -50,32 +45,27 @@ def _kinks(graph: NetGraph) -> tuple[IntArray, FloatArray]:
     return owner[found], batch.knot[found]
 
 
-def _parted(graph: NetGraph, edge: IntArray, t: FloatArray) -> NetGraph:
-    """Give a graph with a node within some edges, at most one each."""
-    batch = graph.net.batch
-    knot = [
-        int(batch.start[c]) + int(np.abs(batch.knot[batch.start[c] : batch.start[c + 1]] - at).argmin())
-        for c, at in zip(graph.curve[edge].tolist(), t.tolist(), strict=True)
-    ]
-    count = len(graph.place)
-    new = count + np.arange(len(edge))
-    place = np.concatenate([graph.place, batch.xyz[knot]])
+def _parted(graph: NetGraph, edge: int, t: float) -> NetGraph:
+    """Give a graph with a node at a knuckle within an edge."""
+    batch, curve = graph.net.batch, int(graph.curve[edge])
+    first = int(batch.start[curve])
+    knot = first + int(np.abs(batch.knot[first : int(batch.start[curve + 1])] - t).argmin())
+    new = len(graph.place)
+    place = np.concatenate([graph.place, batch.xyz[knot][None]])
     ends, span, leave = graph.edge.copy(), graph.t.copy(), graph.leave.copy()
-    second = np.column_stack([new, ends[edge, 1]])
-    second_t = np.column_stack([t, span[edge, 1]])
-    towards = _unit(batch.leave[knot]), -_unit(batch.arrive[knot])
-    second_leave = np.stack([towards[0], leave[edge, 1]], axis=1)
-    ends[edge, 1], span[edge, 1], leave[edge, 1] = new, t, towards[1]
-    ends = np.concatenate([ends, second])
-    curve = np.concatenate([graph.curve, graph.curve[edge]])
-    span = np.concatenate([span, second_t])
-    normal = np.concatenate([graph.normal, graph.normal[graph.edge[edge]].mean(axis=1)])
+    second = np.array([[new, ends[edge, 1]]])
+    second_t = np.array([[t, span[edge, 1]]])
+    second_leave = np.stack([_unit(batch.leave[knot]), leave[edge, 1]])[None]
+    ends[edge, 1], span[edge, 1], leave[edge, 1] = new, t, -_unit(batch.arrive[knot])
+    ends, span = np.concatenate([ends, second]), np.concatenate([span, second_t])
+    curves = np.append(graph.curve, curve)
+    normal = _unit(graph.normal[graph.edge[edge]].sum(axis=0))
     return attrs.evolve(
-        graph, place=place, normal=_unit(normal), edge=ends, curve=curve, t=span,
-        leave=np.concatenate([leave, second_leave]),
-        pieces=measured_pieces(batch, curve, span, place[ends]),
+        graph, place=place, normal=np.concatenate([graph.normal, normal[None]]), edge=ends,
+        curve=curves, t=span, leave=np.concatenate([leave, second_leave]),
+        pieces=measured_pieces(batch, curves, span, place[ends]),
     )  # fmt: skip
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / np.sqrt(dot(vector, vector))[:, None])
+    return np.asarray(vector / np.sqrt(dot(vector, vector)))

@@ -79,8 +79,8 @@ def _block(found: BlockMap, every: dict[str, BlockMap], length: float) -> Block:
     return Block(
         plan.name, plan.kind, box.copy(), found.reach, samples, inside,
         {side: _stretches(found, side, every) for side in SIDES},
-        _means(found, 0, GRID * length), _means(found, 1, GRID * length), place[list(plan.core.corner)], np.array(plan.turns),
-        singular, plan.notes,
+        _means(found, 0, GRID * length), _means(found, 1, GRID * length),
+        place[list(plan.core.corner)], np.array(plan.turns), singular, plan.notes,
     )  # fmt: skip
 
 

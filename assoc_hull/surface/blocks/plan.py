@@ -13,14 +13,19 @@ import attrs
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.surface.blocks.bays import bays_of_parts, bays_of_whole
 from assoc_hull.surface.blocks.bridges import bridged
 from assoc_hull.surface.blocks.corners import four_corners
-from assoc_hull.surface.blocks.cuts import EndCut, end_cut
+from assoc_hull.surface.blocks.cuts import LEAST, EndCut, end_cut, passes
+from assoc_hull.surface.blocks.outline import Bend, bends_inward, course
 from assoc_hull.surface.blocks.quad import Quad
 from assoc_hull.surface.blocks.region import Chord, Region
 from assoc_hull.surface.cells.faces import Cells
 
 __all__ = ["BlockPlan", "Seam", "block_plans"]
+
+_PASSES = 0.002
+"""A border passes a place that it misses by less than this part of the ship's length."""
 
 
 @attrs.frozen(eq=False)
@@ -103,7 +108,20 @@ def block_plans(cells: Cells, length: float) -> tuple[BlockPlan, ...]:
     for end in ends:
         if end is not None:
             plans += _end(whole, length, end)
-    return tuple(plans)
+    cut = [end.bend.place for end in ends if end is not None]
+    bends = bends_inward(course(whole), length, LEAST)
+    left = [bend for bend in bends if bend.place not in cut]
+    return tuple(attrs.evolve(plan, notes=plan.notes + _hard(plan, left, length)) for plan in plans)
+
+
+def _hard(plan: BlockPlan, bends: Sequence[Bend], length: float) -> tuple[str, ...]:
+    """Name the bends of the profile that stay in the border of a block."""
+    return tuple(
+        f"the profile bends into the ship by {bend.turn:.0f} degrees "
+        f"at ({bend.place[0]:.2f}, {bend.place[2]:.2f}), within a side"
+        for bend in bends
+        if passes(plan.core.region, bend, _PASSES * length)
+    )
 
 
 def _require_disc(region: Region, name: str) -> None:
@@ -152,8 +170,7 @@ def _end(whole: Region, length: float, end: EndCut) -> list[BlockPlan]:
     if not end.along:
         name = "stern counter" if aft and end.beside is None else end.kind
         quad, turn = _quad(region, length, [section.first, section.last], [], name, aft)
-        strip = _strip(whole, end)
-        bays = {} if strip is None else _bay(side, strip, end, section.first, section.last)
+        bays = bays_of_whole(whole, end)
         seam = Seam(side, "body", tuple(quad.side(side).tolist()))
         return [BlockPlan(name, end.kind, quad, bays, (seam,), (), turn, end.notes)]
     return _parted_end(whole, length, end, region)
@@ -166,40 +183,24 @@ def _parted_end(whole: Region, length: float, end: EndCut, region: Region) -> li
     section, line = end.section, end.along[0]
     names = ("stern counter", "stern boss") if aft else ("bow stem", "bow bulb")
     high = int(line.half[0]) ^ (not aft)
-    parts = [_part(region, [line.half], half, name) for half, name in zip((high, high ^ 1), names, strict=True)]
-    strip = _strip(whole, end)
+    parts = [
+        _part(region, [line.half], half, name)
+        for half, name in zip((high, high ^ 1), names, strict=True)
+    ]
     upper, turn_upper = _quad(
         parts[0], length, [section.first, line.first], [line.last], names[0], aft
     )
     lower, turn_lower = _quad(
         parts[1], length, [line.first, section.last, line.last], (), names[1], aft
     )
-    carried = [None if strip is None else _carried(strip, each) for each in end.along]
-    bays = [dict[str, Quad](), dict[str, Quad]()]
-    notes = [list(end.notes), list(end.notes)]
-    if strip is not None and carried[0] is not None:
-        for i, (top, bottom) in enumerate(((section.first, line.first), (line.first, section.last))):
-            half = int(carried[0].half[0]) ^ (aft == (i == 0))
-            part = strip.with_half([carried[0].half], half)
-            if part is not None:
-                bays[i] = _bay(side, part, end, top, bottom)
-    if len(end.along) > 1:
-        above = end.along[1]
-        part = parts[0].with_half([above.half], high)
-        if part is not None and part.is_disc:
-            bays[1]["v0"] = _across(aft, part, above, line)
-            if len(carried) > 1 and carried[0] is not None and carried[1] is not None and strip:
-                half = int(carried[0].half[0]) ^ aft
-                corner = strip.with_half([each.half for each in carried if each], half)
-                if corner is not None and corner.is_disc:
-                    bays[1][f"{side} v0"] = _bay(side, corner, end, above.first, line.first)[side]
+    bays = bays_of_parts(whole, end, parts[0], high)
     seam = [Seam(side, "body", tuple(quad.side(side).tolist())) for quad in (upper, lower)]
     below = tuple(line.half.tolist())
     return [
-        BlockPlan(names[0], end.kind, upper, bays[0], (seam[0],), (), turn_upper, tuple(notes[0])),
+        BlockPlan(names[0], end.kind, upper, bays[0], (seam[0],), (), turn_upper, end.notes),
         BlockPlan(
             names[1], end.kind, lower, bays[1], (seam[1], Seam("v0", names[0], below)), (),
-            turn_lower, tuple(notes[1]),
+            turn_lower, end.notes,
         ),
     ]  # fmt: skip
 
@@ -212,48 +213,6 @@ def _part(whole: Region, cuts: Sequence[np.ndarray], half: int, name: str) -> Re
         )
     _require_disc(found, name)
     return found
-
-
-def _strip(whole: Region, end: EndCut) -> Region | None:
-    """Give the bay of the body beside an end."""
-    if end.beside is None:
-        return None
-    aft = end.kind == "stern"
-    cuts = [end.section.half, end.beside.half]
-    found = whole.with_half(cuts, int(end.section.half[0]) ^ aft)
-    return found if found is not None and found.is_disc else None
-
-
-def _bay(side: str, region: Region, end: EndCut, top: int, bottom: int) -> dict[str, Quad]:
-    """Give a bay beside a section as a quad, if it has corners."""
-    other = end.beside
-    if other is None or not region.is_disc:
-        return {}
-    node = region.begin(region.loop).tolist()
-    far = set(np.append(region.begin(other.half), other.last).tolist())
-    run = [each for each in node if each in far]
-    if top not in node or bottom not in node or len(run) < 2:
-        return {}
-    z = {each: i for i, each in enumerate(np.append(region.begin(other.half), other.last).tolist())}
-    high, low = min(run, key=z.__getitem__), max(run, key=z.__getitem__)
-    corner = (high, top, bottom, low) if side == "u0" else (top, high, low, bottom)
-    return {side: Quad(region, corner)}
-
-
-def _across(aft: bool, region: Region, above: Chord, line: Chord) -> Quad:
-    """Give the strip between two waterlines of an end as a quad."""
-    if aft:
-        return Quad(region, (above.last, above.first, line.first, line.last))
-    return Quad(region, (above.first, above.last, line.last, line.first))
-
-
-def _carried(strip: Region, line: Chord) -> Chord | None:
-    """Give the same line through the bay beside it, from the section on."""
-    for chord in strip.chords(line.curve):
-        for run in (chord, chord.reversed()):
-            if run.first == line.first:
-                return run
-    return None
 
 
 def _quad(

@@ -51,7 +51,7 @@ class Quad:
         return np.append(self.region.begin(half), self.region.end(half[-1:]))
 
     def along(self, name: str, grid: float = 0.0) -> FloatArray:
-        """Give how far along a side its nodes are, m; edges rounded to a grid, at least one step."""
+        """Give how far along a side its nodes are, m; edges in steps of a grid, one at least."""
         length = self.region.graph.length[self.side(name) >> 1]
         if grid:
             length = np.maximum(np.round(length / grid), 1.0) * grid

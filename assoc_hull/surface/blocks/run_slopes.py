@@ -1,7 +1,7 @@
 """How fast parameters change along lines whose nodes have them: monotone cubics.
 
-    Fritsch, F.N., Carlson, R.E.: Monotone piecewise cubic interpolation. SIAM Journal on Numerical
-    Analysis 17 (1980); the weighted harmonic mean is that of Fritsch and Butland (1984).
+Fritsch, F.N., Carlson, R.E.: Monotone piecewise cubic interpolation. SIAM Journal on Numerical
+Analysis 17 (1980); the weighted harmonic mean is that of Fritsch and Butland (1984).
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ __all__ = ["Breaks", "breaks_of", "ends_on", "master_part"]
 
 Breaks = tuple[FloatArray, FloatArray]
 
-_EACH_BAY = 3
+_EACH_BAY = 2
 """Spans between two stations, or other places worth a knot, along the ship."""
 
 _LONGEST = 0.05
@@ -33,11 +33,8 @@ _FEWEST = 20
 _END_SPAN = 0.6
 """How much shorter spans of bow and stern are."""
 
-_FINER = np.array([1.0, 0.5, 0.25, 0.12, 0.06])
-"""Where breaks are put beside the end of a border, as parts of the span there ..."""
-
-_CLEAR = 1.4
-"""... and within so many of it others give way."""
+_CLEAR = 0.4
+"""Breaks nearer than this part of a span give way."""
 
 _GRID = 2.0**-15
 """Breaks are rounded to about this part of the length of the ship."""
@@ -79,8 +76,9 @@ def breaks_of(
         girth_span *= _END_SPAN
     own = along, _evenly(v0, v1, girth_span)
     grid = 2.0 ** round(math.log2(_GRID * length))
-    rounded = (_with_ends(_on_grid(each, grid), at) for each, at in zip(own, ends, strict=True))
-    first, second = rounded
+    first, second = (
+        _with_places(_on_grid(own[axis], grid), ends[axis]) for axis in (0, 1)
+    )
     return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
 
 
@@ -94,7 +92,7 @@ def ends_on(block: Block, others: Iterable[Block]) -> tuple[FloatArray, FloatArr
                     found[_ALONG[each.master_side]].update((each.master_low, each.master_high))
     inner = [
         sorted(at for at in places if low + _SAME < at < high - _SAME)
-        for places, (low, high) in zip(found, block.reach.tolist(), strict=True)
+        for places, (low, high) in zip(found, block.extent.tolist(), strict=True)
     ]
     return np.array(inner[0]), np.array(inner[1])
 
@@ -105,14 +103,12 @@ def _on_grid(places: FloatArray, grid: float) -> FloatArray:
     return np.concatenate([places[:1], found, places[-1:]])
 
 
-def _with_ends(places: FloatArray, ends: FloatArray) -> FloatArray:
-    """Put places in where borders end, and finer spans beside them: the border turns there."""
-    for end in ends.tolist():
-        span = float(np.diff(places)[np.clip(np.searchsorted(places, end) - 1, 0, len(places) - 2)])
-        fine = end + span * np.concatenate([-_FINER, [0.0], _FINER[::-1]])
-        fine = fine[(fine > places[0]) & (fine < places[-1])]
-        kept = (np.abs(places - end) > _CLEAR * span) | np.isin(places, places[[0, -1]])
-        places = np.unique(np.concatenate([places[kept], fine]))
+def _with_places(places: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Put breaks in at wanted places; others near there give way."""
+    for place in wanted.tolist():
+        span = float(np.diff(places)[np.clip(np.searchsorted(places, place) - 1, 0, None)])
+        kept = places[1:-1][np.abs(places[1:-1] - place) > _CLEAR * span]
+        places = np.unique(np.concatenate([places[:1], kept, [place], places[-1:]]))
     return places
 
 

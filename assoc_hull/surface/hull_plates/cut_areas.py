@@ -8,7 +8,7 @@ and h are all above nil is
 
 On a Bezier patch a plane x = x0 is the zero set of a polynomial, and K = K0 that of another; so
 each product is a polynomial, of which the search of curvature regions finds the areas. What it does
-not decide, near places where two lines cross, is no more than 2**-depth of a patch wide.
+not decide, where two lines cross, is no more than 2**-9 of a patch wide, and shared out by samples.
 
 Source: the sum is Walsh's expansion of a product of signs (Am. J. Math. 45, 1923), with areas for
 its coefficients.
@@ -50,8 +50,8 @@ from assoc_hull.geometry.patches.solve import solve
 
 __all__ = ["TOL", "CutAreas", "Signed", "signed_area"]
 
-_DEPTH = 12
-"""How often a patch is halved: what stays undecided at a crossing is 2**-12 of it wide."""
+_DEPTH = 9
+"""How often a patch is halved: what stays undecided at a crossing is 2**-9 of it wide."""
 
 _BUDGET = 4000
 

@@ -36,8 +36,11 @@ from assoc_hull.surface.hull_plates.shell import NODES, Shell
 
 __all__ = ["rival_gauss"]
 
-_STEPS = 6
+_STEPS = 4
 """Gauss-Newton steps to the nearest point."""
+
+_AT_ONCE = 8192
+"""Points at a time: what they need stays in the cache."""
 
 _FAR = 1e-3
 """Of the hull's length: a nearest point farther away is none."""
@@ -75,8 +78,10 @@ def rival_gauss(
         other = surfaces[list(others).index(name)]
         uv = shell.patches.parameters(np.repeat(rows, len(local)), np.tile(local, (len(rows), 1)))
         start = _same_place(uv, shell.surfaces[number], other)
-        place = shell.nodes.place[rows].reshape(-1, 3)
-        found[rows] = _gauss(other, place, start, far).reshape(found[rows].shape)
+        place, patches = shell.nodes.place[rows].reshape(-1, 3), other.patches()
+        parts = [slice(low, low + _AT_ONCE) for low in range(0, len(place), _AT_ONCE)]
+        gauss = [_gauss(patches, place[part], start[part], far) for part in parts]
+        found[rows] = np.concatenate(gauss).reshape(found[rows].shape)
     return found
 
 
@@ -86,10 +91,9 @@ def _same_place(uv: FloatArray, own: SplineSurface, other: SplineSurface) -> Flo
     return np.asarray(start + (uv - low) / (high - low) * (end - start))
 
 
-def _gauss(surface: SplineSurface, place: FloatArray, uv: FloatArray, far: float) -> FloatArray:
+def _gauss(patches: Patches, place: FloatArray, uv: FloatArray, far: float) -> FloatArray:
     """Give K at the nearest points, (p,); nan where they are too far away."""
-    patches = surface.patches()
-    low, high = np.transpose(surface.domain)
+    low, high = patches.box[..., 0].min(axis=0), patches.box[..., 1].max(axis=0)
     for _ in range(_STEPS):
         row, local = _located(patches, uv)
         jet = jets(patches, row, local)

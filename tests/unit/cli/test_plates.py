@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.cli.plates import _UNITS
+from assoc_hull.io.hull_plates_schema import hull_plates_schema
 from assoc_hull.io.plates_schema import plates_schema
 from assoc_hull.io.surface_file import write_surfaces
 from assoc_hull.io.surface_units import METRES
@@ -153,7 +154,53 @@ def test_what_cannot_be_is_refused_in_a_line(
     assert shell.read_bytes() == before
 
 
-def test_a_hull_is_no_surface_yet(hull: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It is told apart from a damaged file."""
-    assert main(["plates", str(hull)]) == 2
-    assert "the surfaces of hulls are to come" in capsys.readouterr().err
+def test_a_hull_is_cut_by_butts_and_seams(hull: Path, facts: Json, tmp_path: Path) -> None:
+    """As the function finds it; the file has what is printed. Ranges have a step."""
+    out = tmp_path / "plates.json"
+    found = facts(
+        "plates", hull, "--butts", "30:50:10", "--seams-girth", 2, 4, "--inside", "--one-fit",
+        "--strain-tol", 0.002, "--share", 0.9, "-o", out,
+    )  # fmt: skip
+    Draft202012Validator(hull_plates_schema()).validate(found)
+    assert found.pop("saved") == [str(out)]
+    assert json.loads(out.read_text()) == found
+    assert [plate["name"] for plate in found["plates"]] == ["1.1", "2.1"]
+    assert found["plates"][0]["range"] == "x 30 to 40 m, girth 2 to 4 m"
+    assert found["seams"] == {"x": [30, 40, 50], "z": [], "girth": [2, 4], "inside": True}
+    assert (found["fits"], found["search"]["strain_tol"], found["options"]["share"]) == (0, 2e-3, 0.9)
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        pytest.param([], "give --butts, --seams-z or --seams-girth", id="nothing cuts it"),
+        pytest.param(["--seams-u", "0.5"], "--seams-u does not go with a hull", id="parameters"),
+        pytest.param(["--unit", "m"], "--unit does not go with a hull", id="unit"),
+        pytest.param(["--zero", "exact"], "--zero exact does not go", id="no band"),
+        pytest.param(["--breadth", "own"], "--breadth own does not go", id="own breadths"),
+        pytest.param(["--butts", "1:2"], "give LOW:HIGH:STEP", id="range without step"),
+        pytest.param(["--butts", "0:1e9:1e-3"], "give LOW:HIGH:STEP", id="a billion"),
+        pytest.param(["--butts", "bow"], "is no place in m", id="word"),
+        pytest.param(["-o", "plates.xls"], "end the name in .csv", id="table"),
+        pytest.param(["-o", "ship.hull.json"], "another file of this command", id="itself"),
+    ],
+)
+def test_what_does_not_go_with_a_hull_is_refused(
+    hull: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+    problem: str,
+) -> None:
+    """In a line, before anything is computed."""
+    monkeypatch.chdir(hull.parent)
+    assert main(["plates", hull.name, *words]) == 2
+    told = capsys.readouterr().err
+    assert problem in told
+    assert told.count("\n") == 1
+
+
+def test_butts_do_not_go_with_surfaces(shell: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Which have parameters instead."""
+    assert main(["plates", str(shell), "--butts", "3"]) == 2
+    assert "--butts goes with a hull" in capsys.readouterr().err

@@ -174,7 +174,7 @@ REFUSED_DOCUMENTS: dict[str, tuple[object, str]] = {
     "no JSON": ("{", "line 1, column 2"),
     "a list": ([], "the format is None"),
     "another format": (document(format="gltf"), "the format is 'gltf'"),
-    "a hull": ({"format": "assoc-hull"}, "this is a hull, and the surfaces of hulls are to come"),
+    "a hull": ({"format": "assoc-hull"}, "this is a hull, and no file of surfaces"),
     "a newer form": (document(schema=2), "in deck.json, schema"),
     "another unit": (document(unit="inch"), "in deck.json, unit"),
     "no surfaces": (document(surfaces=[]), "in deck.json, surfaces"),
