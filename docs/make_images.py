@@ -33,6 +33,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.dxf import lines_plan_dxf
 from drawings.edits import pinned_or_field, pull
+from drawings.hull_plates import hull_plates, hull_surface
 from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
@@ -194,15 +195,17 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curvature_mixed": curvature_mixed,
     "curvature_lines": curvature_lines,
     "plate_flat": plate_flat,
+    "hull_plates": hull_plates,
+    "hull_surface": hull_surface,
     "lines_plan_dxf": lines_plan_dxf,
     "dtc": dtc,
     "dtc_report": dtc_report,
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
        "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
-       "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 84}  # fmt: skip
+       "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
-COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 24, "plate_flat": 0}  # 0: all
+COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 40, "plate_flat": 0}  # 0: all
 COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "lines_plan_dxf"), 256)
 
 
