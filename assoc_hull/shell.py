@@ -36,7 +36,7 @@ _WHERE = "in surface"
 
 @attrs.frozen(eq=False)
 class HullSurface(NetSurface):
-    """The surface of a half hull; see `assoc_hull.surface.net_surface.NetSurface` for what it holds."""
+    """The surface of a half hull: a `NetSurface` that can be measured, meshed and written."""
 
     @property
     def residuals(self) -> ResidualTable:

@@ -1,4 +1,4 @@
-"""What is doubtful of a fitted block, a sentence each, with its place: no bend is smoothed unseen."""
+"""What is doubtful of a fitted block, each in a sentence, with its place and by how much."""
 
 from __future__ import annotations
 
