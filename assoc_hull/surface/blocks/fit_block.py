@@ -157,8 +157,10 @@ def fitted(
 def held_on_centre(block: Block, breaks_u: FloatArray, breaks_v: FloatArray) -> HeldControls:
     """Hold control points of borders on the centre plane at y = 0.
 
-    A border that is on the centre plane for a part only has its control points held whose
-    shares lie all in that part.
+    A border that is on the centre plane for a part only has all control points held that have a
+    share in that part: then it lies there without error, also at its end, where both halves and a
+    neighbour meet. Beside that, where a span ends too, it leaves the plane with the cube of the
+    distance.
     """
     held = HeldControls.none((len(breaks_u) + 2, len(breaks_v) + 2))
     for side, stretches in block.sides.items():
@@ -172,9 +174,9 @@ def held_on_centre(block: Block, breaks_u: FloatArray, breaks_v: FloatArray) -> 
 def _on_part(
     held: HeldControls, side: str, breaks: FloatArray, low: float, high: float
 ) -> HeldControls:
-    """Hold y of the control points of a side that matter between two places only."""
+    """Hold y of the control points of a side that matter between two places."""
     knots = np.concatenate([np.repeat(breaks[:1], 3), breaks, np.repeat(breaks[-1:], 3)])
-    inside = (knots[:-4] >= low - 1e-9) & (knots[4:] <= high + 1e-9)
+    inside = (knots[4:] > low + 1e-9) & (knots[:-4] < high - 1e-9)
     mask = held.mask.copy()
     rows = np.flatnonzero(inside)
     if side[0] == "u":
