@@ -69,7 +69,9 @@ def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> No
     graph = net_graph(wigley)
     hull = ah.examples.wigley()
     row = np.flatnonzero(rows_of(wigley, "WL 2.5", "ST 7"))[0]
-    assert graph.place[graph.row_node[row]].tolist() == hull.find("WL 2.5 x ST 7").position.tolist()
+    point = hull.find("WL 2.5 x ST 7")
+    assert isinstance(point, ah.Point)
+    assert graph.place[graph.row_node[row]].tolist() == np.asarray(point.position).tolist()
     assert (graph.row_node >= 0).all()
     total = np.bincount(graph.curve, graph.length, minlength=wigley.batch.count)
     assert total == pytest.approx(arc_length(wigley.batch), rel=2e-4)
