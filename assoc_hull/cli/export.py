@@ -140,5 +140,5 @@ def export_words(report: ExportReport) -> str:
             f"straight lines between points leave the curves by {1e3 * report.chord:.2f} mm"
         )
     for title, notes in (("left out", report.left_out), ("otherwise", report.mended)):
-        rows += [f"{title} ({len(notes)})", *(f"  {note}" for note in notes)]
+        rows += [f"{title} ({len(notes)})", *(f"  {note}" for note in notes)] if notes else []
     return "\n".join([*rows, f"written: {report.path} ({report.form})"])

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import attrs
 
-from assoc_hull.arguments import choice
+from assoc_hull.arguments import choice, file_path
 from assoc_hull.errors import BadInputError
 from assoc_hull.io.britfair import dumps_britfair
 from assoc_hull.io.delftship import dumps_delftship
@@ -46,6 +46,8 @@ _EXACT = 17
 """Digits with which a number is told from its neighbours."""
 
 _UNITS = tuple(DXF_UNITS)
+
+_SURFACE_ENDINGS = (".step", ".stp", ".igs", ".iges", ".stl", ".obj", ".ply", ".glb")
 
 
 @attrs.frozen
@@ -178,6 +180,12 @@ def form_of(path: str | os.PathLike[str], form: str | None = None) -> str:
     >>> form_of("hull.GF"), form_of("sections.dat", "britfair")
     ('gf', 'britfair')
     """
+    name = os.fspath(file_path(path, "in export"))
+    if form is None and name.lower().endswith(_SURFACE_ENDINGS):
+        raise BadInputError(
+            "the ending is that of a surface or a mesh, and these are lines", f"at {name}",
+            "write those with ah.surface(hull).write(path), or choose the format",
+        )  # fmt: skip
     return form_by_ending(path, form, tuple(FORMS), ENDINGS, "in export")
 
 

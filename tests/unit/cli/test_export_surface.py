@@ -10,8 +10,9 @@ from jsonschema import Draft202012Validator
 from assoc_hull.cli import main
 from assoc_hull.cli.export import _ENDINGS, _FORMS, _SURFACES
 from assoc_hull.cli.surface import every_fourth
+from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.io.export import ENDINGS, FORMS
+from assoc_hull.io.export import ENDINGS, FORMS, form_of
 from assoc_hull.io.hull_schema import dumps_schema
 from assoc_hull.io.hull_surface_file import SURFACE_ENDINGS, SURFACE_FORMS
 from assoc_hull.io.net_surface_schema import net_surface_schema
@@ -40,6 +41,9 @@ def test_the_command_knows_the_forms_of_its_writers() -> None:
     assert (*FORMS, *SURFACE_FORMS) == _FORMS
     assert tuple(_SURFACES) == SURFACE_FORMS
     assert {**ENDINGS, **SURFACE_ENDINGS} == _ENDINGS
+    for ending in SURFACE_ENDINGS:
+        with pytest.raises(BadInputError, match=r"ah.surface\(hull\).write"):
+            form_of(f"ship{ending}")
 
 
 @pytest.mark.parametrize(

@@ -150,14 +150,17 @@ def test_what_is_not_watertight_is_refused(mesh: ClosedMesh, tmp_path: Path) -> 
 def test_triangles_that_rounding_makes_nil_are_left_out_on_both_sides(
     mesh: ClosedMesh, tmp_path: Path
 ) -> None:
-    """A vertex 1 um beside another falls onto it in single precision: two triangles go."""
-    a, b, c = mesh.triangle[0].tolist()
-    other = next(i for i, face in enumerate(mesh.triangle.tolist()) if i and {a, b} <= set(face))
+    """A vertex 1 nm beside another falls onto it in single precision: two triangles go."""
+    first = int(np.abs(mesh.xyz[mesh.triangle]).min(axis=(1, 2)).argmax())  # far from zero
+    a, b, c = mesh.triangle[first].tolist()
+    other = next(
+        i for i, face in enumerate(mesh.triangle.tolist()) if i != first and {a, b} <= set(face)
+    )
     (d,) = set(mesh.triangle[other].tolist()) - {a, b}
     start, step = mesh.xyz[a], mesh.xyz[b] - mesh.xyz[a]
     near = start + 1e-9 * step / np.linalg.norm(step)
     new = len(mesh.xyz)
-    rows = np.delete(mesh.triangle, [0, other], axis=0)
+    rows = np.delete(mesh.triangle, [first, other], axis=0)
     split = np.array([[a, new, c], [new, b, c], [new, a, d], [b, new, d]])
     fine = attrs.evolve(
         mesh, xyz=np.concatenate([mesh.xyz, near[None]]),
