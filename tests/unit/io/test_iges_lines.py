@@ -160,6 +160,7 @@ def test_a_part_of_a_rational_spline_is_read() -> None:
         pytest.param(iges([spline()], unit="3,"), "tells no unit of length", id="unit"),
         pytest.param(iges([Entity(106, [2, 1, 0, 0, 0], form=12)]), "has 1 points", id="a point"),
         pytest.param(iges([spline(ARCH[:1])]), "degree is 0", id="degree 0"),
+        pytest.param(iges([spline([*ARCH, [1e300, 0, 0]])]), "lies 1e.300 m away", id="far away"),
     ],
 )
 def test_files_without_curves_are_refused(text: str, what: str) -> None:
