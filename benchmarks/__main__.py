@@ -15,7 +15,7 @@ from benchmarks.clock import Figure
 NAMES = (
     "full_reloft", "one_edit", "drags", "start", "session", "hydrostatics", "variation_methods",
     "form_curves", "created_hulls", "biarcs", "production_arcs", "classical_splines",
-    "conformal_sections", "curvature_regions", "surface_fit", "cad_files",
+    "conformal_sections", "curvature_regions", "surface_fit", "cad_files", "closed_mesh",
 )  # fmt: skip
 
 

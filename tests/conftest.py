@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, settings
 
 from assoc_hull.hull import Hull
 from assoc_hull.io.slice_report import SliceReport
+from assoc_hull.shell import HullSurface, surface
 from assoc_hull.sources import Examples, examples
 from tests.cases.dtc import read_dtc_with_report
 from tests.taken_back import taken_back
@@ -182,3 +183,16 @@ def dtc_with_report(
 def dtc(dtc_with_report: tuple[Hull, SliceReport]) -> Hull:
     """The DTC container ship; a test that edits it undoes its edits."""
     return dtc_with_report[0]
+
+
+@pytest.fixture(scope="session")
+def surface_of() -> Callable[[Hull], HullSurface]:
+    """Give the surface of a hull, fitted once: of a hull that nobody has edited since."""
+    known: dict[int, tuple[Hull, HullSurface]] = {}
+
+    def give(hull: Hull) -> HullSurface:
+        if id(hull) not in known:
+            known[id(hull)] = hull, surface(hull)
+        return known[id(hull)][1]
+
+    return give

@@ -29,7 +29,8 @@ class Side:
         self, x: tuple[float, float], z: tuple[float, float], spans: tuple[int, int], name: str
     ) -> SplineSurface:
         """The biquadratic spline surface over a rectangle: v runs downward, normals outward."""
-        u, v = (np.linspace(*ends, count + 1) for ends, count in zip((x, z[::-1]), spans))
+        ends = zip((x, z[::-1]), spans, strict=True)
+        u, v = (np.linspace(low, high, count + 1) for (low, high), count in ends)
         ku, kv = (np.concatenate([[k[0]] * 2, k, [k[-1]] * 2]) for k in (u, v[::-1]))
         a, b = (np.stack([k[1:-2], k[2:-1]], axis=-1) for k in (ku, kv))  # pairs of a blossom
         mean_a, mean_b = a.mean(axis=-1)[:, None], b.mean(axis=-1)[None, :]
@@ -53,9 +54,7 @@ class Side:
         """Gaussian curvature, 1/m2."""
         return (4.0 * self.cx * self.cz - self.cxz**2) / self.element(x, z) ** 4
 
-    def area(
-        self, x: tuple[float, float], z: tuple[float, float], above: float = 0.0
-    ) -> float:
+    def area(self, x: tuple[float, float], z: tuple[float, float], above: float = 0.0) -> float:
         """The area over a rectangle where |K| exceeds a level, m2.
 
         Along a line x = constant it is where |slope|**2, a quadratic in z, stays below a limit.

@@ -142,6 +142,8 @@ def facets_at_scale(faces: Faces, scale: float, size: float, book: Notebook) -> 
     """
     deflection = FINE * size
     found = faces.facets(deflection / scale, _LONG * size / scale)
+    if not len(found.mesh.face):
+        raise BadInputError("all surfaces are points or lines", "in the file", "export the hull")
     mesh = found.mesh.moved(found.mesh.xyz * scale)
     whole = _once(Facets(mesh, found.surface, found.uv), book)
     return outward_parts(stitched(whole, max(small(size) * _WELD, 2.0 * deflection)))

@@ -79,8 +79,12 @@ def faces_of_file(path: Path, unit: str = "auto") -> Faces:
     kind = cad_kind(path)
     text = _text(path)
     if kind == "step":
-        from assoc_hull.io.cad.read import read_faces, step_unit
+        from assoc_hull.io.cad.kernel import require_opencascade
+        from assoc_hull.io.cad.read import read_faces
+        from assoc_hull.io.cad.step_text import require_sound, step_unit
 
+        require_opencascade()
+        require_sound(text, path.name)
         return read_faces(path, "step", step_unit(text), given)
     try:
         surfaces, used, notes = surfaces_of_iges(text, path.name, given)

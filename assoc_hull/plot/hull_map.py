@@ -1,4 +1,4 @@
-"""The curvature map of a whole hull with its plates: shell expansion, body views, profile, bottom."""
+"""The curvature map of a hull with its plates: shell expansion, both ends, profile, bottom."""
 
 from __future__ import annotations
 
@@ -284,8 +284,8 @@ def _legend(sheet: Sheet, top: float) -> float:
     }
     y = top - 4.0 * factor
     for key, (colour, told) in words.items():
-        ring = np.array([(left, y - 1.5 * factor), (left + 7.0 * factor, y - 1.5 * factor),
-                         (left + 7.0 * factor, y + 1.5 * factor), (left, y + 1.5 * factor)])  # fmt: skip
+        right, low, high = left + 7.0 * factor, y - 1.5 * factor, y + 1.5 * factor
+        ring = np.array([(left, low), (right, low), (right, high), (left, high)])
         sheet.axes.fill(
             ring[:, 0], ring[:, 1], facecolor=colour, edgecolor=CONTESTED, linewidth=0.0,
             hatch="//////" if key == 3 else None, zorder=1.5, gid=f"legend/{key}",

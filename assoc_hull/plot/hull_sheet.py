@@ -65,7 +65,10 @@ def hull_sheet(
     form_by_ending(path, None, ("pdf",), {".pdf": "pdf"}, where)
     sheets = [map_sheet(found, named, paper)]
     sheets += [_table(rows, named, paper) for rows in _parts(found.rows, _ROWS)]
-    sheets += [_notes(lines, named, paper) for lines in _parts(_wrapped((*found.notes, CAVEAT), paper), _LINES)]
+    sheets += [
+        _notes(lines, named, paper)
+        for lines in _parts(_wrapped((*found.notes, CAVEAT), paper), _LINES)
+    ]
     write_whole(path, pdf_of(sheets, named))
 
 

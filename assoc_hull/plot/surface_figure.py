@@ -139,9 +139,7 @@ class _Scene:
             tuple(borders),
         )  # fmt: skip
 
-    def draw(
-        self, sheet: Sheet, toward: FloatArray, room: tuple[float, float], words: str
-    ) -> None:
+    def draw(self, sheet: Sheet, toward: FloatArray, room: tuple[float, float], words: str) -> None:
         """Draw the hull from one side, between two heights of the sheet, mm."""
         turn, factor = _turned(toward), sheet.paper.factor
         flat = self.corner @ turn.T

@@ -72,7 +72,7 @@ def test_a_pull_in_the_bow_leaves_stern_and_body_bit_for_bit(story: Story) -> No
 
 def test_without_a_cutoff_it_is_the_surface_from_scratch(story: Story) -> None:
     """Blocks taken over with a cut-off of 0 are those that would be fitted, in every bit."""
-    assert story.exact.refitted == ("stern counter", "body", "bow")
+    assert {"body", "bow"} <= set(story.exact.refitted) < set(story.before.refitted)
     assert [bits(b) for b in story.exact.blocks] == [bits(b) for b in story.scratch.blocks]
     assert story.exact.borders[0].gap.tolist() == story.scratch.borders[0].gap.tolist()
 
@@ -82,3 +82,29 @@ def test_with_a_cutoff_it_stays_beside_the_surface_from_scratch(story: Story) ->
     for one, other in zip(story.after.blocks, story.scratch.blocks, strict=True):
         assert np.abs(one.surface.net - other.surface.net).max() < 1e-7
     assert share_kept(story.after.patches[:3], story.before.patches) == 1.0
+
+
+def test_a_walk_of_edits_never_drifts() -> None:
+    """After moves far below, about and above the cut-off a surface is that from scratch within it.
+
+    Points may have moved by the cut-off since the fit, and control points be off by as much again.
+    """
+    hull = ah.examples.wigley(stations=5, waterlines=4)
+    found = ah.surface(hull)
+    fitted = []
+    for point, d in (
+        ("ST 2", 6e-8),
+        ("ST 3", 1e-3),
+        ("ST 2", 6e-8),
+        ("ST 2", 6e-8),
+        ("ST 2", 6e-8),
+    ):
+        with hull.edit("walk") as edit:
+            edit.pull(f"WL 4.16667 x {point}", d=d, radius=(8.0, 2.0))
+        found = ah.surface(hull, previous=found)
+        fitted.append(bool(found.refitted))
+        scratch = ah.surface(hull)
+        away = [a.net - b.net for a, b in zip(found.patches, scratch.patches, strict=True)]
+        assert max(np.abs(each).max() for each in away) < 2e-7
+    assert fitted[:3] == [False, True, False]
+    assert any(fitted[3:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tests.fuzz.kind import Kind
+from tests.fuzz.kinds.cad_hulls import IGES_HULL, STEP_HULL
 from tests.fuzz.kinds.curves import CURVE
 from tests.fuzz.kinds.definitions import DEFINITIONS
 from tests.fuzz.kinds.edits import EDITS
@@ -18,7 +19,7 @@ __all__ = ["KINDS"]
 
 _TABLES = (OFFSETS, XLSX)
 _LINES = (DIGITISED, DRAWINGS, BRITFAIR, DELFTSHIP, DXF, GF)
-_REST = (DEFINITIONS, *_LINES, STL, OBJ, SURFACES)
+_REST = (DEFINITIONS, *_LINES, STL, OBJ, SURFACES, IGES_HULL, STEP_HULL)
 
 KINDS: dict[str, Kind] = {
     kind.name: kind for kind in (*_TABLES, HULL_FILE, HULL_JSON, EDITS, CURVE, *_REST)

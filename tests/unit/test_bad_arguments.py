@@ -49,8 +49,11 @@ from assoc_hull.io.classical.read import holds_definition, read_definition
 from assoc_hull.io.closed_mesh_file import write_mesh
 from assoc_hull.io.hull_surface_file import write_surface
 from assoc_hull.io.iges_lines import write_iges_lines
+from assoc_hull.plot.hull_map import hull_map
+from assoc_hull.plot.surface_figure import surface_figure
 from assoc_hull.sources import Examples
 from assoc_hull.surface.cells.hull_mesh import closed_mesh
+from assoc_hull.surface.hull_plates.hull_plates import hull_plates
 from assoc_hull.surface.seams import Seams
 from tests.cut_hulls import three_blocks
 from tests.formed import formed
@@ -255,6 +258,20 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
             "depth": 8, "budget": 600, "chord_tol": 0.1, "previous": None,
         },
     ),
+    "plates.of a hull": (
+        hull_plates,
+        {
+            "surface": (PLATE,), "seams": ah.HullSeams(x=0.5), "zero": "absolute",
+            "strain_tol": 1e-3, "breadth": 2.5, "k0": 1e-3, "sagitta_tol": 0.003,
+            "sagitta_length": None, "share": 0.95, "suggestions": None, "others": (),
+            "previous": None,
+        },
+    ),
+    "HullSeams": (ah.HullSeams, {"x": 0.5, "z": (1.0, 2.0), "girth": (), "inside": True}),
+    "plates.surface_figure": (
+        surface_figure, {"surface": 3, "path": None, "title": "a", "paper": "A4"}
+    ),
+    "plates.hull_map": (hull_map, {"found": None, "path": None, "title": "a", "paper": "A4"}),
     "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
     "write_cad": (
         write_cad,

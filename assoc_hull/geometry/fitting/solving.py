@@ -97,7 +97,6 @@ def _solved(
         open_axes = [axis for axis in open_axes if axis not in alike]
         given = np.where(mask[:, alike], value[:, alike], 0.0)
         rest = right[:, alike] - _times(band, given)
-        rest[mask[:, first]] = 0.0
         solved = _cholesky(_without(band, mask[:, first]), rest, where)
         found[:, alike] = np.where(mask[:, alike], given, solved)
     return found

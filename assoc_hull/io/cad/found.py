@@ -9,7 +9,6 @@ Examples
 
 from __future__ import annotations
 
-import re
 import tempfile
 from collections.abc import Callable, Sequence
 from itertools import pairwise
@@ -18,21 +17,19 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.faces import faces_in, surface_of
 from assoc_hull.io.cad.free_edges import free_edges, lie_along
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
+from assoc_hull.io.cad.read import read_shape, step_unit
 from assoc_hull.io.iges_file import UNITS, IgesFile
 
-__all__ = ["Found", "find_in", "read_shape", "told_unit"]
+__all__ = ["Found", "find_in", "shape_in", "told_unit"]
 
 _AREA, _SPANS = 1e-8, 12
 """The part to which areas are integrated, and the least spans: OpenCASCADE leaves 1e-5 else."""
 
 _ENDINGS = {"step": ".step", "iges": ".igs"}
-_SI = re.compile(rb"LENGTH_UNIT\s*\(\s*\).{0,40}?SI_UNIT\s*\(\s*([$.A-Z]+)\s*,\s*\.METRE\.", re.S)
-_PREFIXES = {b"$": "m", b".MILLI.": "mm", b".CENTI.": "cm"}
 
 
 @attrs.frozen(eq=False)
@@ -81,12 +78,11 @@ def told_unit(data: bytes, kind: str) -> str:
         What it is.
     """
     if kind == "step":
-        match = _SI.search(data)
-        return _PREFIXES.get(match[1], "") if match else ""
+        return step_unit(data.decode("latin-1")) or ""
     return UNITS.get(IgesFile.of_text(data.decode("latin-1"), "the file").unit, ("",))[0]
 
 
-def read_shape(data: bytes, kind: str) -> Any:
+def shape_in(data: bytes, kind: str) -> Any:
     """Give the shape that OpenCASCADE reads, in mm whatever the file's unit.
 
     Raises
@@ -94,20 +90,11 @@ def read_shape(data: bytes, kind: str) -> Any:
     BadInputError
         It reads nothing.
     """
-    from OCP.IFSelect import IFSelect_ReturnStatus
-    from OCP.IGESControl import IGESControl_Reader
-    from OCP.STEPControl import STEPControl_Reader
-
     with quiet(), tempfile.TemporaryDirectory() as folder:
         # A stream will not do: OpenCASCADE reads IGES from files only.
         path = Path(folder) / f"surfaces{_ENDINGS[kind]}"
         path.write_bytes(data)
-        reader = STEPControl_Reader() if kind == "step" else IGESControl_Reader()
-        status = reader.ReadFile(str(path))
-        if status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.TransferRoots():
-            return reader.OneShape()
-    what = f"OpenCASCADE reads no surface ({status.name})"
-    raise BadInputError(what, "in the file", "see that it is whole")
+        return read_shape(path, kind)
 
 
 def find_in(data: bytes, kind: str) -> Found:
@@ -127,7 +114,7 @@ def find_in(data: bytes, kind: str) -> Found:
     MissingExtraError
         OpenCASCADE is not there.
     """
-    shape = read_shape(data, kind)
+    shape = shape_in(data, kind)
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.TopAbs import TopAbs_Orientation
 

@@ -4,16 +4,23 @@ Every face is made a spline surface first, so that its triangles tell parameters
 
 Examples
 --------
->>> from assoc_hull.io.cad.read import step_unit
->>> step_unit("#5=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));")
-'mm'
->>> step_unit("#7=(CONVERSION_BASED_UNIT('INCH',#8)LENGTH_UNIT()NAMED_UNIT(#9));")
-'in'
+>>> import tempfile
+>>> from pathlib import Path
+>>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
+>>> from assoc_hull.io.cad.faces import sewn
+>>> from assoc_hull.io.cad.read import read_faces
+>>> from assoc_hull.io.cad.step_write import step_bytes
+>>> side = SplineSurface.bezier([[[0, 1, 0], [0, 1, 2]], [[5, 1, 0], [5, 1, 2]]], "side")
+>>> with tempfile.TemporaryDirectory() as folder:
+...     path = Path(folder) / "side.step"
+...     written = path.write_bytes(step_bytes(sewn([side]), ["side"], "mm", "hull"))
+...     faces = read_faces(path, "step", "mm", None)
+>>> faces.surfaces[0].domain, len(faces.facets(0.01, 1.0).mesh.face)
+(((0.0, 1.0), (0.0, 1.0)), 2)
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -30,28 +37,10 @@ from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
 from assoc_hull.io.surface_faces import Faces
 from assoc_hull.io.surface_units import METRES, unit_note
 
-__all__ = ["read_faces", "read_shape", "step_unit"]
+__all__ = ["read_faces", "read_shape"]
 
 _TURN = 0.35
 """Triangles of a face turn by at most so much (rad) from one to the next."""
-
-_PREFIX = {"$": "m", "": "m", ".MILLI.": "mm", ".CENTI.": "cm"}
-_CONVERTED = {"INCH": "in", "IN": "in", "FOOT": "ft", "FEET": "ft", "FT": "ft"}
-
-
-def step_unit(text: str) -> str | None:
-    """Give the unit of length of a STEP file; None if it is none that is known."""
-    for entity in re.finditer(r"=\s*\(([^;]*)\)\s*;", text):
-        body = entity[1]
-        if not re.search(r"\bLENGTH_UNIT\s*\(", body):
-            continue
-        base = re.search(r"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'", body)
-        if base:
-            return _CONVERTED.get(base[1].strip().upper())
-        metric = re.search(r"SI_UNIT\s*\(\s*([$.A-Z]*)\s*,\s*\.METRE\.", body)
-        if metric:
-            return _PREFIX.get(metric[1].strip())
-    return None
 
 
 def read_faces(path: Path, kind: str, told: str | None, unit: str | None) -> Faces:

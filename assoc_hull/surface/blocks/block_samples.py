@@ -34,7 +34,9 @@ class _Edges:
     inside: NDArray[np.bool_]
 
 
-def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.bool_]]:
+def block_samples(
+    found: BlockMap, length: float, cuts: IntArray
+) -> tuple[Samples, NDArray[np.bool_]]:
     """Give points on the lines of a block and of its bays; also which lie on the block.
 
     Parameters
@@ -43,6 +45,8 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
         The block, laid out.
     length : float, m
         Of the ship.
+    cuts : (k,) int
+        Edges along which blocks meet: points there hold both parameters, in both blocks.
 
     Returns
     -------
@@ -52,7 +56,7 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
         Those of the block itself.
     """
     graph = found.core.quad.region.graph
-    edges = _edges(found)
+    edges = _edges(found, cuts)
     family = np.array(graph.net.family)[graph.curve[edges.edge]]
     coarse = (family != "sections") & (found.plan.kind == "body")
     step = np.where(coarse, _ALONG, _ACROSS) * (length / _SHIP)
@@ -74,7 +78,7 @@ def block_samples(found: BlockMap, length: float) -> tuple[Samples, NDArray[np.b
     return samples, edges.inside[owner][good]
 
 
-def _edges(found: BlockMap) -> _Edges:
+def _edges(found: BlockMap, cuts: IntArray) -> _Edges:
     """Gather the edges of the block and its bays with the parameters of their ends."""
     graph = found.core.quad.region.graph
     count = len(graph.edge)
@@ -101,15 +105,8 @@ def _edges(found: BlockMap) -> _Edges:
         held[rail.half >> 1, 0] = True
     bridge = np.array([name == BRIDGE for name in graph.net.family])
     chosen = np.flatnonzero(seen & ~bridge[graph.curve])
-    bound = _follows(found)
-    held[bound] = True
+    held[cuts[core.edges[cuts]]] = True
     return _Edges(chosen, uv[chosen], held[chosen], border[chosen], core.edges[chosen])
-
-
-def _follows(found: BlockMap) -> IntArray:
-    """Give the edges along which a block follows another."""
-    halves = [half for seam in found.plan.seams for half in seam.half]
-    return np.array(halves, np.int64) >> 1
 
 
 def _points(graph: NetGraph, edge: IntArray, count: IntArray, first: IntArray) -> FloatArray:

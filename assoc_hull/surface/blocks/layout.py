@@ -14,7 +14,6 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.block_map import GRID, BlockMap, Laid, block_map
 from assoc_hull.surface.blocks.block_samples import block_samples
-from assoc_hull.surface.blocks.kinks import with_kinks
 from assoc_hull.surface.blocks.plan import block_plans
 from assoc_hull.surface.blocks.quad import SIDES
 from assoc_hull.surface.cells.faces import cells
@@ -59,15 +58,17 @@ def lay_out(
     >>> [block.name for block in lay_out(gather(hull.state), hull.particulars.length)]
     ['body', 'stern counter']
     """
-    found = cells(with_kinks(net_graph(net, leave_out=leave_out)))
+    found = cells(net_graph(net, leave_out=leave_out))
     maps = dict[str, BlockMap]()
     for plan in block_plans(found, length):
         maps[plan.name] = block_map(plan, length, maps)
-    return tuple(_block(each, maps, length) for each in maps.values())
+    halves = [half for each in maps.values() for seam in each.plan.seams for half in seam.half]
+    cuts = np.array(halves, np.int64) >> 1
+    return tuple(_block(each, maps, length, cuts) for each in maps.values())
 
 
-def _block(found: BlockMap, every: dict[str, BlockMap], length: float) -> Block:
-    samples, inside = block_samples(found, length)
+def _block(found: BlockMap, every: dict[str, BlockMap], length: float, cuts: IntArray) -> Block:
+    samples, inside = block_samples(found, length, cuts)
     plan, box = found.plan, found.core.box
     place = found.core.quad.region.graph.place
     ends = ((0, 0), (1, 0), (1, 1), (0, 1))

@@ -18,10 +18,9 @@ from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
 from assoc_hull.geometry.triangles import Triangles
 from assoc_hull.surface.cells.closing import cover, mirrored
-from assoc_hull.surface.cells.faces import cells
-from assoc_hull.surface.cells.filling import fill_cells
+from assoc_hull.surface.cells.filling import FilledCells, fill_cells
 from assoc_hull.surface.cells.mesh_report import MeshReport, examined
-from assoc_hull.surface.cells.net_graph import net_graph
+from assoc_hull.surface.cells.sound_cells import sound_cells
 
 __all__ = ["BelowDraught", "ClosedMesh", "mesh_of_net", "require_closed"]
 
@@ -70,6 +69,10 @@ class ClosedMesh:
         Cells of the net, of one half.
     report : MeshReport
         What was found of it.
+    sagitta : (3,), m
+        How far the lines leave their chords between points: half, 95 % and all of them no more.
+    notes : tuple of str
+        What was done to lines that do not part the hull into cells as they are.
     """
 
     xyz: FloatArray
@@ -81,9 +84,11 @@ class ClosedMesh:
     steps: int
     cells: int
     report: MeshReport
+    sagitta: FloatArray
+    notes: tuple[str, ...] = ()
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.xyz, self.triangle, self.group, self.cell)
+        freeze(self.xyz, self.triangle, self.group, self.cell, self.sagitta)
 
     @property
     def triangles(self) -> Triangles:
@@ -150,14 +155,17 @@ class ClosedMesh:
         volume = " ".join(f"{each:.3f}" for each in report.fluxes.tolist())
         closed = f"yes: each edge in two triangles, Euler {report.euler}"
         median, most, nearly = report.slenderness.tolist()
-        rows = (
+        bend = [f"{1000.0 * each:.1f}" for each in self.sagitta.tolist()]
+        rows = [
             ("mesh", f"{sides}; {self.cells} cells a half, {self.steps} points to an edge"),
             ("triangles", f"{report.triangles}, {report.vertices} vertices, {report.nil} nil"),
             ("area", areas),
             ("watertight", closed if report.sound else f"no: {report.open_edges} open edges"),
             ("volume", f"{volume} m3, by x, y and z" if report.sound else "none: it is open"),
+            ("chords", f"{bend[0]} mm off their lines (median), 95 % {bend[1]}, most {bend[2]}"),
             ("slenderness", f"median {median:.1f}, 95 % below {most:.1f}, 99 % below {nearly:.1f}"),
-        )
+            *(("note", note) for note in self.notes),
+        ]
         return "\n".join(f"{name:<12}{text}" for name, text in rows)
 
 
@@ -228,7 +236,7 @@ def mesh_of_net(
         raise BadInputError(
             f"{points} points to an edge", _WHERE, "give an even number: cells meet at middles"
         )
-    filled = fill_cells(cells(net_graph(net, leave_out=leave_out)), points)
+    filled = fill_cells(sound_cells(net, leave_out), points)
     sheets = cover(filled)
     if not half:
         sheets = mirrored(sheets)
@@ -237,5 +245,15 @@ def mesh_of_net(
         require_closed(report, "the surface", half)
     return ClosedMesh(
         sheets.xyz, sheets.triangle, sheets.group, sheets.cell, sheets.names, half, points,
-        filled.cells.count, report,
+        filled.cells.count, report, _sagitta(filled), filled.cells.notes,
     )  # fmt: skip
+
+
+def _sagitta(filled: FilledCells) -> FloatArray:
+    """Give how far lines leave chords between points at their middles, m: quantiles, (3,)."""
+    graph, steps = filled.cells.graph, filled.steps
+    end = graph.points(steps)
+    on_line = graph.pieces.points((np.arange(steps) + 0.5) / steps)
+    away = on_line - 0.5 * (end[:, 1:] + end[:, :-1])
+    size = np.sqrt((away * away).sum(axis=2)).ravel()
+    return np.asarray(np.quantile(size, [0.5, 0.95, 1.0], method="higher"))

@@ -12,7 +12,7 @@ from assoc_hull.surface.cells.net_graph import NetGraph
 from assoc_hull.surface.cells.normals import edge_angles
 from assoc_hull.surface.cells.soundness import check_faces, check_lines, check_outline
 
-__all__ = ["Cells", "cells", "origins"]
+__all__ = ["Cells", "cells", "following", "loops", "origins"]
 
 
 @attrs.frozen(eq=False)
@@ -32,12 +32,15 @@ class Cells:
     outline : (k,) int
         The half-edges with nothing on their left, in the order in which they follow each other:
         the border of the half hull, with the hull to the right.
+    notes : tuple of str
+        What was done to lines that do not part the hull into cells as they are.
     """
 
     graph: NetGraph
     start: IntArray
     half: IntArray
     outline: IntArray
+    notes: tuple[str, ...] = ()
 
     def __attrs_post_init__(self) -> None:
         freeze(self.start, self.half, self.outline)

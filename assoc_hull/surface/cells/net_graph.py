@@ -94,7 +94,9 @@ class NetGraph:
         return node[first], t
 
 
-def net_graph(net: Net, *, leave_out: NDArray[np.bool_] | None = None) -> NetGraph:
+def net_graph(
+    net: Net, *, leave_out: NDArray[np.bool_] | None = None, search: bool = False
+) -> NetGraph:
     """Make the graph of a net.
 
     Parameters
@@ -103,6 +105,9 @@ def net_graph(net: Net, *, leave_out: NDArray[np.bool_] | None = None) -> NetGra
         Curves and crossings.
     leave_out : (m,) bool or None
         Curves to do without; what they cross loses these nodes.
+    search : bool
+        Look for crossings that the tables do not hold along all lines, not only along borders of
+        flats and knuckles.
 
     Returns
     -------
@@ -110,7 +115,8 @@ def net_graph(net: Net, *, leave_out: NDArray[np.bool_] | None = None) -> NetGra
         Every node has two edges or more; pieces of lines that end nowhere are left out.
     """
     keep = np.ones(net.batch.count, bool) if leave_out is None else ~leave_out
-    found = _settled(net, find_stops(net, keep))
+    along = keep if search else net.flat | net.knuckle
+    found = _settled(net, find_stops(net, keep, along))
     edge, node = _numbered(found.edge, len(found.stops.place))
     place = found.stops.place[node >= 0]
     row_node = np.append(node, -1)[found.stops.row_node]

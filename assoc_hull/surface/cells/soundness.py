@@ -9,9 +9,12 @@ from assoc_hull.errors import OpenNetError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.surface.cells.net_graph import NetGraph
 from assoc_hull.surface.cells.stops import united
-from assoc_hull.surface.cells.unnoted import unnoted_crossings
+from assoc_hull.surface.cells.unnoted import REACH, unnoted_crossings
 
-__all__ = ["check_faces", "check_lines", "check_outline"]
+__all__ = ["check_faces", "check_lines", "check_outline", "missed_crossings"]
+
+_FAR = 5e-3
+"""So far apart (lengths of the hull) lines are named that may have been meant to cross."""
 
 
 def check_lines(graph: NetGraph) -> None:
@@ -53,15 +56,35 @@ def check_faces(graph: NetGraph, faces: int) -> None:
     """
     euler = len(graph.place) - len(graph.edge) + faces
     if euler != 2:
-        curves = np.unique(graph.curve)
-        keep = np.zeros(graph.net.batch.count, bool)
-        keep[curves] = True
-        found = unnoted_crossings(graph.net, keep, curves)
         raise OpenNetError(
             f"nodes - edges + faces is {euler}, not 2, as where a crossing is missing",
-            _crossings(graph.net, found.pair, found.xyz),
+            missed_crossings(graph, _FAR),
             "associate the groups of these lines, or leave one of them out",
-        )  # fmt: skip
+        )
+
+
+def missed_crossings(graph: NetGraph, reach: float = REACH) -> tuple[str, ...]:
+    """Name the lines that cross where the table holds no crossing, each pair once.
+
+    Borders of flats and knuckles are not looked at: their crossings are searched for anyway.
+
+    Parameters
+    ----------
+    graph : NetGraph
+        The net.
+    reach : float
+        Lines no farther apart cross, in lengths of the hull.
+    """
+    net = graph.net
+    keep = np.isin(np.arange(net.batch.count), graph.curve)
+    plain = keep & ~net.flat & ~net.knuckle
+    found = unnoted_crossings(net, keep, np.flatnonzero(plain), reach)
+    told: dict[tuple[int, ...], str] = {}
+    for i in np.lexsort((found.pair[:, 1], found.pair[:, 0], found.gap)).tolist():
+        a, b = sorted(found.pair[i].tolist())
+        where = f"near {_told(found.xyz[i])}, {found.gap[i]:.3f} m apart"
+        told.setdefault((a, b), f"{net.name[a]} x {net.name[b]} {where}")
+    return tuple(told.values())
 
 
 def check_outline(graph: NetGraph, outline: IntArray) -> None:
@@ -90,15 +113,6 @@ def _ends(net: Net, loose: IntArray) -> tuple[str, ...]:
         f"{net.name[c]} at {_told(place)}"
         for c, place in zip(loose[:, 0].tolist(), net.batch.xyz[knot], strict=True)
     )
-
-
-def _crossings(net: Net, pair: IntArray, xyz: FloatArray) -> tuple[str, ...]:
-    """Name crossings, each once."""
-    told: dict[tuple[int, ...], str] = {}
-    for both, place in zip(pair.tolist(), xyz, strict=True):
-        a, b = sorted(both)
-        told.setdefault((a, b), f"{net.name[a]} x {net.name[b]} near {_told(place)}")
-    return tuple(told.values())
 
 
 def _told(place: FloatArray) -> str:

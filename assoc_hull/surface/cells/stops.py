@@ -95,7 +95,7 @@ class _Crossings:
     rows: IntArray
 
 
-def find_stops(net: Net, keep: NDArray[np.bool_]) -> Stops:
+def find_stops(net: Net, keep: NDArray[np.bool_], search: NDArray[np.bool_]) -> Stops:
     """Find the nodes of a net.
 
     Parameters
@@ -104,6 +104,8 @@ def find_stops(net: Net, keep: NDArray[np.bool_]) -> Stops:
         Curves and crossings.
     keep : (m,) bool
         The curves that are asked for; crossings with others are left out.
+    search : (m,) bool
+        Curves along which crossings without a row are looked for.
 
     Returns
     -------
@@ -111,7 +113,7 @@ def find_stops(net: Net, keep: NDArray[np.bool_]) -> Stops:
         Numbered along the curves, the first curve first.
     """
     near = _near(net)
-    every = _crossings(net, keep, near)
+    every = _crossings(net, keep, search, near)
     curve, t = every.pair.T.ravel(), every.t.T.ravel()
     crossing = np.tile(np.arange(len(every.pair)), 2)
     order = np.lexsort((crossing, t, curve))
@@ -146,11 +148,13 @@ def _numbered(
     return Stops(curve, t, node, _places(net, curve, t, node), row_node)
 
 
-def _crossings(net: Net, keep: NDArray[np.bool_], near: float) -> _Crossings:
+def _crossings(
+    net: Net, keep: NDArray[np.bool_], search: NDArray[np.bool_], near: float
+) -> _Crossings:
     """Give all that meets: rows, ends without a row, borders of flats; and corners of curves."""
     rows = np.flatnonzero(keep[net.meets].all(axis=1))
     joint, joint_t = _joints(net, keep, near)
-    lost = unnoted_crossings(net, keep, np.flatnonzero(keep & (net.flat | net.knuckle)))
+    lost = unnoted_crossings(net, keep, np.flatnonzero(keep & search))
     corner, corner_t = _corners(net, keep)
     return _Crossings(
         np.concatenate([net.meets[rows], joint, lost.pair, corner]),

@@ -15,9 +15,9 @@ from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 
-__all__ = ["Unnoted", "unnoted_crossings"]
+__all__ = ["REACH", "Unnoted", "unnoted_crossings"]
 
-_REACH = 80e-3 / 300.0
+REACH = 80e-3 / 300.0
 """Curves that pass one another so near cross, in lengths of the hull."""
 
 _BESIDE = 1e-3
@@ -36,17 +36,22 @@ class Unnoted:
         Where on them.
     xyz : (j, 3), m
         The place on the first.
+    gap : (j,), m
+        How far from the second it is.
     """
 
     pair: IntArray
     t: FloatArray
     xyz: FloatArray
+    gap: FloatArray
 
     def __attrs_post_init__(self) -> None:
-        freeze(self.pair, self.t, self.xyz)
+        freeze(self.pair, self.t, self.xyz, self.gap)
 
 
-def unnoted_crossings(net: Net, keep: NDArray[np.bool_], curves: IntArray) -> Unnoted:
+def unnoted_crossings(
+    net: Net, keep: NDArray[np.bool_], curves: IntArray, reach: float = REACH
+) -> Unnoted:
     """Find crossings without a row.
 
     Parameters
@@ -57,27 +62,30 @@ def unnoted_crossings(net: Net, keep: NDArray[np.bool_], curves: IntArray) -> Un
         The curves that are asked for.
     curves : (c,) int
         Those that are looked along: where they meet the planes of other lines.
+    reach : float
+        Lines no farther away there cross, in lengths of the hull: 80 mm on 300 m.
 
     Returns
     -------
     Unnoted
-        Where a line lies in that plane no farther away than 80 mm on a hull of 300 m.
+        All of them.
     """
     length = float(np.ptp(net.batch.xyz[:, 0]))
     lines = keep & np.isfinite(net.normal).all(axis=1) & (np.array(net.family) != "boundary")
-    found = [(np.empty((0, 2), np.int64), np.empty((0, 2)), np.empty((0, 3)))]
+    found = [(np.empty((0, 2), np.int64), np.empty((0, 2)), np.empty((0, 3)), np.empty(0))]
     for normal in np.unique(net.normal[lines], axis=0):
         own = np.flatnonzero(lines & (net.normal == normal).all(axis=1))
         others = np.setdiff1d(curves, own)
         if len(others):
-            found.append(_of_planes(net, own, others, length))
-    return Unnoted(*(np.concatenate([each[i] for each in found]) for i in range(3)))
+            found.append(_of_planes(net, own, others, (length, reach)))
+    return Unnoted(*(np.concatenate([each[i] for each in found]) for i in range(4)))
 
 
 def _of_planes(
-    net: Net, lines: IntArray, curves: IntArray, length: float
-) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Find those with lines in parallel planes."""
+    net: Net, lines: IntArray, curves: IntArray, scale: tuple[float, float]
+) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
+    """Find those with lines in parallel planes; `scale` is the length, m, and the reach in it."""
+    length, reach = scale
     normal = net.normal[lines[0]]
     height = net.batch.xyz[net.batch.start[lines]] @ normal
     offset, plane = np.unique(height.round(9), return_inverse=True)
@@ -90,9 +98,9 @@ def _of_planes(
     which, line = np.nonzero(met.plane[lost][:, None] == plane)
     at, other = lost[which], lines[line]
     t, _, distance = closest_each(net.batch, other, met.xyz[at])
-    good = distance <= _REACH * length
+    good = distance <= reach * length
     pair = np.column_stack([own[at], other])[good]
-    return pair, np.column_stack([met.t[at], t])[good], met.xyz[at][good]
+    return pair, np.column_stack([met.t[at], t])[good], met.xyz[at][good], distance[good]
 
 
 def _held(

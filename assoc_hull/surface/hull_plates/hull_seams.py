@@ -58,17 +58,25 @@ def _words(axis: str, low: float, high: float) -> str:
     return f"{axis} above {low:g} m" if np.isinf(high) else f"{axis} {low:g} to {high:g} m"
 
 
-def _places(value: Any, field: attrs.Attribute[Any]) -> tuple[float, ...]:
+def _places(value: object, name: str) -> tuple[float, ...]:
     """Take places that rise."""
-    found = np.atleast_1d(numbers(value, field.name, "in HullSeams"))
+    found = np.atleast_1d(numbers(value, name, "in HullSeams"))
     if (np.diff(found) < _NEAREST).any():
         remedy = f"give places that rise by {_NEAREST:g} m at least, in m"
-        raise BadInputError(f"{field.name} is {shown(value)}", "in HullSeams", remedy)
+        raise BadInputError(f"{name} is {shown(value)}", "in HullSeams", remedy)
     return tuple(found.tolist())
 
 
-def _taken() -> Any:
-    return attrs.field(default=(), converter=attrs.Converter(_places, takes_field=True))  # type: ignore[misc]
+def _butts(value: Any) -> tuple[float, ...]:
+    return _places(value, "x")
+
+
+def _levels(value: Any) -> tuple[float, ...]:
+    return _places(value, "z")
+
+
+def _girths(value: Any) -> tuple[float, ...]:
+    return _places(value, "girth")
 
 
 def _switch(value: object) -> bool:
@@ -106,9 +114,9 @@ class HullSeams:
     ['x 100 to 112 m, girth 2 to 4.5 m']
     """
 
-    x: tuple[float, ...] = _taken()
-    z: tuple[float, ...] = _taken()
-    girth: tuple[float, ...] = _taken()
+    x: tuple[float, ...] = attrs.field(default=(), converter=_butts)
+    z: tuple[float, ...] = attrs.field(default=(), converter=_levels)
+    girth: tuple[float, ...] = attrs.field(default=(), converter=_girths)
     inside: bool = attrs.field(default=False, converter=_switch)
 
     def __bool__(self) -> bool:

@@ -167,7 +167,11 @@ def test_a_hull_is_cut_by_butts_and_seams(hull: Path, facts: Json, tmp_path: Pat
     assert [plate["name"] for plate in found["plates"]] == ["1.1", "2.1"]
     assert found["plates"][0]["range"] == "x 30 to 40 m, girth 2 to 4 m"
     assert found["seams"] == {"x": [30, 40, 50], "z": [], "girth": [2, 4], "inside": True}
-    assert (found["fits"], found["search"]["strain_tol"], found["options"]["share"]) == (0, 2e-3, 0.9)
+    assert (found["fits"], found["search"]["strain_tol"], found["options"]["share"]) == (
+        0,
+        2e-3,
+        0.9,
+    )
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from assoc_hull.errors import BadInputError, MissingExtraError, NeedsCadError
 from assoc_hull.io.cad.both_sides import both_sides
 from assoc_hull.io.cad.faces import face_of, sewn
 from assoc_hull.io.cad.kernel import quiet
-from assoc_hull.io.cad.read import step_unit
+from assoc_hull.io.cad.step_text import require_sound, step_unit
 from assoc_hull.io.cad.step_write import step_bytes
 from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.slice_types import Slices
@@ -115,6 +115,28 @@ def test_a_damaged_step_file_is_refused(
     with pytest.raises(BadInputError, match=r"in bad\.step"):
         ah.read(path)
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(("old", "new", "message"), [
+    pytest.param("END-ISO-10303-21;", "", "cut short", id="no end"),
+    pytest.param("1.,2.", "nan,2.", "no statement.*nan", id="no number"),
+    pytest.param("1.,2.", "1e999,2.", "too large", id="no finite number"),
+    pytest.param("#1,", "#-1,", "no statement", id="no reference"),
+    pytest.param("#1,", "#3,", "no entity #3", id="a reference to nothing"),
+    pytest.param("2.))", "2.)", "no statement", id="an open bracket"),
+    pytest.param("#2 = ", "", "no statement", id="no name"),
+    pytest.param("DATA;", "", "no data", id="no data section"),
+])  # fmt: skip
+def test_text_that_ends_opencascade_is_refused_before(old: str, new: str, message: str) -> None:
+    """Each of these ended the process, hung, or could; strings may hold anything."""
+    text = (
+        "ISO-10303-21;\nHEADER;\nFILE_NAME('a;''b#9','',(''),(''),'','','');ENDSEC;\nDATA;\n"
+        "#1 = CARTESIAN_POINT('nan #7 (',(0.,1.,2.));\n/* nan; */"
+        "#2 = LINE('',#1,.T.,-1.5E-07,$,*);\nENDSEC;\nEND-ISO-10303-21;\n"
+    )
+    require_sound(text, "a.step")
+    with pytest.raises(BadInputError, match=rf"{message}.*in a\.step"):
+        require_sound(text.replace(old, new), "a.step")
 
 
 @pytest.mark.parametrize(("entity", "unit"), [

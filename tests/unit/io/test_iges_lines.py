@@ -14,7 +14,7 @@ from assoc_hull.geometry.curves import CurveData, PointKind
 from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.spline import loft
 from assoc_hull.hull import Hull
-from assoc_hull.io.cad.found import read_shape
+from assoc_hull.io.cad.found import shape_in
 from assoc_hull.io.digitised import read_lines
 from assoc_hull.io.iges_curves import curves_of_iges, holds_surfaces
 from assoc_hull.io.iges_layout import Layout
@@ -99,7 +99,7 @@ def test_opencascade_reads_the_same_curves(ship: Hull) -> None:
     assert report.curves == len(found) == 2 * len({each.name for each in found})
     for port, starboard in zip(found[::2], found[1::2], strict=True):
         assert np.array_equal(port.points * [1.0, -1.0, 1.0], starboard.points)
-    walk = TopExp_Explorer(read_shape(text.encode(), "iges"), TopAbs_ShapeEnum.TopAbs_EDGE)
+    walk = TopExp_Explorer(shape_in(text.encode(), "iges"), TopAbs_ShapeEnum.TopAbs_EDGE)
     for each in found:
         curve = BRep_Tool.Curve_s(TopoDS.Edge(walk.Current()), 0.0, 0.0)
         poles = [curve.Pole(i) for i in range(1, curve.NbPoles() + 1)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -45,20 +46,21 @@ def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlates) -
 
 def test_a_picture_has_the_same_bytes_each_time(plates: HullPlates, tmp_path: Path) -> None:
     """Of the map and of the surface; another ending is refused."""
-    for draw, given in ((hull_map, plates), (surface_figure, (AFT, FORE))):
+    pictures: list[tuple[Callable[..., object], object]] = [
+        (hull_map, plates), (surface_figure, (AFT, FORE)),
+    ]  # fmt: skip
+    for draw, given in pictures:
         paths = [tmp_path / "a.png", tmp_path / "b.png"]
         for path in paths:
-            draw(given, path, paper="A4")  # type: ignore[operator]
+            draw(given, path, paper="A4")
         assert paths[0].read_bytes() == paths[1].read_bytes()
         with pytest.raises(BadInputError):
-            draw(given, tmp_path / "a.txt")  # type: ignore[operator]
+            draw(given, tmp_path / "a.txt")
         with pytest.raises(WrongTypeError):
-            draw(3)  # type: ignore[operator]
+            draw(3)
 
 
-def test_the_sheet_has_the_map_the_table_and_the_notes(
-    plates: HullPlates, tmp_path: Path
-) -> None:
+def test_the_sheet_has_the_map_the_table_and_the_notes(plates: HullPlates, tmp_path: Path) -> None:
     """Three pages."""
     path = tmp_path / "plates.pdf"
     hull_sheet(plates, path, paper="A4")
@@ -68,7 +70,7 @@ def test_the_sheet_has_the_map_the_table_and_the_notes(
 
 
 def test_lines_of_tiles_lie_where_a_value_has_its_level() -> None:
-    """Pieces x = constant, from the lower edge of the side to the upper, each end on the surface."""
+    """Pieces x = constant, from the lower edge of the side to the upper."""
     tiles = hull_tiles(Shell.of((AFT, FORE)).patches, aim=64)
     pieces, normals = tiles.contour(tiles.grid[..., 0], -5.3)
     assert np.abs(pieces[..., 0] + 5.3).max() < 1e-12

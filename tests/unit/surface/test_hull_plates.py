@@ -157,7 +157,7 @@ def test_a_plate_about_the_limit_has_no_class() -> None:
 
 
 def test_fits_that_disagree_widen_the_band() -> None:
-    """K0 doubles until it is not below what 95 % of the change stays below; None changes nothing."""
+    """K0 doubles until 95 % of the change is no more; without other fits it stays."""
     gauss, area = np.zeros(100), np.ones(100)
     change = np.linspace(0.0, 9.9e-3, 100)
     doubt = Doubt.of(gauss, (gauss + change, gauss - 0.5 * change), area)
@@ -170,13 +170,11 @@ def test_fits_that_disagree_widen_the_band() -> None:
 
 
 def test_a_patch_that_stays_is_taken_over_with_its_bits() -> None:
-    """After a control point moves, what is computed again is 9 patches, and all is as from scratch."""
+    """After a control point moves, 9 patches are computed again, and all is as from scratch."""
     surface = BOWL.surface(X, Z, (8, 5), "body")
     net = surface.net.copy()
     net[4, 3, 1] += 0.02
-    moved = SplineSurface(
-        "body", surface.degrees, surface.knots_u, surface.knots_v, net
-    )
+    moved = SplineSurface("body", surface.degrees, surface.knots_u, surface.knots_v, net)
     old, fresh = (hull_plates((each,), SEAMS) for each in (surface, moved))
     again = hull_plates((moved,), SEAMS, previous=old)
     assert (old.computed, again.computed) == (40, 9)
@@ -197,7 +195,7 @@ def test_a_patch_that_stays_is_taken_over_with_its_bits() -> None:
 def test_seams_are_checked(values: dict[str, object], error: type[Exception]) -> None:
     """Places in m that rise by a millimetre."""
     with pytest.raises(error, match="in HullSeams"):
-        HullSeams(**values)  # type: ignore[arg-type]
+        HullSeams(**values)
 
 
 @pytest.mark.parametrize(
@@ -207,7 +205,9 @@ def test_seams_are_checked(values: dict[str, object], error: type[Exception]) ->
         pytest.param({"breadth": None}, "share one band", id="own breadths"),
         pytest.param({"others": [1]}, "others", id="no fits"),
         pytest.param({"previous": 1}, "previous", id="no plates"),
-        pytest.param({"seams": HullSeams(x=(500.0, 510.0), inside=True)}, "no plate lies", id="off"),
+        pytest.param(
+            {"seams": HullSeams(x=(500.0, 510.0), inside=True)}, "no plate lies", id="off"
+        ),
         pytest.param({"surface": ()}, "surface is empty", id="no surface"),
     ],
 )
@@ -228,9 +228,7 @@ def test_a_plate_that_is_not_there_is_told(bowl: HullPlates) -> None:
         bowl.column("weight")
 
 
-def wigley_truth(
-    low: float, high: float, top: float, k0: float
-) -> tuple[float, float, float]:
+def wigley_truth(low: float, high: float, top: float, k0: float) -> tuple[float, float, float]:
     """Area, convex and saddle share of the Wigley hull between two stations, below a waterline."""
     i, j = (np.arange(count) + 0.5 for count in (800, 800))
     x, z = low + (high - low) * i[:, None] / 800, top * j[None, :] / 800

@@ -213,6 +213,26 @@ def test_foot_points_are_where_the_miss_is_normal() -> None:
     assert distances(surface, off, uv + 0.03) == pytest.approx(away, abs=1e-12)
 
 
+def test_the_first_rounds_are_stiffer_and_the_last_is_not() -> None:
+    """Two rounds: a solution with 30 times the penalty, and one of the corrected parameters."""
+    surface = a_surface()
+    samples, breaks = samples_of(surface, 400), (UNEVEN, SHORT)
+    first = solved("fit", samples, breaks, 30 * 0.01)
+    found = fit_surface("fit", samples, *breaks, 0.01, rounds=2)
+    assert (
+        found.surface.net.tobytes()
+        == solved("fit", first.samples, breaks, 0.01).surface.net.tobytes()
+    )
+
+
+def test_a_step_of_foot_points_is_no_longer_than_a_part_of_the_domain() -> None:
+    """From a start far away parameters move by 1/40 of the domain a step, no more."""
+    surface = a_surface(even(0.0, 4.0, 4), even(0.0, 2.0, 2))
+    start = np.array([[1.0, 0.5]])
+    found, _ = foot_points(surface, surface.at([2.5], [1.5]), start, steps=1)
+    assert np.abs(found - start) == pytest.approx(np.array([[0.1, 0.05]]))
+
+
 def test_derivatives_are_those_of_differences() -> None:
     """S_u and S_v agree with differences of points of the surface."""
     surface, step = a_surface(), 1e-6

@@ -124,6 +124,7 @@ def test_a_strip_on_more_knots_is_the_same_curve(three: Three) -> None:
     """Knot insertion, a part of a border and another parameter leave curves where they are."""
     strip = three.strips["stem"]["u0"]
     more = strip.on(np.sort(np.append(strip.breaks, [0.2, 1.234, 1.234])))
+    assert len(more.row) == len(more.breaks) + 2 == len(strip.row) + 3
     t = np.linspace(0.0, 3.5, 41)
     for one, other in zip(strip.at(t), more.at(t), strict=True):
         assert one == pytest.approx(other, abs=1e-13)

@@ -98,14 +98,15 @@ def test_elements_are_those_of_the_formula() -> None:
     assert (len(found.folded), found.singular) == (0, ())
 
 
-def test_a_fold_is_found_where_it_is() -> None:
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_fold_is_found_where_it_is(axis: int) -> None:
     """A row of control points pulled past the next one folds the surface there, and only there."""
     net = graph(0.0).net.copy()
-    net[3, :, 0] += 0.6
+    net[(slice(None),) * axis + (3,)] += 0.6 * np.eye(3)[axis]
     given = graph(0.0)
     found = elements(SplineSurface("folded", (3, 3), given.knots_u, given.knots_v, net))
     assert len(found.folded) > 0
-    assert 0.25 < found.folded[:, 0].min() < found.folded[:, 0].max() < 0.95
+    assert 0.25 < found.folded[:, axis].min() < found.folded[:, axis].max() < 0.95
     assert found.least < 0.2
 
 

@@ -13,6 +13,7 @@ from assoc_hull.geometry.curves import SplineBatch
 from assoc_hull.geometry.length import arc_length
 from assoc_hull.surface.cells.faces import Cells, cells
 from assoc_hull.surface.cells.net_graph import net_graph
+from assoc_hull.surface.cells.sound_cells import sound_cells
 from tests.nets import A, B, C, ellipsoid_net
 
 
@@ -175,9 +176,47 @@ def test_a_crossing_without_a_row_is_named(wigley: Net) -> None:
     """Inside the hull the edges do not fit on it any more; at an end the line ends nowhere."""
     told = refused(without_rows(wigley, rows_of(wigley, "WL 2.5", "ST 7")))
     assert "nodes - edges + faces is 0" in told
-    assert "ST 7 x WL 2.5 near (35.000, " in told
+    assert "ST 7 x WL 2.5 near (35.000, 2.912, 2.500) m, 0.000 m apart" in told
     told = refused(without_rows(shortened(wigley), rows_of(wigley, "profile", "WL 2.5")))
     assert "lines end on no other line: WL 2.5 at (" in told
+
+
+def test_a_crossing_without_a_row_is_found_where_lines_meet(wigley: Net) -> None:
+    """The cells are those of the whole net, and what was done is told; 0.5 m apart it is not."""
+    gone = rows_of(wigley, "WL 2.5", "ST 7")
+    found, whole = sound_cells(without_rows(wigley, gone)), cells(net_graph(wigley))
+    assert whole.notes == ()
+    assert found.notes == (
+        "crossings that the tables do not hold: "
+        "ST 7 x WL 2.5 near (35.000, 2.912, 2.500) m, 0.000 m apart",
+    )
+    assert found.count == whole.count
+    apart = without_rows(with_section_aside(wigley, "ST 7", 0.4), gone)
+    with pytest.raises(OpenNetError, match=r"ST 7 x WL 2.5 near .* 0\.\d+ m apart"):
+        sound_cells(apart)
+
+
+def with_section_aside(net: Net, name: str, way: float) -> Net:
+    """The net with a section that bulges out between its ends."""
+    curve = named(net, name)
+    rows = np.arange(net.batch.start[curve] + 1, net.batch.start[curve + 1] - 1)
+    xyz = net.batch.xyz.copy()
+    xyz[rows, 1] += way
+    return attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
+
+
+def test_borders_of_flats_that_fit_nothing_are_left_out(series60_70: ah.Hull) -> None:
+    """A border 1 m below the lines is named, and the cells are those without it."""
+    net = gather(series60_70.state)
+    flat = named(net, "flat of side")
+    rows = np.arange(net.batch.start[flat], net.batch.start[flat + 1])
+    xyz = net.batch.xyz.copy()
+    xyz[rows, 1:] += [-0.6, -1.0]
+    astray = attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz))
+    gone = (net.meets == flat).any(axis=1) & (np.arange(len(net.meets)) % 3 == 0)
+    found = sound_cells(without_rows(astray, gone))
+    assert found.notes == ("left out, as they do not fit the lines: flat of bottom, flat of side",)
+    assert found.count == cells(net_graph(net, leave_out=net.flat)).count
 
 
 def shortened(net: Net) -> Net:

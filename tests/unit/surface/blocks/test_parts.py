@@ -1,0 +1,116 @@
+"""Regions, corners, bends and slopes: what a layout is made of."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from assoc_hull.analysis.net.gather import gather
+from assoc_hull.errors import BadInputError
+from assoc_hull.hull import Hull
+from assoc_hull.surface.blocks.outline import bends_inward, course
+from assoc_hull.surface.blocks.plan import block_plans
+from assoc_hull.surface.blocks.region import Region
+from assoc_hull.surface.blocks.run_slopes import slopes_along
+from assoc_hull.surface.cells.faces import Cells, cells
+from assoc_hull.surface.cells.net_graph import net_graph
+from tests.nets import wigley_net
+
+
+@pytest.fixture(scope="module")
+def small() -> Cells:
+    """The cells of a Wigley hull of few lines."""
+    return cells(net_graph(gather(wigley_net(7, 4))))
+
+
+def test_a_chord_parts_a_disc_in_two_discs(small: Cells) -> None:
+    """Each section runs from border to border; its left half-edges lie on one side of it."""
+    whole = Region.whole(small)
+    sections = [i for i, name in enumerate(small.graph.net.family) if name == "sections"]
+    for curve in sections:
+        (chord,) = whole.chords(curve)
+        parts = whole.parted([chord.half])
+        assert [part.is_disc for part in parts] == [True, True]
+        assert sum(int(part.inside.sum()) for part in parts) == small.count
+        left = whole.with_half([chord.half], int(chord.half[0]))
+        right = whole.with_half([chord.half], int(chord.half[0]) ^ 1)
+        assert left is not None
+        assert right is not None
+        assert not (left.inside & right.inside).any()
+        assert left.left[chord.half].all()
+        back = chord.reversed()
+        assert (back.first, back.last) == (chord.last, chord.first)
+
+
+def test_the_outline_goes_round_with_the_hull_to_its_left(small: Cells) -> None:
+    """The deck forward, the keel aft: in the side view a way clockwise."""
+    found = course(Region.whole(small))
+    x, _, z = found.place.T
+    assert 0.5 * (x[:-1] * z[1:] - x[1:] * z[:-1]).sum() < 0.0
+    np.testing.assert_allclose(found.at(np.array([0.0])), found.at(np.array([found.length])))
+
+
+def test_a_region_with_a_hole_is_no_disc(small: Cells) -> None:
+    """It has two loops, of which the longer one goes round it."""
+    whole = Region.whole(small)
+    inner = np.flatnonzero([not whole.on_loop[small.nodes(c)].any() for c in range(small.count)])
+    holed = whole.inside.copy()
+    holed[inner[0]] = False
+    found = Region(small, holed)
+    assert len(found.loops) == 2
+    assert not found.is_disc
+    assert np.array_equal(np.sort(found.loop), np.sort(whole.loop))
+
+
+def test_cells_that_are_no_disc_are_refused(small: Cells, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error says so, and by how many loops."""
+    whole = Region.whole(small)
+    inner = np.flatnonzero([not whole.on_loop[small.nodes(c)].any() for c in range(small.count)])
+    holed = whole.inside.copy()
+    holed[inner[0]] = False
+    monkeypatch.setattr(Region, "whole", classmethod(lambda cls, given: cls(given, holed)))
+    with pytest.raises(BadInputError, match=r"the half hull is no disc: its border has 2 loops"):
+        block_plans(small, 100.0)
+
+
+def test_bends_into_the_ship_are_found_and_no_others(
+    small: Cells, series60_70: Hull, bulk_carrier: Hull
+) -> None:
+    """None on a wall-sided hull; the top of a stern post; an aperture, and a stem above a bulb."""
+    assert bends_inward(course(Region.whole(small)), 100.0) == ()
+    (post,) = bends_of(series60_70)
+    assert post.turn > 70.0
+    np.testing.assert_allclose(post.place, [0.0, 0.0, 6.0], atol=0.7)
+    aperture, stem, boss = bends_of(bulk_carrier)
+    assert aperture.turn > 100.0 > 60.0 > stem.turn > boss.turn > 40.0
+    np.testing.assert_allclose(aperture.place, [8.8, 0.0, 7.3], atol=0.6)
+    np.testing.assert_allclose(stem.place, [299.8, 0.0, 16.4], atol=0.5)
+
+
+def bends_of(hull: Hull) -> tuple:  # type: ignore[type-arg]
+    """Bends of the profile of a hull, from 35 degrees on."""
+    whole = Region.whole(cells(net_graph(gather(hull.state))))
+    return bends_inward(course(whole), hull.particulars.length, 35.0)
+
+
+@given(st.lists(st.tuples(st.floats(0.1, 9.0), st.floats(0.0, 9.0)), min_size=2, max_size=8))
+def test_parameters_between_nodes_never_overshoot(steps: list[tuple[float, float]]) -> None:
+    """Rising parameters at nodes rise all the way between them; even ones run straight."""
+    length, rise = np.array(steps).T
+    value = np.append(0.0, np.cumsum(rise))
+    count = len(length)
+    edge = np.column_stack([np.arange(count), np.arange(count) + 1])
+    begin = np.append(0.0, np.cumsum(length))[:-1]
+    ends = np.stack([value[:-1], value[1:]], axis=1)[:, :, None]
+    curve, free = np.zeros(count, np.int64), np.zeros(count, np.bool_)
+    leave, arrive = slopes_along(curve, edge, begin, length, ends, free)
+    p = np.linspace(0.0, 1.0, 21)[:, None]
+    q = 1.0 - p
+    da, db = leave[:, 0] * length, arrive[:, 0] * length
+    found = value[:-1] + rise * p * p * (3.0 - 2.0 * p) + p * q * (q * da - p * db)
+    assert (np.diff(found, axis=0) >= -1e-9).all()
+    np.testing.assert_array_equal(arrive[:-1], leave[1:])
+    even = (length * 0.5)[:, None]
+    straight = np.stack([begin[:, None] * 0.5, begin[:, None] * 0.5 + even], axis=1)
+    leave, arrive = slopes_along(curve, edge, begin, length, straight, free)
+    np.testing.assert_allclose([leave, arrive], 0.5, rtol=1e-9)
