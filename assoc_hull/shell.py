@@ -36,12 +36,12 @@ _WHERE = "in surface"
 
 @attrs.frozen(eq=False)
 class HullSurface(NetSurface):
-    """The surface of a half hull; what it holds says `assoc_hull.surface.net_surface.NetSurface`."""
+    """The surface of a half hull: a `NetSurface` that can be measured, meshed and written."""
 
     @property
     def residuals(self) -> ResidualTable:
         """How far the lines lie from the surface, block by block."""
-        return ResidualTable(self.blocks)
+        return ResidualTable(self.blocks, self.whole)
 
     def below(self, draught: float | None = None) -> Below:
         """Give volume, moments and area of the half below a waterplane, from the surface alone.

@@ -83,6 +83,9 @@ def net_surface_schema() -> Schema:
     parts = {
         "ship": _SHIP,
         "blocks": {"type": "array", "minItems": 1, "items": _BLOCK},
+        "whole": told_as(
+            "all blocks together", {"type": "array", "minItems": 1, "items": _RESIDUALS}
+        ),
         "borders": {"type": "array", "items": _BORDER},
         "left_out": told_as("lines that nothing was fitted to", listed(NAME).schema),
         "refitted": told_as("blocks fitted in this call", listed(NAME).schema),

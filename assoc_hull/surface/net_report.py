@@ -29,12 +29,15 @@ class ResidualTable:
     ----------
     blocks : tuple of FittedBlock
         The blocks.
+    whole : tuple of Residuals
+        All of them together.
     """
 
     blocks: tuple[FittedBlock, ...]
+    whole: tuple[Residuals, ...]
 
     def __iter__(self) -> Iterator[tuple[FittedBlock, Residuals]]:
-        """Give each block with its residuals on the lines that it was fitted to, then the others."""
+        """Give each block with its residuals: on lines it was fitted to, on lines left out."""
         return ((block, each) for block in self.blocks for each in block.residuals)
 
     def __len__(self) -> int:
@@ -42,17 +45,19 @@ class ResidualTable:
 
     def __str__(self) -> str:
         """Write the table, mm."""
-        return "\n".join([_HEAD.rstrip(), *(_row(*each) for each in self)])
+        rows = [_row(block.name, found, block.limit) for block, found in self]
+        rows += [_row("all", found) for found in self.whole]
+        return "\n".join([_HEAD.rstrip(), *rows])
 
 
-def _row(block: FittedBlock, found: Residuals) -> str:
+def _row(name: str, found: Residuals, limit: float | None = None) -> str:
     if not found.count:
-        return f"{block.name:16}{found.kind:10}{0:8d}"
+        return f"{name:16}{found.kind:10}{0:8d}"
     columns = (found.median, found.p95, found.p99, found.largest)
     numbers = "".join(f"{_MM * each:9.2f}" for each in columns)
-    limit = f"{_MM * block.limit:8.1f}" if found.kind == "fitted" else f"{'':8}"
+    bound = f"{_MM * limit:8.1f}" if limit and found.kind == "fitted" else f"{'':8}"
     return (
-        f"{block.name:16}{found.kind:10}{found.count:8d}{numbers}{limit}  "
+        f"{name:16}{found.kind:10}{found.count:8d}{numbers}{bound}  "
         f"{_place(found.place)} on {found.line}"
     )
 
@@ -73,7 +78,8 @@ def text_of(surface: NetSurface) -> str:
     count = sum(len(each.surface.patches()) for each in surface.blocks)
     head = f"Surface of {ship.name}, Lpp {ship.length:.2f} m, half: {len(surface.blocks)} "
     head += f"block(s), {count} Bezier patches"
-    parts = [head, "", str(ResidualTable(surface.blocks)), "", *map(_fit, surface.blocks)]
+    table = ResidualTable(surface.blocks, surface.whole)
+    parts = [head, "", str(table), "", *map(_fit, surface.blocks)]
     if surface.borders:
         parts += ["", *map(_border, surface.borders)]
     if surface.left_out:
@@ -115,6 +121,7 @@ def document_of(surface: NetSurface) -> dict[str, Any]:
         "schema": SCHEMA,
         "ship": attrs.asdict(surface.particulars),
         "blocks": [_block(block) for block in surface.blocks],
+        "whole": [_plain(each) for each in surface.whole],
         "borders": [_plain(border) for border in surface.borders],
         "left_out": list(surface.left_out),
         "refitted": list(surface.refitted),

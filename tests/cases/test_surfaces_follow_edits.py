@@ -1,6 +1,6 @@
 """A surface follows an edit: blocks whose lines stayed are taken over to the last bit."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import attrs
 import numpy as np
@@ -33,9 +33,9 @@ class Story:
 
 
 @pytest.fixture(scope="module")
-def story(bulk_carrier: Hull) -> Iterator[Story]:
+def story(bulk_carrier: Hull, surface_of: Callable[[Hull], HullSurface]) -> Iterator[Story]:
     """Before the pull, nothing pulled, then with a cut-off, with none, and from scratch."""
-    before = ah.surface(bulk_carrier)
+    before = surface_of(bulk_carrier)
     same = ah.surface(bulk_carrier, previous=before, cutoff=0.0)
     with bulk_carrier.edit("pull") as edit:
         edit.pull("WL 8 x ST 20.175", d=0.02, radius=(4.0, 3.0))
@@ -108,3 +108,20 @@ def test_a_walk_of_edits_never_drifts() -> None:
         assert max(np.abs(each).max() for each in away) < 2e-7
     assert fitted[:3] == [False, True, False]
     assert any(fitted[3:])
+
+
+def test_curvature_regions_follow_to_a_millionth() -> None:
+    """Regions are taken over where patches were kept; areas agree with those from scratch."""
+    hull = ah.examples.wigley(stations=5, waterlines=4)
+    before = ah.surface(hull)
+    known = ah.curvature_regions(before.patches, zero="absolute", k0=1e-4)
+    with hull.edit("pull") as edit:
+        edit.pull("WL 4.16667 x ST 3", d=1e-5, radius=(8.0, 2.0))
+    after, scratch = ah.surface(hull, previous=before), ah.surface(hull)
+    kept = share_kept(after.patches, before.patches)
+    follows = ah.curvature_regions(after.patches, zero="absolute", k0=1e-4, previous=known)
+    afresh = ah.curvature_regions(scratch.patches, zero="absolute", k0=1e-4)
+    assert follows.computed == round((1.0 - kept) * afresh.computed) < afresh.computed
+    expected = attrs.astuple(afresh.areas)
+    assert attrs.astuple(follows.areas) == pytest.approx(expected, abs=1e-6 * afresh.areas.total)
+    assert follows.areas != known.areas

@@ -44,8 +44,9 @@ _PER_SPAN = 8
 _PLANES = 1e4
 """How much more a tangent plane of the master counts than the direction in it."""
 
-_NO_NORMAL = 1e-3
-"""Normals shorter than this part of their median have no direction to speak of."""
+_NO_NORMAL = 0.02
+"""Normals shorter than this part of their median have no direction to speak of: near a singular
+corner, at which sides are tangent, a normal of no length turns any way."""
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
 
@@ -62,7 +63,7 @@ class Joint:
     joined_gap : float, m
         The largest distance of the borders as they are joined.
     angle : (3,), degrees
-        Median, 95 % and largest angle of the normals as they are joined.
+        Median, 95 % and largest angle of the normals as they are joined, singular corners left out.
     place : (3,), m
         Where the largest angle is.
     """

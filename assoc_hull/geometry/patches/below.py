@@ -1,8 +1,8 @@
 """Volume, its first moments and the area of what a surface encloses below a level.
 
 By the divergence theorem the volume between a surface and the plane y = 0 is the flux of (0, y, 0)
-through the surface: caps on which the normal has no y, as a waterplane, a transom or a deck, need not
-be there. So an open half of a hull has a volume, without any mesh.
+through the surface: caps on which the normal has no y, as a waterplane, a transom or a deck, need
+not be there. So an open half of a hull has a volume, without any mesh.
 
 Examples
 --------

@@ -23,6 +23,10 @@ _BORDER = 3.5
 """Points on borders weigh so many times more."""
 
 
+_FAINT = 0.1
+"""Points on a bridge, whose place is a guess, weigh so much of what others do."""
+
+
 @attrs.frozen(eq=False)
 class _Edges:
     """Edges of a block, those of its bays too, each once."""
@@ -70,12 +74,15 @@ def block_samples(
     weight = graph.length[edges.edge][owner] / count[owner]
     weight = np.where((rank == 0) | (rank == count[owner]), 0.5 * weight, weight)
     weight = np.where(edges.border[owner], _BORDER * weight, weight)
-    line = graph.curve[edges.edge][owner]
+    bridge = family == BRIDGE
+    weight = np.where(bridge[owner], _FAINT * weight, weight)
+    line = _lines(graph)[graph.curve[edges.edge]][owner]
+    inside = edges.inside & ~bridge
     good = weight > 0.0
     low, high = found.reach.T
     uv = np.clip(uv, low, high)
     samples = Samples.of(uv[good], point[good], weight[good], line[good], edges.held[owner][good])
-    return samples, edges.inside[owner][good]
+    return samples, inside[owner][good]
 
 
 def _edges(found: BlockMap, cuts: IntArray) -> _Edges:
@@ -103,10 +110,21 @@ def _edges(found: BlockMap, cuts: IntArray) -> _Edges:
     held[cut & ~outer] = True
     for rail in found.plan.rails:
         held[rail.half >> 1, 0] = True
-    bridge = np.array([name == BRIDGE for name in graph.net.family])
-    chosen = np.flatnonzero(seen & ~bridge[graph.curve])
+    chosen = np.flatnonzero(seen)
     held[cuts[core.edges[cuts]]] = True
     return _Edges(chosen, uv[chosen], held[chosen], border[chosen], core.edges[chosen])
+
+
+def _lines(graph: NetGraph) -> IntArray:
+    """Give the line that points of each curve count as of: a bridge goes with its waterline."""
+    first = {name: i for i, name in reversed(list(enumerate(graph.net.name)))}
+    return np.array(
+        [
+            first[name] if family == BRIDGE else i
+            for i, (name, family) in enumerate(zip(graph.net.name, graph.net.family, strict=True))
+        ],
+        np.int64,
+    )
 
 
 def _points(graph: NetGraph, edge: IntArray, count: IntArray, first: IntArray) -> FloatArray:

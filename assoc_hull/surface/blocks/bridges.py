@@ -1,9 +1,10 @@
-"""From a waterline to a sharp corner of the profile beside its end: a straight edge in one cell.
+"""From a waterline to a sharp corner of the profile beside its end: an edge through one cell.
 
 An aperture has its corner where the drawing has it, and no waterline need end there. If the cut
 ended beside it, one block would keep a corner of more than 180 degrees in its border, and fold.
-So the cut leaves the waterline at its last crossing and runs straight to the corner. The edge is
-no line of the hull: nothing is sampled on it.
+So the cut leaves the waterline at its last crossing and runs to the corner, in the shape that the
+waterline has there, moved along by less and less. The edge is no line of the hull: its points
+count for little, and residuals are not taken on them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
+from assoc_hull.geometry.spline import loft
 from assoc_hull.surface.blocks.cuts import EndCut
 from assoc_hull.surface.blocks.outline import course, turns
 from assoc_hull.surface.blocks.region import BRIDGE, Region
@@ -22,6 +24,7 @@ from assoc_hull.surface.cells.net_graph import NetGraph
 
 __all__ = ["bridged"]
 
+_STEPS = 8
 _NEAR = 0.01
 """The corner is no farther from the end of the waterline than this part of the ship's length."""
 _TIP, _SHARP = 0.002, 40.0
@@ -46,13 +49,22 @@ def bridged(found: Cells, ends: tuple[EndCut | None, ...], length: float) -> Cel
         The same, or with one cell more for each edge; numbers of nodes and edges stay.
     """
     whole = Region.whole(found)
-    pairs = [_bridge(whole, end, length) for end in ends if end is not None and end.along]
-    wanted = [pair for pair in pairs if pair is not None]
+    every = [_bridge(whole, end, length) for end in ends if end is not None and end.along]
+    wanted = [each for each in every if each is not None]
     return cells(_with_edges(found.graph, wanted)) if wanted else found
 
 
-def _bridge(whole: Region, end: EndCut, length: float) -> tuple[int, int] | None:
-    """Give the nodes that an edge is to join: the last on the waterline, and the corner."""
+@attrs.frozen(eq=False)
+class _Bridge:
+    """An edge: its nodes, the last on the waterline and the corner; points on it; the waterline."""
+
+    nodes: tuple[int, int]
+    place: FloatArray
+    curve: int
+
+
+def _bridge(whole: Region, end: EndCut, length: float) -> _Bridge | None:
+    """Give the edge that the cut of an end wants, if it does."""
     line = end.along[0]
     outline = course(whole)
     at = int(np.flatnonzero(outline.node == line.last)[0])
@@ -66,20 +78,28 @@ def _bridge(whole: Region, end: EndCut, length: float) -> tuple[int, int] | None
     corner, last = int(outline.node[i]), int(whole.begin(line.half[-1:])[0])
     cell = int(whole.cells.cell_of[whole.loop[i]])
     around = whole.cells.nodes(cell).tolist()
-    return (last, corner) if last in around and corner in around else None
+    if last not in around or corner not in around:
+        return None
+    place = whole.path(line.half[-1:], _STEPS)
+    part = np.linspace(0.0, 1.0, _STEPS + 1)[:, None]
+    return _Bridge(
+        (last, corner), place + part * (whole.graph.place[corner] - place[-1]), line.curve
+    )
 
 
-def _with_edges(graph: NetGraph, pairs: list[tuple[int, int]]) -> NetGraph:
-    """Give a graph with straight edges between pairs of nodes."""
+def _with_edges(graph: NetGraph, bridges: list[_Bridge]) -> NetGraph:
+    """Give a graph with more edges."""
     net = graph.net
-    for pair in pairs:
-        net = _with_line(net, graph.place[list(pair)])
+    for each in bridges:
+        net = _with_line(net, each)
+    pairs = [each.nodes for each in bridges]
     first = len(graph.net.name)
     edge = np.concatenate([graph.edge, np.array(pairs, np.int64)])
     curve = np.concatenate([graph.curve, first + np.arange(len(pairs))])
     away = graph.place[edge[-len(pairs) :, 1]] - graph.place[edge[-len(pairs) :, 0]]
     size = np.sqrt((away * away).sum(axis=1))
-    t = np.concatenate([graph.t, np.column_stack([np.zeros(len(pairs)), size])])
+    most = net.batch.knot[net.batch.start[first + 1 :] - 1]
+    t = np.concatenate([graph.t, np.column_stack([np.zeros(len(pairs)), most])])
     unit = away / size[:, None]
     leave = np.concatenate([graph.leave, np.stack([unit, -unit], axis=1)])
     return attrs.evolve(
@@ -88,17 +108,15 @@ def _with_edges(graph: NetGraph, pairs: list[tuple[int, int]]) -> NetGraph:
     )  # fmt: skip
 
 
-def _with_line(net: Net, ends: FloatArray) -> Net:
-    """Give a net with one straight curve more, that is no line of the hull."""
-    step = ends[1] - ends[0]
-    size = float(np.sqrt((step * step).sum()))
-    unit = np.stack([step, step]) / size
-    line = SplineBatch(np.array([0, 2]), np.array([0.0, size]), ends.copy(), unit, unit.copy())
+def _with_line(net: Net, bridge: _Bridge) -> Net:
+    """Give a net with one curve more, that is no line of the hull."""
     no = np.zeros(1, np.bool_)
+    line = loft(CurveData.single(bridge.place))
     return attrs.evolve(
         net, batch=SplineBatch.join([net.batch, line]), curve=np.append(net.curve, -1),
-        name=(*net.name, BRIDGE), family=(*net.family, BRIDGE), end=np.append(net.end, no),
-        flat=np.append(net.flat, no), knuckle=np.append(net.knuckle, no),
-        x=np.append(net.x, np.nan), centre=np.append(net.centre, no),
+        name=(*net.name, net.name[bridge.curve]), family=(*net.family, BRIDGE),
+        end=np.append(net.end, no), flat=np.append(net.flat, no),
+        knuckle=np.append(net.knuckle, no), x=np.append(net.x, np.nan),
+        centre=np.append(net.centre, no),
         normal=np.concatenate([net.normal, np.full((1, 3), np.nan)]),
     )  # fmt: skip

@@ -65,8 +65,8 @@ def four_corners(
     turn = turns(found, found.start[:-1], window, normal)
     sharp = turns(found, found.start[:-1], _TIP * length, normal)
     rank = np.where((sharp >= _SHARP) & (turn >= _SHARP - _EASED), 2, 0)
-    rank[np.isin(node, second)] = 1
     rank[[not _apart(found, i, _at(node, never), _BESIDE) for i in range(len(node))]] = -1
+    rank[np.isin(node, second)] = 1
     rank[np.isin(node, first)] = 3
     chosen = np.flatnonzero(rank == 3).tolist()
     for level in (2, 1, 0):

@@ -18,8 +18,9 @@ _THROUGH = 0.004
 """... and one through it, than this."""
 _BEFORE = 0.01
 """A section beside a bend stands this part of the length off it."""
-_LONG = 0.08
-"""An end is at least so long: what is pulled at its tip has faded where the body begins."""
+_LONG = {"bow": 0.08, "stern": 0.11}
+"""An end is at least so long a part of the ship: what is pulled at its tip has faded where the body
+begins; and there sections have lost the hollow of a skeg, for which the body has too few knots."""
 LEAST, _SHARP = 35.0, 60.0
 """An end whose profile bends into the ship by so many degrees has a block of its own; and two, if
 by so many."""
@@ -150,7 +151,7 @@ def _section_beside(
     sections = whole_sections(whole, length)
     sections = sections[::-1] if kind == "stern" else sections
     tip = float((whole.graph.place[:, 0] * towards).min())
-    limit = max(bend.place[0] * towards + _BEFORE * length, tip + _LONG * length)
+    limit = max(bend.place[0] * towards + _BEFORE * length, tip + _LONG[kind] * length)
     good = [i for i, run in enumerate(sections) if float(x[run.curve]) * towards >= limit]
     if not good:
         return None

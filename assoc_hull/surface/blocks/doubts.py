@@ -1,4 +1,4 @@
-"""What is doubtful of a fitted block, each in a sentence with its place: nothing is smoothed unseen."""
+"""What is doubtful of a fitted block, each in a sentence, with its place and by how much."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _ROUNDING = 1e-10
 """Borders that agree to this, m, have control points that agree to the last bits."""
 
 _STEM = 4.0
-"""A largest residual over so many limits, beside the centre plane, tells of a stem too sharp for its lines."""
+"""A largest residual over so many limits, beside the centre plane, tells of too sharp a stem."""
 
 _BESIDE = 0.002
 """So near to the centre plane, as a part of the length, is beside it."""
@@ -62,7 +62,8 @@ def doubts_of_fit(kind: str, found: Residuals, options: FitOptions) -> Iterator[
     if found.largest > _STEM * limit and _beside_centre(found, options) and kind != "body":
         yield f"stem not resolved: {largest}"
     elif found.p99 > max(_KNUCKLE * found.p95, limit):
-        yield f"missing knuckle? 99 % of the residuals are up to {1e3 * found.p99:.1f} mm; {largest}"
+        p99 = 1e3 * found.p99
+        yield f"missing knuckle? 99 % of the residuals are up to {p99:.1f} mm; {largest}"
 
 
 def _beside_centre(found: Residuals, options: FitOptions) -> bool:

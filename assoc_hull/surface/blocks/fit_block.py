@@ -32,8 +32,8 @@ _CORNER = 0.05
 """So far from a singular corner, as a part of the sides, is beside it."""
 
 _ENOUGH = 0.95
-"""With 95 % of the residuals below this part of the limit a fit has knots enough: more of them would
-follow the lines more closely, and what is between less."""
+"""With 95 % of the residuals below this part of the limit a fit has knots enough: more of them
+would follow the lines more closely, and what is between less."""
 
 _Y = 1
 

@@ -81,7 +81,7 @@ class FitOptions:
         if kind == "body":
             return self.smoothing
         share = min(area / (_AREA * self.length**2), 1.0)
-        return _OF_ENDS * self.smoothing * share**1.5
+        return float(_OF_ENDS * self.smoothing * share**1.5)
 
     def limit(self, kind: str) -> float:
         """Give what 95 % of the residuals of a kind of block should keep, m."""

@@ -187,11 +187,12 @@ def _parted_end(whole: Region, length: float, end: EndCut, region: Region) -> li
         _part(region, [line.half], half, name)
         for half, name in zip((high, high ^ 1), names, strict=True)
     ]
+    within = region.begin(line.half[1:]).tolist()
     upper, turn_upper = _quad(
-        parts[0], length, [section.first, line.first], [line.last], names[0], aft
+        parts[0], length, [section.first, line.first], [line.last], names[0], aft, within
     )
     lower, turn_lower = _quad(
-        parts[1], length, [line.first, section.last, line.last], (), names[1], aft
+        parts[1], length, [line.first, section.last, line.last], (), names[1], aft, within
     )
     bays = bays_of_parts(whole, end, parts[0], high)
     seam = [Seam(side, "body", tuple(quad.side(side).tolist())) for quad in (upper, lower)]

@@ -20,7 +20,7 @@ from assoc_hull.surface.cells.net_graph import NetGraph
 __all__ = ["BRIDGE", "Chord", "Region"]
 
 BRIDGE = "bridge"
-"""The family of edges that are no lines of the hull: cuts run along them, nothing is sampled."""
+"""The family of edges that are no lines of the hull: cuts run along them."""
 
 
 @attrs.frozen(eq=False)

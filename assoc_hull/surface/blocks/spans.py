@@ -76,9 +76,7 @@ def breaks_of(
         girth_span *= _END_SPAN
     own = along, _evenly(v0, v1, girth_span)
     grid = 2.0 ** round(math.log2(_GRID * length))
-    first, second = (
-        _with_places(_on_grid(own[axis], grid), ends[axis]) for axis in (0, 1)
-    )
+    first, second = (_with_places(_on_grid(own[axis], grid), ends[axis]) for axis in (0, 1))
     return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
 
 
@@ -173,4 +171,4 @@ def _with_masters(
 def _merged(places: FloatArray) -> FloatArray:
     """Sort places, each once."""
     found = np.sort(places)
-    return found[np.concatenate([[True], np.diff(found) > _SAME])]
+    return np.asarray(found[np.concatenate([[True], np.diff(found) > _SAME])])

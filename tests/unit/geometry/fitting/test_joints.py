@@ -12,6 +12,7 @@ from assoc_hull.geometry.fitting.held_controls import HeldControls
 from assoc_hull.geometry.fitting.joints import Extent, Joint, cut_out, joined, joint_at
 from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.fitting.strips import Strip, strip_of
+from assoc_hull.geometry.patches.spline_surface import SplineSurface
 
 BODY: Extent = ((0.0, 10.0), (0.0, 6.0))
 STEM: Extent = ((10.0, 14.0), (0.0, 3.5))
@@ -154,3 +155,17 @@ def test_a_strip_of_another_part_is_refused(three: Three) -> None:
         joined(three.alone["stem"], STEM, {"u0": three.strips["bulb"]["u0"]})
     with pytest.raises(BadInputError, match="has a knot at"):
         three.strips["stem"]["u0"].on(np.array([0.0, 3.5]))
+
+
+def test_the_angle_leaves_singular_corners_out(three: Three) -> None:
+    """Where the normal of a joined surface goes to nil its direction counts for nothing."""
+    strip, after = three.strips["stem"]["u0"], three.found["stem"].surface
+    net = after.net.copy()
+    # The derivative across the border goes back on itself at the end: no normal, then the opposite.
+    net[1, -1] = net[0, -1] - 1e-3 * (net[1, -1] - net[0, -1])
+    bent = SplineSurface("bent", (3, 3), after.knots_u, after.knots_v, net)
+    found = joint_at("u0", strip, three.alone["stem"].surface, bent)
+    assert found.angle[2] < 0.1
+    net[1, -1] = net[0, -1] - 0.2 * (after.net[1, -1] - net[0, -1])
+    folded = SplineSurface("folded", (3, 3), after.knots_u, after.knots_v, net)
+    assert joint_at("u0", strip, three.alone["stem"].surface, folded).angle[2] > 90.0

@@ -34,7 +34,7 @@ def enclosed(level: float) -> tuple[float, float]:
 @pytest.mark.parametrize("turned", [False, True], ids=["v along the girth", "u along the girth"])
 @pytest.mark.parametrize("level", [0.4, 3.0, 6.25, 9.0], ids=["low", "half", "full", "above"])
 def test_a_hull_by_formula_has_the_volume_of_its_formula(level: float, turned: bool) -> None:
-    """Volume and moments are exact to rounding, wherever the level cuts and whichever way u runs."""
+    """Volume and moments are exact to rounding, wherever the level cuts, whichever way u runs."""
     found = below([wigley(turned)], level)
     volume, moment = enclosed(min(level, DRAUGHT))
     assert found.volume == pytest.approx(volume, rel=1e-12)
@@ -53,7 +53,7 @@ def test_parts_have_together_what_the_whole_has() -> None:
 
 
 def test_a_wall_with_a_sloping_border_is_cut_across_corners() -> None:
-    """Where the level runs through borders across the lines, a thousandth is the error of one patch."""
+    """Where the level runs through borders across the lines, one patch is off by a thousandth."""
     net = np.zeros((2, 2, 3))
     net[..., 0], net[..., 1] = [[0.0, 0.0], [10.0, 10.0]], 2.0
     net[..., 2] = [[4.0, 0.0], [9.0, 5.0]]  # top edge and bottom edge rise from 0 to 5

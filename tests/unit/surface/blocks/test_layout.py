@@ -231,3 +231,12 @@ def test_lines_left_out_are_not_sampled(case: Cases) -> None:
         assert not left[block.samples.line].any()
     with_all = sum(int(block.inside.sum()) for block in known.blocks)
     assert sum(int(block.inside.sum()) for block in blocks) < with_all
+
+
+def test_without_the_section_at_its_bend_a_stern_is_cut_along_a_waterline(case: Cases) -> None:
+    """The cut runs to the head of the stern post; no corner of a block lies within it."""
+    known = case("series60_70")
+    left = np.array(known.net.name) == "ST 0"
+    blocks = {block.name: block for block in lay_out(known.net, known.length, left)}
+    assert list(blocks) == ["body", "stern counter", "stern boss"]
+    np.testing.assert_allclose(blocks["stern boss"].corners[0], [0.0, 0.0, 6.18], atol=0.01)
