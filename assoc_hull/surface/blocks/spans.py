@@ -5,6 +5,7 @@ Along a border a block takes the breaks of its master, so that both have the sam
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Mapping
 
@@ -38,6 +39,10 @@ _CLEAR = 0.4
 
 _GRID = 2.0**-15
 """Breaks are rounded to about this part of the length of the ship."""
+
+_EASED = 0.0005
+"""How long the span is, as a part of the length of the ship, over which a border gets off the
+centre plane."""
 
 _SAME = 1e-9
 _ALONG = {"u0": 1, "u1": 1, "v0": 0, "v1": 0}
@@ -76,8 +81,27 @@ def breaks_of(
         girth_span *= _END_SPAN
     own = along, _evenly(v0, v1, girth_span)
     grid = 2.0 ** round(math.log2(_GRID * length))
-    first, second = (_with_places(_on_grid(own[axis], grid), ends[axis]) for axis in (0, 1))
+    first, second = (
+        np.union1d(_with_places(_on_grid(own[axis], grid), ends[axis]), _eased(block, axis, length))
+        for axis in (0, 1)
+    )
     return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
+
+
+def _eased(block: Block, axis: int, length: float) -> FloatArray:
+    """Give a place beside each where a side leaves the centre plane.
+
+    The border is held in the plane to there, and gets off it over one span: that has to be short.
+    """
+    found = [
+        one.high + _EASED * length * (1.0 if one.centre else -1.0)
+        for side, stretches in block.sides.items()
+        if _ALONG[side] == axis
+        for one, other in itertools.pairwise(stretches)
+        if one.centre != other.centre
+    ]
+    low, high = block.reach[axis]
+    return np.array([at for at in found if low < at < high])
 
 
 def ends_on(block: Block, others: Iterable[Block]) -> tuple[FloatArray, FloatArray]:
