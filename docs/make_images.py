@@ -33,6 +33,7 @@ from drawings.curves import completions, knuckle_end
 from drawings.dtc import dtc, dtc_report
 from drawings.dxf import lines_plan_dxf
 from drawings.edits import pinned_or_field, pull
+from drawings.hull_plates import hull_plates, hull_surface
 from drawings.net import crossing, levels, roles
 from drawings.production import production_arcs_picture
 from drawings.sections import generated_sections
@@ -194,6 +195,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "curvature_mixed": curvature_mixed,
     "curvature_lines": curvature_lines,
     "plate_flat": plate_flat,
+    "hull_plates": hull_plates,
+    "hull_surface": hull_surface,
     "lines_plan_dxf": lines_plan_dxf,
     "dtc": dtc,
     "dtc_report": dtc_report,

@@ -72,18 +72,25 @@ def parse_dxf(text: str, source: str, book: Notebook) -> RawLines:
         if (shape := _shape(each, entities, i)) is not None
     ]
     _tell_oddities(entities, book)
-    found: list[RawCurve] = []
-    left: dict[str, list[str]] = {}
-    for name, family, curve in plan_curves(drawn, book) or _curves(drawn):
-        if _has_no_place(name, family):
-            left.setdefault(family, []).append(name)
-        else:
-            found.append(attrs.evolve(curve, line=name))
-    for family, names in left.items():
-        what = f"{', '.join(dict.fromkeys(names))}: left out, its like is found anew"
-        book.suspect("lines", family, what, len(names))
+    found = [
+        attrs.evolve(curve, line=name)
+        for name, family, curve in plan_curves(drawn, book) or _curves(drawn)
+        if not _has_no_place(name, family)
+    ]
+    _tell_left_out([names_of(entity) for entity, _ in drawn], book)
     chord = _CHORD * _size(found)
     return RawLines([each.piece(chord) for each in found], drawing_unit(entities), told=False)
+
+
+def _tell_left_out(named: list[tuple[str, str]], book: Notebook) -> None:
+    """Tell of lines of ours that digitised lines have not, by family."""
+    left: dict[str, dict[str, None]] = {}
+    for name, family in named:
+        if _has_no_place(name, family):
+            left.setdefault(family, {})[name] = None
+    for family, names in left.items():
+        what = f"{', '.join(names)}: left out, its like is found anew or cut again"
+        book.suspect("lines", family, what, len(names))
 
 
 def _curves(drawn: list[tuple[DrawingEntity, RawCurve]]) -> list[tuple[str, str, RawCurve]]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
-from assoc_hull.io.digitised_piece import BOUNDARIES, RawPiece
+from assoc_hull.io.digitised_piece import BESIDE, BOUNDARIES, RawPiece
 from assoc_hull.io.iges_curves import curves_of_iges
 from assoc_hull.io.iges_file import IgesFile
 from assoc_hull.io.offset_report import Notebook
@@ -77,8 +77,10 @@ def parse_iges(text: str, source: str, book: Notebook) -> RawLines:
 
 
 def _is_line(curve: SplineCurve, size: float) -> bool:
-    """Tell whether a curve is a boundary, is named as a line, or lies in a plane."""
+    """Tell whether a curve is a boundary, named as a line, or lies in a plane as a line does."""
     word = curve.name.split()[0].upper() if curve.name.split() else ""
+    if word.lower().removesuffix(":") in BESIDE:
+        return False
     flat = bool(np.ptp(curve.points, axis=0).min() <= _FLAT * size)
     return curve.name.lower() in BOUNDARIES or word in _FAMILIES or flat
 
@@ -88,5 +90,5 @@ def _tell_others(curves: list[SplineCurve], book: Notebook) -> None:
     names = list(dict.fromkeys(curve.name for curve in curves))
     if names:
         known = ", ".join(BOUNDARIES)
-        what = f"no line in a plane and none of {known}: left out, {len(curves)} curves"
+        what = f"no section, waterline or buttock, and none of {known}: left out"
         book.suspect("curve", ", ".join(names[:6]), what, len(curves))

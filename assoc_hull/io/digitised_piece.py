@@ -9,10 +9,13 @@ from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 
-__all__ = ["BOUNDARIES", "RawPiece", "read_number", "refuse_retraced"]
+__all__ = ["BESIDE", "BOUNDARIES", "RawPiece", "read_number", "refuse_retraced"]
 
 BOUNDARIES = ("profile", "deck edge", "transom")
 """Names of boundary curves among digitised lines."""
+
+BESIDE = ("diagonals", "boundary")
+"""Families whose other curves are drawn beside digitised lines, and are none."""
 
 _LARGEST = 1e9
 """No coordinate exceeds this in any unit."""

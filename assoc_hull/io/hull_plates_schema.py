@@ -32,7 +32,7 @@ _TOLD = {
     "convex": "part of the area", "saddle": "part of the area", "cylinder": "part of the area",
     "flat": "part of the area", "unresolved": "part of the area beside borders of blocks",
     "contested": "part of the area with K0/2 <= |K| <= 2 K0",
-    "changed": "part of the area of which another fit tells another region",
+    "changed": "part of the area that another fit tells otherwise",
     "kind": "null: net too coarse for regions, or unresolved",
     "order": "1 flat, 2 bent one way, 3 bent both ways; null: no class",
     "roll_axis": "from the long axis towards the short one; null: there is none",

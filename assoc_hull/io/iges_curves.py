@@ -21,6 +21,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.patches.knots import checked_knots
 from assoc_hull.geometry.patches.spline_curve import SplineCurve
 from assoc_hull.io.iges_file import Entry, IgesFile
 from assoc_hull.io.iges_names import name_property, readable, scale_note, unit_of
@@ -37,7 +38,8 @@ _POLYLINES = (1, 2, 11, 12, 63)
 _READ = (106, 110, 126)
 _CHAIN = 102
 _SURFACES = frozenset({114, 118, 120, 122, 128, 140, 143, 144, 186, 190, 510, 514})
-_MOST = 100_000
+_MOST, _FARTHEST = 100_000, 1e6
+"""Points of a curve; how far off they may lie, m."""
 
 
 def holds_surfaces(text: str) -> bool:
@@ -129,6 +131,9 @@ def _curve(file: IgesFile, entry: Entry, chains: dict[int, Entry], metres: float
     if chain is not None:
         motion = motion.then(motion_of(file, chain.transformation))
     placed = motion.of(points) * metres if metres != 1.0 else motion.of(points).copy()
+    if not np.abs(placed).max() <= _FARTHEST:
+        what = f"a control point lies {np.abs(placed).max():.3g} m away"
+        raise BadInputError(what, record.where, "export the file again")
     told = (name_property(file, record, after), entry.label, chain.label if chain else "")
     name = next((each for each in map(readable, told) if each), f"curve D{entry.number}")
     curve = SplineCurve(name, degree, knots, placed, weights)
@@ -144,7 +149,8 @@ def _shape(
         count = len(data.points)
         after = 7 + len(data.knots) + 4 * count + 5
         weights = None if (data.weights == data.weights[0]).all() else data.weights
-        return data.degree, data.knots, data.points, weights, data.span, after
+        knots = checked_knots(data.knots, data.degree, count, "the knots", record.where)
+        return data.degree, knots, data.points, weights, data.span, after
     if entry.kind == 110:
         points, after = record.reals(1, 6, "the line").reshape(2, 3), 7
     else:

@@ -1,7 +1,9 @@
 """The lines of a hull as spline curves of IGES, entities 126: the very curves, with their names.
 
 A curve of a line is one entity; lines of several curves give their name to each. Families lie on
-levels: sections on 1, waterlines on 2, buttocks on 3, diagonals on 4, boundary lines on 5.
+levels: sections on 1, waterlines on 2, buttocks on 3, diagonals on 4, boundary lines on 5. Of the
+last two all but profile, deck edge and transom are named by their family too, and are not read as
+lines again: "boundary: flat of side".
 
 Source: IGES 5.3 (US PRO, 1996), section 4.23.
 
@@ -30,6 +32,7 @@ from assoc_hull.arguments import all_of, choice, file_path, flag, instance
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.control_polygon import control_polygon
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.io.digitised_piece import BESIDE, BOUNDARIES
 from assoc_hull.io.iges_layout import Layout, reals
 from assoc_hull.io.line_points import splines_of
 from assoc_hull.io.surface_units import METRES
@@ -122,7 +125,7 @@ def iges_of_lines(
     layout, size, points, curves = Layout(), 0.0, 0, 0
     lines = list(_lines(state, wanted))
     for family, line in lines:
-        name, level = str(state.lines.name.data[line]), FAMILIES.index(family) + 1
+        name, level = _name(state, family, line), FAMILIES.index(family) + 1
         for spline in splines_of(state, line):
             curve = control_polygon(spline)
             for net in _sides(curve.points, alone):
@@ -141,6 +144,13 @@ def _lines(state: HullState, families: Sequence[str]) -> Iterator[tuple[str, int
     for family in FAMILIES:
         mine = [line for line in live if state.family(line).name == family and family in families]
         yield from ((family, line) for line in sorted(mine, key=lambda line: _place(state, line)))
+
+
+def _name(state: HullState, family: str, line: int) -> str:
+    """Name a line; one that no reader of lines would know goes by its family too."""
+    name = str(state.lines.name.data[line])
+    plain = family not in BESIDE or name.lower() in BOUNDARIES
+    return name if plain else f"{family}: {name}"
 
 
 def _place(state: HullState, line: int) -> tuple[float, str]:

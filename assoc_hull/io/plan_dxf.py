@@ -125,7 +125,7 @@ def _layout(state: HullState, lines: list[SplineLine], scale: float | None) -> P
 
 def _in_views(line: SplineLine, plan: PlanLayout) -> Iterator[_Drawn]:
     """Give the curves of a line in all views that show them as curves."""
-    homes = home_of(line.axis, line.place, plan.middle)
+    homes = () if line.family == "diagonals" else home_of(line.axis, line.place, plan.middle)
     for name in _shown_in(line, plan):
         view = plan.view(name)
         for curve in line.curves:

@@ -8,24 +8,28 @@ import assoc_hull as ah
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh
 
 SHIPS = {
-    "dtc": ("shell", "deck", "transom"),
-    "series60_70": ("shell", "deck"),
-    "bulk_carrier": ("shell", "bossing end", "deck", "transom"),
+    "dtc": (("shell", "deck", "transom"), 2.5e-4),
+    "series60_70": (("shell", "deck"), 1.2e-4),
+    "bulk_carrier": (("shell", "bossing end", "deck", "transom"), 6e-5),
 }
+"""What closes them, and how near their volumes come to those of the splines."""
+
+Case = tuple[ah.Hull, ClosedMesh, tuple[str, ...], float]
 
 
 @pytest.fixture(scope="module", params=SHIPS)
-def ship(request: pytest.FixtureRequest) -> tuple[ah.Hull, ClosedMesh, tuple[str, ...]]:
-    """A hull, its mesh with 4 points to an edge, and what closes it."""
+def ship(request: pytest.FixtureRequest) -> Case:
+    """A hull, its mesh with 4 points to an edge, what closes it, and how good its volume is."""
     hull = request.getfixturevalue(request.param)
-    return hull, ah.closed_mesh(hull), SHIPS[request.param]
+    return hull, ah.closed_mesh(hull), *SHIPS[request.param]
 
 
-def test_trimesh_finds_it_closed(ship: tuple[ah.Hull, ClosedMesh, tuple[str, ...]]) -> None:
+def test_trimesh_finds_it_closed(ship: Case) -> None:
     """Watertight, wound one way, Euler 2, outward; also when places that coincide are merged."""
-    _, mesh, names = ship
+    _, mesh, names, _ = ship
     assert mesh.names == names
     assert mesh.report.sound
+    assert mesh.notes == ()
     other = trimesh.Trimesh(mesh.xyz, mesh.triangle, process=True)
     assert len(other.faces) == mesh.report.triangles
     assert other.is_watertight
@@ -35,22 +39,22 @@ def test_trimesh_finds_it_closed(ship: tuple[ah.Hull, ClosedMesh, tuple[str, ...
 
 
 def test_volume_and_centre_are_those_of_the_splines(
-    ship: tuple[ah.Hull, ClosedMesh, tuple[str, ...]],
+    ship: Case,
 ) -> None:
-    """Below the design draught 0.03 % and 0.001 % of Lpp, where 0.15 % and 0.01 % are asked."""
-    hull, mesh, _ = ship
+    """Below the design draught 0.025 % and 0.001 % of Lpp, where 0.15 % and 0.01 % are asked."""
+    hull, mesh, _, near = ship
     draught, length = hull.particulars.draught, hull.particulars.length
     found, wanted = mesh.below(draught), ah.hydrostatics(hull, draught=draught)
-    asked = 2e-4 + 1.5e-3 * 1600 / mesh.cells
-    assert abs(found.volume - wanted.volume) < min(3e-4, asked) * wanted.volume
+    assert near < 2e-4 + 1.5e-3 * 1600 / mesh.cells
+    assert abs(found.volume - wanted.volume) < near * wanted.volume
     assert abs(found.lcb - wanted.lcb) < 1e-5 * length
 
 
 def test_triangles_face_as_their_cells_do(
-    ship: tuple[ah.Hull, ClosedMesh, tuple[str, ...]],
+    ship: Case,
 ) -> None:
     """None has nil area; of 57,000 of a side at most 15 fold, in cells that are not convex."""
-    _, mesh, _ = ship
+    _, mesh, _, _ = ship
     count = len(mesh.triangle) // 2
     vector = mesh.triangles.area_vectors()[:count]
     cell = mesh.cell[:count]

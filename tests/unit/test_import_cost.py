@@ -8,7 +8,18 @@ import pytest
 
 import assoc_hull
 
-HEAVY = ["dask", "matplotlib", "networkx", "numba", "scipy.interpolate", "starlette"]
+HEAVY = [
+    "OCP",
+    "dask",
+    "ezdxf",
+    "matplotlib",
+    "networkx",
+    "numba",
+    "scipy.interpolate",
+    "scipy.sparse",
+    "starlette",
+    "trimesh",
+]
 
 
 LATE = ["edit.adopt", "edit.check_hull", "edit.explain", "edit.preview", "io", "plot"]

@@ -34,7 +34,9 @@ _PLAIN = (
 )
 """Words of a statement: enumerations, references, keywords, numbers; what is left is marks."""
 
-_STRANGE = re.compile(r"[^@0*$'(),=;\s]")
+_STRANGE = re.compile(r"[^@0*$'(),=;\s]|,\s*[,)]|\(\s*,")
+"""A mark or a word that is none, or a value that is left out."""
+
 _LARGE = re.compile(r"[0-9.][eE]\+?0*(?:[2-9][0-9]{2,}|1[0-9]{3,}|10[1-9]|1[1-9][0-9])\b")
 
 _PREFIX = {"$": "m", "": "m", ".MILLI.": "mm", ".CENTI.": "cm"}

@@ -136,7 +136,7 @@ def cells(graph: NetGraph) -> Cells:
     >>> from assoc_hull.surface.cells.net_graph import net_graph
     >>> found = cells(net_graph(gather(ah.examples.wigley().state)))
     >>> found.count, len(found.outline)
-    (220, 60)
+    (220, 62)
     """
     check_lines(graph)
     start, member = loops(following(graph))

@@ -98,6 +98,17 @@ def fill_cells(cells: Cells, steps: int) -> FilledCells:
         The cells.
     steps : int
         Into how many parts each edge is cut; even.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.analysis.net.gather import gather
+    >>> from assoc_hull.surface.cells.faces import cells
+    >>> from assoc_hull.surface.cells.filling import fill_cells
+    >>> from assoc_hull.surface.cells.net_graph import net_graph
+    >>> found = fill_cells(cells(net_graph(gather(ah.examples.wigley().state))), 2)
+    >>> found.quad.shape, found.triangles()[0].shape  # 220 cells of 2 x 2 elements
+    ((880, 4), (1760, 3))
     """
     graph = cells.graph
     edge_points = graph.points(steps)[:, 1:-1].reshape(-1, 3)

@@ -113,6 +113,15 @@ def net_graph(
     -------
     NetGraph
         Every node has two edges or more; pieces of lines that end nowhere are left out.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.analysis.net.gather import gather
+    >>> from assoc_hull.surface.cells.net_graph import net_graph
+    >>> found = net_graph(gather(ah.examples.wigley().state))
+    >>> found.place.shape, found.edge.shape, found.points(4).shape
+    ((252, 3), (471, 2), (471, 5, 3))
     """
     keep = np.ones(net.batch.count, bool) if leave_out is None else ~leave_out
     along = keep if search else net.flat | net.knuckle

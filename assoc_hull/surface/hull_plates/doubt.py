@@ -6,7 +6,7 @@ Examples
 >>> from assoc_hull.surface.hull_plates.doubt import Doubt
 >>> gauss, area = np.array([0.0, 1.0]), np.ones(2)
 >>> found = Doubt.of(gauss, (gauss + 0.25,), area)
->>> found.dk, found.changed(gauss, area, 0.2, 2.0)
+>>> found.dk, found.changed(gauss, area, 0.2, 2.0, 0.5)
 (0.25, 0.5)
 """
 
@@ -70,17 +70,33 @@ class Doubt:
         place = min(int(np.searchsorted(share, _PART)), len(share) - 1)
         return cls(float(size[order[place]]), float(weight.sum()) / whole, tuple(others))
 
-    def changed(self, gauss: FloatArray, area: FloatArray, k0: float, wide: float) -> float:
-        """Give the part of the area of which another fit tells another region.
+    def changed(
+        self, gauss: FloatArray, area: FloatArray, k0: float, wide: float, most: float
+    ) -> float:
+        """Give the part of the area of which another fit tells another region, or quite another K.
 
         What is contested by its own curvature, K0 / wide <= |K| <= wide K0, is not counted again.
+
+        Parameters
+        ----------
+        gauss, area : (...) float, 1/m2 and m2
+            As they were compared.
+        k0 : float, 1/m2
+            What parts the regions.
+        wide : float
+            By which factor of it curvature is contested.
+        most : float, 1/m2
+            A change above this counts, too: that K0 which was asked for.
         """
         if not self.others:
             return 0.0
         size = np.abs(gauss)
         clear = (size < k0 / wide) | (size > wide * k0)
         own = _region(gauss, k0)
-        differs = [np.isfinite(each) & (_region(each, k0) != own) for each in self.others]
+        differs = [
+            np.isfinite(each) & ((_region(each, k0) != own) | (np.abs(each - gauss) > most))
+            for each in self.others
+        ]
         found = clear & np.any(differs, axis=0)
         return float(area[found].sum()) / float(area.sum())
 

@@ -58,7 +58,8 @@ class HullPlate:
     contested : float
         The part of the area with K0/2 <= |K| <= 2 K0: which region it belongs to is in doubt.
     changed : float
-        The part outside that, of which another fit tells another region.
+        The part outside that, of which another fit tells another region, or a curvature that
+        differs by more than the K0 that was asked for.
     kind : {"flat", "cylinder", "saddle", "convex", "mixed"} or None
         The class; None where the net is too coarse for regions, or too much is unresolved.
     order : {1, 2, 3} or None

@@ -29,6 +29,9 @@ __all__ = ["COLUMNS", "HullColumn", "HullPlates"]
 _NIL = 1e-12
 """Below this a number is printed as 0."""
 
+_SEEN = 1e-3
+"""m2: slivers below this are not told."""
+
 
 @attrs.frozen
 class HullColumn:
@@ -105,6 +108,8 @@ class HullPlates:
         With how many other fits of the net curvature was compared.
     shell : Shell
         The surface as it was cut.
+    slivers : float, m2
+        What is too narrow for a plate, and in none of the rows.
     """
 
     rows: tuple[HullPlate, ...]
@@ -113,6 +118,7 @@ class HullPlates:
     regions: RegionResult = attrs.field(repr=False)
     fits: int
     shell: Shell = attrs.field(repr=False)
+    slivers: float = 0.0
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -157,6 +163,11 @@ class HullPlates:
     def notes(self) -> tuple[str, ...]:
         """What is to be known of the plates, each a sentence."""
         found = [note for plate in self.rows for note in plate.notes]
+        if self.slivers > _SEEN:
+            found.append(
+                f"Slivers of together {self.slivers:.2g} m2 between seams are no plates: they are "
+                "narrower than a few centimetres."
+            )
         if not self.fits:
             found.append(
                 "Curvature was compared with no other fit of the net: dK is not known, and what "

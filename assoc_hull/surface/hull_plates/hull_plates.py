@@ -47,6 +47,9 @@ _WHERE = "in plates of a hull"
 _LEAST = 1e-4
 """m2: what is smaller is no plate."""
 
+_FEW, _FINE = 20, 41
+"""A plate with fewer nodes is measured by so many each way on a patch."""
+
 
 def hull_plates(
     surface: NetSurface | Sequence[SplineSurface],
@@ -67,7 +70,7 @@ def hull_plates(
     A butt x = constant, a seam z = constant is a plane: its trace on a Bezier patch is the zero set
     of a polynomial, as the lines K = K0 are. So the areas of plates, and of the regions in them,
     are those of the surface itself, to the tolerance of `curvature_regions`. Seams of equal girth
-    are polynomials by interpolation. Roll axes, radii and strains are found at 9 by 9 nodes
+    are polynomials by interpolation. Roll axes, radii and strains are found at 7 by 7 nodes
     on each patch.
 
     Parameters
@@ -125,15 +128,14 @@ def hull_plates(
         previous=None if previous is None else previous.regions,
     )  # fmt: skip
     shell = Shell.of(surfaces, singular, bool(seams.girth))
-    found = _Work(shell, names, regions, level, options, _rivals(shell, names, fits)).plates(
-        seams.ranges()
-    )
+    work = _Work(shell, names, regions, level, options, _rivals(shell, names, fits))
+    found, slivers = work.plates(seams.ranges())
     if not found:
         raise BadInputError(
             "no plate lies between these seams", _WHERE,
             "give places within the hull: x forward from AP, z upward from the base line, m",
         )  # fmt: skip
-    return HullPlates(found, seams, options, regions, len(fits), shell)
+    return HullPlates(found, seams, options, regions, len(fits), shell, slivers)
 
 
 Blocks = tuple[
@@ -176,16 +178,20 @@ class _Work:
     options: PlateOptions
     rivals: Sequence[FloatArray]
 
-    def plates(self, ranges: Sequence[PlateRange]) -> tuple[HullPlate, ...]:
-        """Give the plates of ranges; none where the hull has nothing."""
-        drafts = [each for each in map(self._draft, ranges) if each is not None]
+    def plates(self, ranges: Sequence[PlateRange]) -> tuple[tuple[HullPlate, ...], float]:
+        """Give the plates of ranges, and what is left out as too narrow, m2."""
+        tried = [self._draft(each) for each in ranges]
+        drafts = [each for each in tried if each is not None]
+        none = [wanted for wanted, each in zip(ranges, tried, strict=True) if each is None]
+        bare = LevelTable(self._table(self.level)[1].total, {}, {})
+        slivers = sum(each.area for each in tallies(self.shell, none, (), bare)) if none else 0.0
         found: dict[str, HullPlate] = {}
         for k0 in sorted({each.k0 for each in drafts}):
             own = [each for each in drafts if each.k0 == k0]
             sums = tallies(self.shell, [each.wanted for each in own], *self._table(k0))
             for each, tallied in zip(own, sums, strict=True):
                 found[each.wanted.name] = self._plate(each, tallied)
-        return tuple(found[each.wanted.name] for each in drafts)
+        return tuple(found[each.wanted.name] for each in drafts), slivers
 
     def _table(self, k0: float) -> tuple[tuple[float, ...], LevelTable]:
         """Give the levels about a K0, and the areas of all patches above them."""
@@ -193,13 +199,15 @@ class _Work:
         return levels, level_table(self.shell.patches, levels, part.solutions)
 
     def _draft(self, wanted: PlateRange) -> _Draft | None:
-        """Measure a plate, as far as regions are not needed."""
-        measured = nodes_in(self.shell, wanted)
+        """Measure a plate, as far as regions are not needed; a narrow one by more nodes."""
+        measured, rivals = nodes_in(self.shell, wanted), self.rivals
+        if measured.inside.sum() < _FEW:
+            measured, rivals = nodes_in(self.shell, wanted, _FINE), ()
         if not measured.nodes.area.sum() > _LEAST:
             return None
         margin = self.shell.margin[measured.rows][:, None, None]
         sound = np.where(margin, 0.0, measured.nodes.area)
-        rivals = [each[measured.rows] for each in self.rivals]
+        rivals = [each[measured.rows] for each in rivals]
         doubt = Doubt.of(measured.nodes.gauss, rivals, sound)
         return _Draft(wanted, measured, doubt, rung(self.level, doubt.dk))
 
@@ -208,7 +216,16 @@ class _Work:
         blocks = np.unique(self.shell.patches.surface[draft.measured.rows]).tolist()
         names = [self.names[number] for number in blocks]
         band = (draft.k0, float(self.options.breadth or BREADTH))
-        return judged(draft.wanted, names, draft.measured, tallied, draft.doubt, band, self.options)
+        return judged(
+            draft.wanted,
+            names,
+            draft.measured,
+            tallied,
+            draft.doubt,
+            band,
+            self.level,
+            self.options,
+        )
 
 
 @attrs.frozen(eq=False)

@@ -20,7 +20,6 @@ from assoc_hull.surface.hull_plates.hull_seams import PlateRange
 from assoc_hull.surface.hull_plates.plate_nodes import PlateNodes
 from assoc_hull.surface.hull_plates.tally import Tally
 from assoc_hull.surface.plate_class import Shares
-from assoc_hull.surface.plate_extents import plate_axes
 from assoc_hull.surface.plate_of import radius
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.roll_axis import COHERENT, roll_axis
@@ -49,6 +48,7 @@ def judged(
     tallied: Tally,
     doubt: Doubt,
     band: tuple[float, float],
+    asked: float,
     options: PlateOptions,
 ) -> HullPlate:
     """Put a plate together.
@@ -67,15 +67,17 @@ def judged(
         What other fits make of it.
     band : (float, float), 1/m2 and m
         K0, and the breadth it is meant for.
+    asked : float, 1/m2
+        K0 before it was widened.
     options : PlateOptions
         By what plates are told apart.
     """
     nodes, (k0, band_breadth) = measured.nodes, band
-    axes = plate_axes(nodes)
+    axes = measured.axes
     breadth, length = np.sort(measured.extents(axes)).tolist()
     shares = _shares(tallied, nodes, k0, options.flat_bend(band_breadth))
     contested = _contested(tallied)
-    changed = doubt.changed(nodes.gauss, nodes.area, k0, _WIDE)
+    changed = doubt.changed(nodes.gauss, nodes.area, k0, _WIDE, asked)
     coarse = contested + changed > COARSE
     kind = None if coarse else _kind(shares, options.share)
     rollable = shares.rollable(options.share)
@@ -96,7 +98,7 @@ def judged(
         total_curvature=whole, mean_strain=strain * whole / float(nodes.area.sum()),
         largest_strain=strain * float(amount[nodes.area > 0.0].max()),
         suggestion=_advice(kind, coarse, rollable, single, options),
-        notes=_notes(wanted.name, tallied, contested, changed, doubt, kind), nodes=nodes,
+        notes=_notes(wanted.name, tallied, contested, changed, doubt, k0 / asked), nodes=nodes,
     )  # fmt: skip
 
 
@@ -137,7 +139,7 @@ def _advice(
 
 
 def _notes(
-    name: str, tallied: Tally, contested: float, changed: float, doubt: Doubt, kind: str | None
+    name: str, tallied: Tally, contested: float, changed: float, doubt: Doubt, wider: float
 ) -> tuple[str, ...]:
     """Say what is to be known of a plate."""
     found = []
@@ -146,6 +148,11 @@ def _notes(
         found.append(
             f"{name}: {TOO_COARSE}: {100.0 * contested:.0f} % of it lies within a factor of 2 of "
             f"K0{more}; take more lines there, or a larger strain tolerance."
+        )
+    elif wider > 1.0:
+        found.append(
+            f"{name}: its regions are told by {wider:.0f} times the K0 that was asked for; below "
+            "that, curvature is one of the fit."
         )
     margin = tallied.margin / tallied.area
     if margin > _SEEN:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.running_bounds import EPS, Running
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
@@ -35,8 +35,8 @@ from assoc_hull.surface.hull_plates.margins import margins
 
 __all__ = ["NODES", "Shell"]
 
-NODES = 9
-"""Nodes each way on a patch: a plate of 10 by 2.5 m has a thousand of them."""
+NODES = 7
+"""Nodes each way on a patch: a plate of 10 by 2.5 m has some hundreds of them."""
 
 
 @attrs.frozen(eq=False, slots=False)
@@ -110,14 +110,10 @@ class Shell:
         found = curvature_nodes(patches, NODES)
         return cls(tuple(surfaces), patches, found, margins(patches, singular), places)
 
-    @cached_property
-    def at_nodes(self) -> dict[str, FloatArray]:
-        """x, z and, where it is asked for, girth at the nodes, (k, q, q), m."""
-        at, _ = lobatto(NODES)
-        return {
-            axis: basis(place.b.shape[1] - 1, at) @ place.b @ basis(place.b.shape[2] - 1, at).T
-            for axis, place in self.places.items()
-        }
+    def at(self, axis: str, rows: IntArray, count: int = NODES) -> FloatArray:
+        """Give x, z or girth at `count` by `count` nodes of some patches, (p, q, q), m."""
+        b, (at, _) = self.places[axis].b[rows], lobatto(count)
+        return np.asarray(basis(b.shape[1] - 1, at) @ b @ basis(b.shape[2] - 1, at).T)
 
 
 def _exact(coordinate: FloatArray) -> Running:

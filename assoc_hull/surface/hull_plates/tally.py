@@ -21,8 +21,9 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import reduce
+import math
+from collections.abc import Iterator, Sequence
+from itertools import product
 
 import attrs
 import numpy as np
@@ -39,6 +40,9 @@ __all__ = ["Tally", "patches_in", "tallies"]
 
 _STRAY = 1e-6
 """m: so far a patch may stand over a seam and count as whole."""
+
+_AT_MOST, _BOTH = 2, 3
+"""How an axis cuts a patch: at the upper end of a range only, at both ends."""
 
 _AT_ONCE = 512
 """Patches that are cut in one go: what they need stays below 100 MB."""
@@ -126,7 +130,8 @@ def tallies(
         rows = np.flatnonzero(pairs.cut == kind)
         for first in range(0, len(rows), _AT_ONCE):
             some = pairs.chosen(rows[first : first + _AT_ONCE])
-            _add_parts(sums, shell, some, _bounds(shell, wanted, some, kind), levels)
+            for sign, functions in _bounds(shell, wanted, some, kind):
+                _add_parts(sums, shell, some, functions, levels, sign)
     return tuple(
         Tally(float(sums.area[i]), float(sums.margin[i]), sums.above[i].copy(), float(sums.off[i]))
         for i in range(len(wanted))
@@ -169,32 +174,39 @@ def _add_parts(
     pairs: _Pairs,
     functions: tuple[Running, ...],
     levels: Sequence[float],
+    sign: float,
 ) -> None:
-    """Add parts of patches that are cut in the same way."""
+    """Add parts of patches that are cut in the same way, or take them away."""
     cut = CutAreas.of(AreaGround.of(shell.patches[pairs.row], TOL), functions)
     above, off = np.zeros((len(pairs.row), len(levels))), np.array(cut.off)
     own, place = np.unique(pairs.row, return_inverse=True)
     for number, each in enumerate(level_functions(shell.patches[own], levels)):
         above[:, number], doubt = cut.above(Running(each.b[place], each.err[place]))
         off = np.maximum(off, doubt)
-    sums.add(pairs, shell.margin[pairs.row], cut.inside, above, off)
+    sums.add(pairs, shell.margin[pairs.row], sign * cut.inside, sign * above, off)
 
 
 def _bounds(
     shell: Shell, wanted: Sequence[PlateRange], pairs: _Pairs, kind: int
-) -> tuple[Running, ...]:
-    """Give the functions that are above nil in each range: one an axis that cuts these patches."""
-    found = []
+) -> Iterator[tuple[float, tuple[Running, ...]]]:
+    """Give functions that are above nil in each range, one an axis that cuts these patches.
+
+    Where both ends of a range cut a patch, it is what lies above the lower end less what lies above
+    the upper one: so a narrow range is as exact as a wide one. 1 and -1 tell which.
+    """
+    choices = []
     for number, axis in enumerate(AXES):
-        ends = np.array([getattr(each, axis) for each in wanted])[pairs.plate]
-        own = [
-            _shifted(shell.places[axis], pairs.row, ends[:, side], sign)
-            for side, sign in ((0, 1.0), (1, -1.0))
-            if kind >> (2 * number + side) & 1
-        ]
-        if own:
-            found.append(reduce(Running.times, own))
-    return tuple(found)
+        low, high = np.array([getattr(each, axis) for each in wanted])[pairs.plate].T
+        cut = kind >> (2 * number) & 3
+        if cut == _AT_MOST:
+            choices.append([(1.0, _shifted(shell.places[axis], pairs.row, high, -1.0))])
+        elif cut:
+            ends = ((1.0, low), (-1.0, high)) if cut == _BOTH else ((1.0, low),)
+            choices.append(
+                [(sign, _shifted(shell.places[axis], pairs.row, end, 1.0)) for sign, end in ends]
+            )
+    for chosen in product(*choices):
+        yield math.prod(sign for sign, _ in chosen), tuple(function for _, function in chosen)
 
 
 def _shifted(place: Running, rows: IntArray, by: FloatArray, sign: float) -> Running:

@@ -124,6 +124,7 @@ def test_a_damaged_step_file_is_refused(
     pytest.param("#1,", "#-1,", "no statement", id="no reference"),
     pytest.param("#1,", "#3,", "no entity #3", id="a reference to nothing"),
     pytest.param("2.))", "2.)", "no statement", id="an open bracket"),
+    pytest.param(".T.,", ".T.,,", "no statement", id="no value"),
     pytest.param("#2 = ", "", "no statement", id="no name"),
     pytest.param("DATA;", "", "no data", id="no data section"),
 ])  # fmt: skip

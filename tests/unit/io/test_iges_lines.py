@@ -160,6 +160,7 @@ def test_a_part_of_a_rational_spline_is_read() -> None:
         pytest.param(iges([spline()], unit="3,"), "tells no unit of length", id="unit"),
         pytest.param(iges([Entity(106, [2, 1, 0, 0, 0], form=12)]), "has 1 points", id="a point"),
         pytest.param(iges([spline(ARCH[:1])]), "degree is 0", id="degree 0"),
+        pytest.param(iges([spline([*ARCH, [1e300, 0, 0]])]), "lies 1e.300 m away", id="far away"),
     ],
 )
 def test_files_without_curves_are_refused(text: str, what: str) -> None:
@@ -201,3 +202,24 @@ def test_lines_come_back_as_a_net(ship: Hull, tmp_path: Path, unit: str) -> None
         if ship.state.family(line).name != "boundary"
     }
     assert found.high == pytest.approx([100.0, 5.0, 9.375], abs=1e-9)
+
+
+def test_curves_beside_the_lines_are_told(tmp_path: Path) -> None:
+    """Flats and diagonals are no lines, though they lie in planes, nor is a curve in space."""
+    arch = np.array(ARCH)
+    bent = arch + np.outer([0.0, 2.0, 1.0, 3.0], [0.0, 0.0, 1.0])
+    knots, layout = np.array([0.0] * 4 + [1.0] * 4), Layout()
+    for name, points in (
+        ("WL 1", arch), ("boundary: flat of side", arch), ("rail", bent), ("profile", bent),
+    ):  # fmt: skip
+        layout.add_named(126, curve_values(knots, points), name)
+    (tmp_path / "lines.igs").write_text(layout.text("Lines", "m", 9.0))
+    found = read_lines(tmp_path / "lines.igs")
+    assert [line.name for line in (*found.lines, *found.boundaries)] == ["WL 1", "profile"]
+    assert "boundary: flat of side, rail: no section" in str(found.report.suspicions[0])
+
+
+def test_flats_go_by_their_family(tmp_path: Path, bulk_carrier: Hull) -> None:
+    """So that nobody takes the flat of side for a buttock."""
+    names = {each.name for each in curves_of_iges(iges_of_lines(bulk_carrier.state)[0], "")[0]}
+    assert {"profile", "boundary: flat of side", "boundary: flat of bottom"} < names

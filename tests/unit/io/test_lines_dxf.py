@@ -178,6 +178,28 @@ def test_a_curve_in_space_is_read_from_two_views(shipped: Shipped) -> None:
     assert told == {"deck edge", "upper knuckle"}
 
 
+def test_diagonals_are_drawn_and_told() -> None:
+    """In true breadth below the centre line; a line of ours that is not read is named."""
+    hull = ah.examples.wigley(stations=9, waterlines=6)
+    with hull.edit("diagonal") as edit:
+        edit.add_line("diagonals", (5.0, 30.0))
+    text = plan_drawing(hull.state, ExportBook(17))
+    space = ezdxf.read(io.StringIO(text)).modelspace()
+    (spline,) = space.query('SPLINE[layer=="half-breadth diagonals"]')
+    centre = next(
+        each.dxf.start.y for each in space.query('LINE[layer=="axes"]') if each.dxf.linetype != ""
+        and each.dxf.start.y == each.dxf.end.y and each.dxf.start.y < 0.0
+    )  # fmt: skip
+    (name,) = hull.groups["diagonals"].lines
+    places = hull.lines[name].curves[0].polyline(50)
+    reach = np.hypot(places[:, 1], places[:, 2] - 5.0).max()
+    flat = np.array([list(each) for each in spline.construction_tool().approximate(400)])
+    assert centre - flat[:, 1].min() == pytest.approx(reach, rel=1e-4)
+    for drawn in (text, lines_drawing(hull.state, ExportBook(17))):
+        (note,) = read_lines(drawn).report.suspicions
+        assert (note.where, note.amount) == ("diagonals", 1)
+
+
 def test_a_scale_changes_letters_and_no_line() -> None:
     """At 1:100 letters of 2.5 mm are 250 mm high in a drawing of full size."""
     hull, heights, profiles = ah.examples.wigley(stations=5, waterlines=4), [], []

@@ -100,6 +100,19 @@ def test_extents_and_axes_are_those_of_the_plate() -> None:
     assert plate.axes[2, 1] < -0.99
 
 
+def test_narrow_plates_are_found_and_slivers_told() -> None:
+    """Between nodes of the usual rule, with its extents; of millimetres it is no plate."""
+    side = Side(8.0, 0.0, -5e-3, 0.0)
+    narrow = plates_of(side, HullSeams(x=(1.0, 1.15), inside=True), k0=1e-3)[0]
+    assert narrow.area == pytest.approx(side.area((1.0, 1.15), Z), rel=1e-6)
+    assert narrow.breadth == pytest.approx(0.15, abs=2e-3)
+    assert narrow.kind == "cylinder"
+    found = plates_of(side, HullSeams(x=(1.0, 1.004)), k0=1e-3)
+    assert [plate.name for plate in found] == ["1", "3"]
+    assert found.slivers == pytest.approx(side.area((1.0, 1.004), Z), rel=1e-4)
+    assert "narrower than a few centimetres" in str(found)
+
+
 def test_seams_of_girth_part_a_cylinder_by_its_arc() -> None:
     """A trough y = f(z): the breadth of a plate is the arc between its seams, to a millimetre."""
     side = Side(6.0, 0.0, -6e-2, 0.0)
@@ -119,7 +132,7 @@ def test_girth_goes_on_from_a_block_below() -> None:
     bulb = side.surface((0.0, 6.0), (0.0, 3.0), (2, 2), "bow bulb")
     stem = side.surface((0.0, 6.0), (4.0, 9.0), (2, 2), "bow stem")
     shell = Shell.of((bulb, stem), girth=True)
-    z, girth = shell.nodes.place[..., 2], shell.at_nodes["girth"]
+    z, girth = shell.nodes.place[..., 2], shell.at("girth", np.arange(8))
     assert np.where(z < 3.5, z, z - 1.0) == pytest.approx(girth, abs=1e-9)
 
 
@@ -164,7 +177,8 @@ def test_fits_that_disagree_widen_the_band() -> None:
     assert doubt.dk == pytest.approx(9.4e-3)
     assert rung(1e-3, doubt.dk) == 16e-3
     assert rung(1e-3, 1e-3) == rung(1e-3, None) == 1e-3
-    assert doubt.changed(gauss, area, 5e-3, 2.0) == pytest.approx(0.49)
+    assert doubt.changed(gauss, area, 5e-3, 2.0, 1.0) == pytest.approx(0.49)
+    assert doubt.changed(gauss, area, 1.0, 2.0, 5e-3) == pytest.approx(0.49)
     lost = Doubt.of(gauss, (np.where(change < 5e-3, np.nan, change),), area)
     assert lost.part == pytest.approx(0.5)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+import attrs
 import numpy as np
 import pytest
 
@@ -15,6 +16,7 @@ from assoc_hull.surface.cells.faces import cells
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
 from assoc_hull.surface.cells.mesh_report import examined
 from assoc_hull.surface.cells.net_graph import net_graph
+from tests.cases.test_box_with_bilges import round_box
 from tests.net_strategies import fresh
 from tests.nets import A, B, C, ellipsoid_net
 
@@ -167,6 +169,29 @@ def test_nets_drawn_at_random_close_or_are_refused_by_name(number: int) -> None:
     assert found.lcb == pytest.approx(wanted.lcb, abs=2e-4 * ship.length)
 
 
+def test_places_that_coincide_are_one() -> None:
+    """Ends with a level bottom: what is ruled from there to the centre plane comes to nothing."""
+    mesh = ah.closed_mesh(round_box(), points=8)
+    assert mesh.names == ("shell", "aft end", "fore end", "deck")
+    assert mesh.report.collapsed > 0
+    assert mesh.report.sound
+    corner = mesh.triangles.corners
+    side = corner - np.roll(corner, 1, axis=1)
+    assert (side * side).sum(axis=2).min() > 1e-6
+
+
+def test_a_profile_that_misses_the_centre_plane_by_rounding_lies_in_it(wigley: ah.Hull) -> None:
+    """20 micrometres to port on a hull of 100 m: the halves meet all the same."""
+    net = gather(wigley.state)
+    profile = net.name.index("profile")
+    rows = np.arange(net.batch.start[profile], net.batch.start[profile + 1])
+    xyz = net.batch.xyz.copy()
+    xyz[rows, 1] += 2e-5
+    mesh = mesh_of_net(attrs.evolve(net, batch=attrs.evolve(net.batch, xyz=xyz)))
+    assert mesh.report.sound
+    assert np.abs(mesh.xyz[:, 1])[mesh.xyz[:, 1] != 0.0].min() > 1e-4
+
+
 TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 
 
@@ -179,6 +204,12 @@ TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
         pytest.param(lambda face: np.vstack([face[:3], face[3:, ::-1]]), 3, 2, id="one turned"),
         pytest.param(lambda face: face[:, ::-1], 0, 2, id="inside out"),
         pytest.param(lambda face: np.vstack([face, face + 4]), 0, 4, id="two bodies"),
+        pytest.param(
+            lambda face: np.vstack([face, np.array([0, 1, 4, 5])[face]]),
+            1,
+            3,
+            id="two bodies that share an edge",
+        ),
     ],
 )
 def test_faults_of_a_mesh_are_found(

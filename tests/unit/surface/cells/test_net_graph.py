@@ -69,7 +69,9 @@ def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> No
     graph = net_graph(wigley)
     hull = ah.examples.wigley()
     row = np.flatnonzero(rows_of(wigley, "WL 2.5", "ST 7"))[0]
-    assert graph.place[graph.row_node[row]].tolist() == hull.find("WL 2.5 x ST 7").position.tolist()
+    point = hull.find("WL 2.5 x ST 7")
+    assert isinstance(point, ah.Point)
+    assert graph.place[graph.row_node[row]].tolist() == np.asarray(point.position).tolist()
     assert (graph.row_node >= 0).all()
     total = np.bincount(graph.curve, graph.length, minlength=wigley.batch.count)
     assert total == pytest.approx(arc_length(wigley.batch), rel=2e-4)
@@ -79,11 +81,22 @@ def test_nodes_are_the_crossings_and_edges_the_pieces_between(wigley: Net) -> No
     assert graph.points(4)[:, [0, -1]].tolist() == graph.place[graph.edge].tolist()
 
 
-def test_points_along_edges_lie_at_equal_steps(wigley: Net) -> None:
+def test_points_along_edges_lie_at_equal_steps() -> None:
     """Chords of an edge differ in length by as much as its bend makes them."""
-    step = np.diff(net_graph(wigley).points(8), axis=1)
+    step = np.diff(net_graph(gather(ellipsoid_net(15, 7))).points(8), axis=1)
     size = np.sqrt((step * step).sum(axis=2))
     assert (size.max(axis=1) <= 1.01 * size.min(axis=1)).all()
+
+
+def test_a_line_that_closes_is_whole_where_nothing_crosses_it() -> None:
+    """The profile of an ellipsoid begins and ends on top, where a section is left out."""
+    net = gather(ellipsoid_net(15, 7))
+    top = net.batch.xyz[net.batch.start[named(net, "profile")]]
+    without = np.isclose(net.x, top[0])
+    found = cells(net_graph(net, leave_out=without))
+    assert without.sum() == 1
+    assert found.count == 12 * 13
+    assert len(found.graph.loose) == 0
 
 
 def test_normals_are_those_of_the_formula() -> None:
