@@ -119,6 +119,22 @@ def test_groups_are_kept(
     assert names(path) == {"shell", "deck"}
 
 
+def test_triangles_stay_in_their_group_whatever_their_order(
+    mesh: ClosedMesh, tmp_path: Path
+) -> None:
+    """Every triangle under the name of the deck lies at the height of the deck edge."""
+    mixed = np.random.default_rng(3).permutation(len(mesh.triangle))
+    shuffled = attrs.evolve(
+        mesh, triangle=mesh.triangle[mixed], group=mesh.group[mixed], cell=mesh.cell[mixed]
+    )
+    write_mesh(shuffled, tmp_path / "ship.obj")
+    rows = (tmp_path / "ship.obj").read_text().splitlines()
+    height = [float(row.split()[3]) for row in rows if row.startswith("v ")]
+    deck = [row.split()[1:] for row in rows[rows.index("g deck") + 1 :] if row.startswith("f ")]
+    assert len(deck) == int((mesh.group == mesh.names.index("deck")).sum())
+    assert {height[int(each) - 1] for row in deck for each in row} == {max(height)}
+
+
 def test_a_half_is_open_in_the_centre_plane(ship: ah.Hull, tmp_path: Path) -> None:
     """It may be written, says what it is, and has no volume."""
     half = closed_mesh(ship, half=True, points=2)
