@@ -203,9 +203,11 @@ PICTURES: dict[str, Callable[[], Figure]] = {
 }
 DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 110,
        "container_ship_225m": 110, "dtc_report": 110, "carrier_combs": 96, "comparison": 110,
-       "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105}  # fmt: skip
+       "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105,
+       "hull_plates": 74, "hull_surface": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
-COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 40, "plate_flat": 0}  # 0: all
+COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 40, "plate_flat": 0,
+           "hull_plates": 16, "hull_surface": 48}  # 0: all
 COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "lines_plan_dxf"), 256)
 
 

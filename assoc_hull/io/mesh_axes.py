@@ -193,5 +193,5 @@ def half_side(mesh: Triangles, axis: int) -> float | None:
         whole = np.ptp(mesh.xyz, axis=0)
         filled = all(span[other] > 0.8 * whole[other] for other in across)
         if filled and length[on].sum() > 0.15 * length.sum():
-            return side
+            return float(np.median(values[on]))  # single vertices may reach a little farther
     return None

@@ -98,6 +98,9 @@ def plates(
 
     Notes
     -----
+    With `HullSeams` for its seams, `assoc_hull.plates` takes a hull or the surface of one, and cuts
+    it by planes and girths: see `assoc_hull.surface.hull_plates.hull_plates.hull_plates`.
+
     Source: the idea of the percentages and of the advice is that of "Curvature Region Analysis for
     Application of Plates Forming", J. SNAK; classes and measures are our own.
 

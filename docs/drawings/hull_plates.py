@@ -14,7 +14,8 @@ def hull_plates() -> Figure:
     """Draw the shell expansion, the views and the ends, with butts and seams."""
     hull = ah.examples.bulk_carrier_207k()
     seams = ah.HullSeams(x=np.arange(24.0, 300.0, 12.0), girth=np.arange(5.0, 45.0, 5.0))
-    return hull_map(ah.plates(hull, seams), paper="A3", title="Plates of the bulk carrier")
+    found = ah.plates(ah.surface(hull), seams)
+    return hull_map(found, title="Plates of the bulk carrier")
 
 
 def hull_surface() -> Figure:

@@ -141,9 +141,6 @@ def _steps(
     free = _over(w * miss[:, None], rate[:, None], _FLAT * (size * (e + g))[:, None])
     along_v = np.stack([np.zeros_like(gv), _over(miss, gv, _FLAT * np.sqrt(g))], axis=1)
     along_u = np.stack([_over(miss, gu, _FLAT * np.sqrt(e)), np.zeros_like(gu)], axis=1)
-    # At a pole one direction has no length: the other is gone along.
-    free = np.where((e <= _FLAT * g)[:, None], along_v, free)
-    free = np.where((g <= _FLAT * e)[:, None], along_u, free)
     found = np.where(held[:, :1], along_v, np.where(held[:, 1:], along_u, free))
     return np.where(held[:, :1] & held[:, 1:], 0.0, found)
 

@@ -16,8 +16,7 @@ from assoc_hull.surface.blocks.block_map import GRID, BlockMap, Laid, block_map
 from assoc_hull.surface.blocks.block_samples import block_samples
 from assoc_hull.surface.blocks.plan import block_plans
 from assoc_hull.surface.blocks.quad import SIDES
-from assoc_hull.surface.cells.faces import cells
-from assoc_hull.surface.cells.net_graph import net_graph
+from assoc_hull.surface.cells.sound_cells import sound_cells
 
 __all__ = ["lay_out"]
 
@@ -58,7 +57,7 @@ def lay_out(
     >>> [block.name for block in lay_out(gather(hull.state), hull.particulars.length)]
     ['body', 'stern counter']
     """
-    found = cells(net_graph(net, leave_out=leave_out))
+    found = sound_cells(net, leave_out)
     maps = dict[str, BlockMap]()
     for plan in block_plans(found, length):
         maps[plan.name] = block_map(plan, length, maps)

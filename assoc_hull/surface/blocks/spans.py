@@ -36,6 +36,9 @@ _END_SPAN = 0.6
 _CLEAR = 0.4
 """Breaks nearer than this part of a span give way."""
 
+_FINER = np.array([0.12, 0.25, 0.5])
+"""Breaks beside the place where a side leaves the centre plane, as parts of the span there."""
+
 _GRID = 2.0**-15
 """Breaks are rounded to about this part of the length of the ship."""
 
@@ -76,7 +79,10 @@ def breaks_of(
         girth_span *= _END_SPAN
     own = along, _evenly(v0, v1, girth_span)
     grid = 2.0 ** round(math.log2(_GRID * length))
-    first, second = (_with_places(_on_grid(own[axis], grid), ends[axis]) for axis in (0, 1))
+    first, second = (
+        _leaving_centre(block, axis, _with_places(_on_grid(own[axis], grid), ends[axis]))
+        for axis in (0, 1)
+    )
     return _with_masters(block, 0, first, known), _with_masters(block, 1, second, known)
 
 
@@ -107,6 +113,23 @@ def _with_places(places: FloatArray, wanted: FloatArray) -> FloatArray:
         span = float(np.diff(places)[np.clip(np.searchsorted(places, place) - 1, 0, None)])
         kept = places[1:-1][np.abs(places[1:-1] - place) > _CLEAR * span]
         places = np.unique(np.concatenate([places[:1], kept, [place], places[-1:]]))
+    return places
+
+
+def _leaving_centre(block: Block, axis: int, places: FloatArray) -> FloatArray:
+    """Put finer spans where a side leaves the centre plane: it stays in it smoothly, and turns."""
+    for side, stretches in block.sides.items():
+        if _ALONG[side] != axis:
+            continue
+        low, high = block.extent[axis].tolist()
+        for each in stretches:
+            if not each.centre:
+                continue
+            for end, way in ((each.low, -1.0), (each.high, 1.0)):
+                if low + _SAME < end < high - _SAME:
+                    near = int(np.searchsorted(places, end - _SAME))
+                    span = float(np.diff(places)[near if way > 0.0 else near - 1])
+                    places = _merged(np.concatenate([places, end + way * span * _FINER]))
     return places
 
 

@@ -154,13 +154,15 @@ class ClosedMesh:
         areas = ", ".join(f"{name} {area:.3f} m2" for name, area in self.areas.items())
         volume = " ".join(f"{each:.3f}" for each in report.fluxes.tolist())
         closed = f"yes: each edge in two triangles, Euler {report.euler}"
+        where = "elsewhere" if report.off_centre else "all in the centre plane"
+        ajar = f"no: {report.open_edges} open edges, {where}"
         median, most, nearly = report.slenderness.tolist()
         bend = [f"{1000.0 * each:.1f}" for each in self.sagitta.tolist()]
         rows = [
             ("mesh", f"{sides}; {self.cells} cells a half, {self.steps} points to an edge"),
             ("triangles", f"{report.triangles}, {report.vertices} vertices, {report.nil} nil"),
             ("area", areas),
-            ("watertight", closed if report.sound else f"no: {report.open_edges} open edges"),
+            ("watertight", closed if report.sound else ajar),
             ("volume", f"{volume} m3, by x, y and z" if report.sound else "none: it is open"),
             ("chords", f"{bend[0]} mm off their lines (median), 95 % {bend[1]}, most {bend[2]}"),
             ("slenderness", f"median {median:.1f}, 95 % below {most:.1f}, 99 % below {nearly:.1f}"),

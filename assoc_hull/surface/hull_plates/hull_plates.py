@@ -47,8 +47,8 @@ _WHERE = "in plates of a hull"
 _LEAST = 1e-4
 """m2: what is smaller is no plate."""
 
-_FEW, _FINE = 20, 41
-"""A plate with fewer nodes is measured by so many each way on a patch."""
+_FEW, _FINE = 20, (41, 161)
+"""A plate with fewer nodes is measured by so many each way on a patch, in turn."""
 
 
 def hull_plates(
@@ -201,8 +201,9 @@ class _Work:
     def _draft(self, wanted: PlateRange) -> _Draft | None:
         """Measure a plate, as far as regions are not needed; a narrow one by more nodes."""
         measured, rivals = nodes_in(self.shell, wanted), self.rivals
-        if measured.inside.sum() < _FEW:
-            measured, rivals = nodes_in(self.shell, wanted, _FINE), ()
+        for count in _FINE:
+            if measured.inside.sum() < _FEW:
+                measured, rivals = nodes_in(self.shell, wanted, count), ()
         if not measured.nodes.area.sum() > _LEAST:
             return None
         margin = self.shell.margin[measured.rows][:, None, None]

@@ -77,3 +77,16 @@ def test_a_mesh_without_breadth_or_depth_is_refused(flat: list[int], words: str,
     mesh = meshes.moved(meshes.wigley_half(21, 11), lambda xyz: xyz * np.array(flat, np.float64))
     with pytest.raises(BadInputError, match=words):
         slice_mesh(mesh, axes=axes, **CUTS)
+
+
+def test_a_vertex_across_the_centre_plane_does_not_move_the_hull() -> None:
+    """Half a hull whose stem waves by 0.9 mm is not shifted by that."""
+    mesh = meshes.wigley_half()
+    inner = int(np.argmin(np.where(mesh.xyz[:, 1] > 0.0, mesh.xyz[:, 1], np.inf)))
+    xyz = mesh.xyz.copy()
+    xyz[inner, 1] = -9e-4
+    slices = slice_mesh(Triangles(xyz, mesh.face), **CUTS)
+    assert not slices.report.repairs
+    assert {piece.ends[0] for line in slices.group("sections") for piece in line.pieces} == {
+        "profile"
+    }

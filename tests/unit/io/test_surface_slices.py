@@ -76,6 +76,24 @@ def test_a_hull_in_other_axes_is_cut_exactly() -> None:
         assert np.abs(y - meshes.wigley_y(x + 30.0, z + 4.0)).max() < 1e-9
 
 
+def test_a_surface_across_the_centre_plane_is_cut_at_it() -> None:
+    """Both halves in one surface: stations begin at y = 0, on the surface, not on a triangle."""
+    t, t2 = np.array([-1.0, 0, 1]), np.array([1.0, -1, 1])
+    x, y, z = np.linspace(0, 100.0, 3), np.array([0.0, 12, 0]), 6.0 * t2
+    net = np.stack(np.broadcast_arrays(x[:, None], y[:, None] * t, z[None]), axis=2)
+    slices = cut(
+        [SplineSurface.bezier(net, "both")],
+        {"stations": [20.0, 50.0], "waterlines": [3.0], "buttocks": [2.0]},
+    )
+    for line in slices.lines:
+        for piece in line.pieces:
+            x, y, z = piece.points.T
+            breadth = 0.24 * x * (1.0 - x / 100.0)
+            assert np.abs(y**2 - breadth**2 * z / 6.0).max() < 1e-9
+    for line in slices.group("sections"):
+        assert np.abs(line.pieces[0].points[0, 1:]).max() < 1e-12
+
+
 CHANGES: dict[str, tuple[Callable[[FloatArray], FloatArray], str]] = {
     "bow at negative x": (lambda net: net * [-1, 1, 1], "bow at negative x"),
     "half to starboard": (lambda net: net * [1, -1, 1], "mirrored"),

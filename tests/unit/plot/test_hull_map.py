@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -44,20 +43,19 @@ def test_every_view_has_tiles_lines_and_plates_their_names(plates: HullPlates) -
     assert any(plate.kind is None for plate in plates)
 
 
-def test_a_picture_has_the_same_bytes_each_time(plates: HullPlates, tmp_path: Path) -> None:
-    """Of the map and of the surface; another ending is refused."""
-    pictures: list[tuple[Callable[..., object], object]] = [
-        (hull_map, plates), (surface_figure, (AFT, FORE)),
-    ]  # fmt: skip
-    for draw, given in pictures:
-        paths = [tmp_path / "a.png", tmp_path / "b.png"]
-        for path in paths:
-            draw(given, path, paper="A4")
-        assert paths[0].read_bytes() == paths[1].read_bytes()
-        with pytest.raises(BadInputError):
-            draw(given, tmp_path / "a.txt")
-        with pytest.raises(WrongTypeError):
-            draw(3)
+def test_the_ending_of_the_name_chooses_the_picture(plates: HullPlates, tmp_path: Path) -> None:
+    """Of the map and of the surface; another ending, and what is neither, is refused."""
+    hull_map(plates, tmp_path / "map.svg", paper="A4")
+    surface_figure((AFT, FORE), tmp_path / "surface.png")
+    assert (tmp_path / "map.svg").read_text().startswith("<?xml")
+    assert (tmp_path / "surface.png").read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(WrongTypeError):
+        hull_map(3)  # type: ignore[arg-type]
+    with pytest.raises(WrongTypeError):
+        surface_figure(3)  # type: ignore[arg-type]
+    with pytest.raises(BadInputError):
+        surface_figure((AFT, FORE), tmp_path / "surface.txt")
+    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_the_sheet_has_the_map_the_table_and_the_notes(plates: HullPlates, tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ def level_of(side: Side) -> float:
 
 def plates_of(side: Side, seams: HullSeams = SEAMS, k0: float | None = None) -> HullPlates:
     """The plates of a side."""
-    surface = side.surface(X, Z, (5, 3), "body")
+    surface = side.surface(X, Z, (3, 2), "body")
     return hull_plates((surface,), seams, zero="absolute", k0=k0 or level_of(side))
 
 
