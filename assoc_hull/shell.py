@@ -133,7 +133,7 @@ def surface(
         An earlier surface of the hull: blocks whose lines have not moved are taken from it. One
         that was made with other options, or other lines left out, is of no use, and no error.
     smoothing : float, m3, optional
-        The factor of the penalty on second derivatives; ``8e-10 length**3`` without it.
+        The factor of the penalty on second derivatives; ``9.6e-10 length**3`` without it.
     tolerance : float, m, optional
         What 95 % of the distances of the body should keep; 8 mm at a length of 300 m without it.
     cutoff : float, m

@@ -151,15 +151,16 @@ def test_hard_places_are_named(
     """Where a surface cannot follow, its notes say what and where, and so does its report."""
     found = surface_of(request.getfixturevalue(name))
     (own,) = (each for each in found.blocks if each.name == block)
-    (note,) = (each for each in own.notes if each.startswith(word))
-    numbers = note[note.index("(") + 1 : note.index(")")].split(", ")
-    assert np.abs(np.array(numbers, np.float64) - place).max() < 0.6
-    assert f"{block}: {note}" in str(found)
+    notes = [each for each in own.notes if each.startswith(word)]
+    told = [note[note.index("(") + 1 : note.index(")")].split(", ") for note in notes]
+    away = np.abs(np.array(told, np.float64) - place).max(axis=1)
+    assert away.min() < 0.6
+    assert all(f"{block}: {note}" in str(found) for note in notes)
 
 
 def test_lines_left_out_lie_near_it(series60_70: Hull) -> None:
     """Every fourth section and waterline: p95 at most three times that of the lines fitted to."""
-    left_out_within(series60_70, 2, 3.0)
+    left_out_within(series60_70, 0, 3.0)
 
 
 @pytest.mark.parametrize("name", ["dtc", "bulk_carrier"][: 2 if LONG else 1])

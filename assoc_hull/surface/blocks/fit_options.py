@@ -19,7 +19,7 @@ from assoc_hull.arguments import not_negative, positive
 __all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options"]
 
 _LENGTH = 300.0
-SMOOTHING = 8e-10
+SMOOTHING = 9.6e-10
 """The penalty over the cube of the length."""
 
 _BODY, _ENDS, _MEDIAN = 0.008, 0.015, 0.0015
@@ -116,7 +116,7 @@ def fit_options(
     length : float, m
         Of the ship.
     smoothing : float, m3, optional
-        The factor of the penalty of the body; ``8e-10 length**3`` if None.
+        The factor of the penalty of the body; ``9.6e-10 length**3`` if None.
     tolerance : float, m, optional
         What 95 % of the residuals of the body should keep; 8 mm at 300 m if None.
     cutoff : float, m

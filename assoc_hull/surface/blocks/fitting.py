@@ -67,7 +67,8 @@ def surface_of_net(
         _published(each, net, options, misses, number) for number, each in enumerate(made)
     )
     borders = tuple(border for each in made for border in each.borders)
-    notes = tuple(note for border in borders for note in doubts_of_border(border))
+    told = (note for border in borders for note in doubts_of_border(border))
+    notes = tuple(dict.fromkeys(told))
     refitted = tuple(block.name for block in found if block.name in followed.refitted)
     return NetSurface(
         state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
