@@ -54,12 +54,15 @@ class Made:
         lines, and how far these lie from it.
     borders : tuple of Border
         Where it meets its masters.
+    settled : bool
+        Control points of `part` were left where an earlier surface had them.
     """
 
     block: Block
     fit: Fit
     part: Fit
     borders: tuple[Border, ...]
+    settled: bool = False
 
     @property
     def breaks(self) -> Breaks:
