@@ -181,4 +181,4 @@ def _interpolated(
     for end, beyond in ((0, x < at[0]), (-2, x > at[-1])):
         slope = (value[end + 1] - value[end]) / (at[end + 1] - at[end])
         found = np.where(beyond, value[end] + slope * (x - at[end]), found)
-    return np.asarray(found)
+    return np.maximum(found, 0.0)
