@@ -206,8 +206,13 @@ DPI = {"series60": 110, "bulk_carrier": 110, "bulk_carrier_180m": 110, "dtc": 11
        "variant_plan": 110, "form_sheet": 100, "panels": 105, "closed_mesh": 105,
        "hull_plates": 62, "hull_surface": 105}  # fmt: skip
 PLANS = ("series60", "bulk_carrier", "bulk_carrier_180m", "container_ship_225m", "dtc")
-COLOURS = {**dict.fromkeys(PLANS, 16), "closed_mesh": 40, "plate_flat": 0,
-           "hull_plates": 64, "hull_surface": 48}  # 0: all
+COLOURS = {
+    **dict.fromkeys(PLANS, 16),
+    "closed_mesh": 40,
+    "plate_flat": 0,
+    "hull_plates": 64,
+    "hull_surface": 48,
+}  # 0: all
 COLOURS |= dict.fromkeys(("form_curve", "curvature_lines", "lines_plan_dxf"), 256)
 
 

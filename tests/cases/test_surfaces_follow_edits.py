@@ -106,6 +106,8 @@ def test_a_walk_of_edits_never_drifts() -> None:
         scratch = ah.surface(hull)
         away = [a.net - b.net for a, b in zip(found.patches, scratch.patches, strict=True)]
         assert max(np.abs(each).max() for each in away) < 2e-7
+    exact = ah.surface(hull, previous=found, cutoff=0.0)
+    assert [bits(b) for b in exact.blocks] == [bits(b) for b in scratch.blocks]
     assert fitted[:3] == [False, True, False]
     assert any(fitted[3:])
 

@@ -292,6 +292,7 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
         {"mesh": closed_mesh(SMALL, points=2), "path": "a.ply", "form": None, "unit": "m",
          "name": "a"},
     ),
+    "HullSurface.below": (ah.surface(SMALL).below, {"draught": 5.0}),
     "write_surface": (
         write_surface,
         {"found": ah.surface(SMALL), "path": "a.ply", "form": None, "unit": None, "half": True},

@@ -14,7 +14,7 @@ _KEEL = 0.1
 """A section stands on the keel where the profile rises by less than this a metre."""
 _NEAR = 0.02
 """A line near a bend is no farther from it than this part of the ship's length ..."""
-_THROUGH = 0.004
+_THROUGH = 0.006
 """... and one through it, than this."""
 _BEFORE = 0.01
 """A section beside a bend stands this part of the length off it."""
@@ -167,7 +167,7 @@ def _section_through(whole: Region, bend: Bend, length: float) -> Chord | None:
         for chord in whole.chords(curve):
             down = _downward(whole, chord)
             away = np.abs(place[down.last] - np.array(bend.place)).max()
-            if away <= 1.5 * _THROUGH * length:
+            if away <= _THROUGH * length:
                 return down
     return None
 

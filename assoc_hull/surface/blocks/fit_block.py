@@ -31,9 +31,10 @@ _STIFFER = (1.0, 3.0, 9.0, 27.0)
 _CORNER = 0.05
 """So far from a singular corner, as a part of the sides, is beside it."""
 
-_ENOUGH = 0.95
+_ENOUGH, _TO_BE_JOINED = 0.95, 0.8
 """With 95 % of the residuals below this part of the limit a fit has knots enough: more of them
-would follow the lines more closely, and what is between less."""
+would follow the lines more closely, and what is between less. The latter for blocks that follow
+others, which costs some of it."""
 
 _Y = 1
 
@@ -53,12 +54,15 @@ class Made:
         lines, and how far these lie from it.
     borders : tuple of Border
         Where it meets its masters.
+    settled : bool
+        Control points of `part` were left where an earlier surface had them.
     """
 
     block: Block
     fit: Fit
     part: Fit
     borders: tuple[Border, ...]
+    settled: bool = False
 
     @property
     def breaks(self) -> Breaks:
@@ -142,6 +146,7 @@ def fitted(
     """
     breaks = breaks_of(block, options.girth_span, options.length, known, ends)
     limit = options.limit(block.kind)
+    share = _TO_BE_JOINED if block.masters else _ENOUGH
     return fit_refined(
         block.name,
         block.samples,
@@ -150,7 +155,7 @@ def fitted(
         limit,
         held=lambda u, v: held_on_centre(block, u, v),
         passes=_PASSES,
-        enough=lambda fit: bool(np.percentile(fit.residual, 95.0) <= _ENOUGH * limit),
+        enough=lambda fit: bool(np.percentile(fit.residual, 95.0) <= share * limit),
     )
 
 

@@ -93,16 +93,19 @@ def made_of(
         found = None
         if old is not None and earlier is not None:
             same = unmoved(block, names, old.block, earlier.names, options.cutoff)
+            # A settled one is not, in every bit, the surface of its points.
+            same = same and not (old.settled and options.cutoff == 0.0)
             same = same and _near(ends, ends_on(old.block, old_blocks), options.cutoff)
             if same and _same_breaks(block, made, before, options.cutoff):
                 found = _taken(_renumbered(old, block), options, made, before)
         if found is None:
             found = made_without_folds(block, options, made, ends)
             refitted.append(block.name)
-        if old is not None:
+        if old is not None and found.part.surface is not old.part.surface:
             sides = [side for side, parts in block.sides.items() if any(p.master for p in parts)]
             part = settled(found.part, old.part.surface, options.cutoff, sides)
-            found = attrs.evolve(found, part=part)
+            if part is not found.part:
+                found = attrs.evolve(found, part=part, settled=True)
         made[block.name] = found
     return Followed(made, tuple(refitted))
 

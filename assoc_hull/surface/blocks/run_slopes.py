@@ -13,6 +13,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = ["slopes_along"]
 
+_TINY = 1e-200
+"""Slopes whose product is less count as nil: their inverse may have no number."""
+
 
 def slopes_along(
     curve: IntArray,
@@ -52,7 +55,7 @@ def slopes_along(
     joined = (curve[a] == curve[b]) & (edge[a, 1] == edge[b, 0]) & ~straight[a] & ~straight[b]
     a, b = a[joined], b[joined]
     weight = 2.0 * size[b] + size[a], size[b] + 2.0 * size[a]
-    same = step[a] * step[b] > 0.0
+    same = step[a] * step[b] > _TINY
     down = np.where(same, weight[0] / np.where(same, step[a], 1.0), 1.0)
     down = down + np.where(same, weight[1] / np.where(same, step[b], 1.0), 0.0)
     slope = np.where(same, (weight[0] + weight[1]) / down, 0.0)

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from assoc_hull.analysis.net.gather import gather
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.surface.blocks.outline import bends_inward, course
+from assoc_hull.surface.blocks.corners import four_corners
+from assoc_hull.surface.blocks.outline import Course, bends_inward, course, turns
 from assoc_hull.surface.blocks.plan import block_plans
 from assoc_hull.surface.blocks.region import Region
 from assoc_hull.surface.blocks.run_slopes import slopes_along
@@ -85,6 +86,33 @@ def test_bends_into_the_ship_are_found_and_no_others(
     assert aperture.turn > 100.0 > 60.0 > stem.turn > boss.turn > 40.0
     np.testing.assert_allclose(aperture.place, [8.8, 0.0, 7.3], atol=0.6)
     np.testing.assert_allclose(stem.place, [299.8, 0.0, 16.4], atol=0.5)
+
+
+def test_a_border_turns_only_where_it_turns_inward() -> None:
+    """Round an L, five corners of 90 degrees; at the hollow one nil, if normals are given."""
+    corner = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0], [1, 2, 0], [0, 2, 0], [0, 0, 0]])
+    place = np.array(corner, np.float64)
+    start = np.append(0.0, np.cumsum(np.abs(np.diff(place, axis=0)).sum(axis=1)))
+    found = Course(np.arange(6), start, start.copy(), place, np.zeros(7, np.bool_))
+    up = np.tile([0.0, 0.0, 1.0], (6, 1))
+    np.testing.assert_allclose(turns(found, start[:-1], 0.2), 90.0)
+    inward = turns(found, start[:-1], 0.2, up)
+    np.testing.assert_allclose(inward, [90.0, 90.0, 90.0, 0.0, 90.0, 90.0], atol=1e-9)
+
+
+def test_corners_that_must_be_are_and_those_that_must_not_are_not(small: Cells) -> None:
+    """A node on a straight side can be asked for; a sharp one can be ruled out."""
+    whole = Region.whole(small)
+    nodes = whole.begin(whole.loop)
+    place = small.graph.place[nodes]
+    sharp, _ = four_corners(whole, 100.0, ())
+    np.testing.assert_allclose(np.ptp(small.graph.place[list(sharp)], axis=0), [100.0, 0.0, 9.375])
+    deck = int(nodes[np.abs(place - [50.0, place[:, 1].max(), 9.375]).max(axis=1).argmin()])
+    asked, turn = four_corners(whole, 100.0, [deck])
+    assert deck in asked
+    assert len(turn) == 4
+    without, _ = four_corners(whole, 100.0, (), (), [sharp[0]])
+    assert sharp[0] not in without
 
 
 def bends_of(hull: Hull) -> tuple:  # type: ignore[type-arg]
