@@ -36,8 +36,9 @@ _END_SPAN = 0.6
 _CLEAR = 0.4
 """Breaks nearer than this part of a span give way."""
 
-_FINER = np.array([0.12, 0.25, 0.5])
-"""Breaks beside the place where a side leaves the centre plane, as parts of the span there."""
+_FINER = np.array([0.25, 0.5])
+"""Breaks beside the place where a side leaves the centre plane, as parts of the span there.
+Shorter ones hold no points of their own: beside a singular corner of the DTC they folded."""
 
 _GRID = 2.0**-15
 """Breaks are rounded to about this part of the length of the ship."""
