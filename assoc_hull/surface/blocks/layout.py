@@ -14,6 +14,7 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.block_map import GRID, BlockMap, Laid, block_map
 from assoc_hull.surface.blocks.block_samples import block_samples
+from assoc_hull.surface.blocks.loose_ends import loose_ends, with_loose_ends
 from assoc_hull.surface.blocks.plan import block_plans
 from assoc_hull.surface.blocks.quad import SIDES
 from assoc_hull.surface.cells.sound_cells import sound_cells
@@ -63,7 +64,8 @@ def lay_out(
         maps[plan.name] = block_map(plan, length, maps)
     halves = [half for each in maps.values() for seam in each.plan.seams for half in seam.half]
     cuts = np.array(halves, np.int64) >> 1
-    return tuple(_block(each, maps, length, cuts) for each in maps.values())
+    blocks = [_block(each, maps, length, cuts) for each in maps.values()]
+    return with_loose_ends(blocks, loose_ends(found.graph, length), GRID * length)
 
 
 def _block(found: BlockMap, every: dict[str, BlockMap], length: float, cuts: IntArray) -> Block:
