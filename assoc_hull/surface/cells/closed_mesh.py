@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.arguments import flag, integer, positive
-from assoc_hull.errors import BadInputError, OpenMeshError
+from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.immersed import Planes
 from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
@@ -219,7 +219,7 @@ def mesh_of_net(
     BadInputError
         `points` is odd or out of its range.
     OpenNetError
-        The lines do not part the hull into cells.
+        The lines do not part the hull into cells, or too few to enclose it.
     OpenMeshError
         The mesh does not close all the same.
 
@@ -243,6 +243,12 @@ def mesh_of_net(
     if not half:
         sheets = mirrored(sheets)
     report = examined(sheets.xyz, sheets.triangle, sheets.collapsed)
+    if not half and report.closed and not report.sound:
+        fluxes = ", ".join(f"{each:.6g}" for each in report.fluxes.tolist())
+        raise OpenNetError(
+            f"what they enclose has {fluxes} m3 by x, y and z, and Euler's number {report.euler}",
+            (), "add sections and waterlines, or give those that were left out",
+        )  # fmt: skip
     if report.off_centre if half else not report.sound:
         require_closed(report, "the surface", half)
     return ClosedMesh(

@@ -21,6 +21,10 @@ from tests.net_strategies import fresh
 from tests.nets import A, B, C, ellipsoid_net
 
 
+INSIDE = [*(f"ST {n}" for n in range(1, 20)), *(f"WL {0.625 * n:g}" for n in range(1, 11))]
+"""Lines of the Wigley hull that are no border."""
+
+
 @pytest.fixture(scope="module")
 def wigley() -> ah.Hull:
     """100 x 10 x 6.25 m, to z = 9.375 m."""
@@ -251,6 +255,10 @@ def test_faults_of_a_mesh_are_found(
         pytest.param(
             {"leave_out": ["profile"]}, OpenNetError, "deck edge at (0.000, 0.000, 9.375) m",
             id="the profile left out",
+        ),
+        pytest.param(
+            {"leave_out": INSIDE},
+            OpenNetError, "add sections and waterlines", id="all but the border left out",
         ),
     ],
 )  # fmt: skip
