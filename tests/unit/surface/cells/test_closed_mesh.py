@@ -20,7 +20,6 @@ from tests.cases.test_box_with_bilges import round_box
 from tests.net_strategies import fresh
 from tests.nets import A, B, C, ellipsoid_net
 
-
 INSIDE = [*(f"ST {n}" for n in range(1, 20)), *(f"WL {0.625 * n:g}" for n in range(1, 11))]
 """Lines of the Wigley hull that are no border."""
 
