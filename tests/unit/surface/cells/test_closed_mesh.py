@@ -172,6 +172,13 @@ def test_nets_drawn_at_random_close_or_are_refused_by_name(number: int) -> None:
     assert found.lcb == pytest.approx(wanted.lcb, abs=2e-4 * ship.length)
 
 
+def test_chords_that_leave_lines_by_much_are_told(wigley: ah.Hull) -> None:
+    """A box whose bilges are drawn by sections alone loses 5 % with four points; Wigley nothing."""
+    (note,) = ah.closed_mesh(round_box()).notes
+    assert note.startswith("chords leave the lines by more than 0.")
+    assert ah.closed_mesh(wigley).notes == ()
+
+
 def test_places_that_coincide_are_one() -> None:
     """Ends with a level bottom: what is ruled from there to the centre plane comes to nothing."""
     mesh = ah.closed_mesh(round_box(), points=8)
