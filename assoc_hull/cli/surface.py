@@ -102,14 +102,14 @@ def _check_targets(arguments: argparse.Namespace) -> None:
 
 
 def every_fourth(hull: Hull) -> list[str]:
-    """Name every fourth section and waterline, by place, without the outermost ones.
+    """Name the fourth, eighth ... section and waterline, by place, without the last.
 
     Examples
     --------
     >>> from assoc_hull.cli.surface import every_fourth
     >>> from assoc_hull.sources import examples
     >>> every_fourth(examples.wigley(stations=11, waterlines=6))
-    ['ST 3', 'ST 7', 'WL 2.5']
+    ['ST 4', 'ST 8', 'WL 5']
     """
     state = hull.state
     found: list[str] = []
@@ -119,5 +119,5 @@ def every_fourth(hull: Hull) -> list[str]:
             for line in state.live("lines").tolist()
             if state.family(line).name == family
         ]
-        found += [name for _, name in sorted(lines)[2:-1:4]]
+        found += [name for _, name in sorted(lines)[3:-1:4]]
     return found

@@ -203,7 +203,7 @@ def test_seams_cut_a_surface_into_plates() -> None:
 def test_seams_that_cut_nothing_are_refused(seams: object, message: str) -> None:
     """The message says which, where, and what to give."""
     with pytest.raises((BadInputError, WrongTypeError), match=message):
-        ah.plates(surface("P11_hypar"), seams=seams)  # type: ignore[arg-type]
+        ah.plates(surface("P11_hypar"), seams=seams)  # type: ignore[call-overload]
     with pytest.raises(BadInputError, match="u is"):
         Seams(u=(0.5, 0.2))
     assert cut_at(surface("P11_hypar"), Seams())[0].name == "P11_hypar"
@@ -226,7 +226,7 @@ def test_advice_is_the_yards_own() -> None:
     assert CAVEAT in str(found)
     for wrong in ({"round": "?"}, {"flat": ""}, ["flat"]):
         with pytest.raises((BadInputError, WrongTypeError), match=r"suggestions|text of flat"):
-            ah.plates(surface("P13_plane"), suggestions=wrong)  # type: ignore[arg-type]
+            ah.plates(surface("P13_plane"), suggestions=wrong)
 
 
 def test_what_is_flat_depends_on_the_length_of_the_sagitta() -> None:
@@ -303,4 +303,4 @@ def test_slivers_squares_and_poles_are_told() -> None:
 def test_options_that_mean_nothing_are_refused(options: dict[str, object]) -> None:
     """Nothing is ignored in silence."""
     with pytest.raises((BadInputError, WrongTypeError)):
-        ah.plates(surface("P13_plane"), **options)  # type: ignore[arg-type]
+        ah.plates(surface("P13_plane"), **options)  # type: ignore[call-overload]

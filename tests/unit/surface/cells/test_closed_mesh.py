@@ -20,6 +20,9 @@ from tests.cases.test_box_with_bilges import round_box
 from tests.net_strategies import fresh
 from tests.nets import A, B, C, ellipsoid_net
 
+INSIDE = [*(f"ST {n}" for n in range(1, 20)), *(f"WL {0.625 * n:g}" for n in range(1, 11))]
+"""Lines of the Wigley hull that are no border."""
+
 
 @pytest.fixture(scope="module")
 def wigley() -> ah.Hull:
@@ -169,6 +172,13 @@ def test_nets_drawn_at_random_close_or_are_refused_by_name(number: int) -> None:
     assert found.lcb == pytest.approx(wanted.lcb, abs=2e-4 * ship.length)
 
 
+def test_chords_that_leave_lines_by_much_are_told(wigley: ah.Hull) -> None:
+    """A box whose bilges are drawn by sections alone loses 5 % with four points; Wigley nothing."""
+    (note,) = ah.closed_mesh(round_box()).notes
+    assert note.startswith("chords leave the lines by more than 0.")
+    assert ah.closed_mesh(wigley).notes == ()
+
+
 def test_places_that_coincide_are_one() -> None:
     """Ends with a level bottom: what is ruled from there to the centre plane comes to nothing."""
     mesh = ah.closed_mesh(round_box(), points=8)
@@ -251,6 +261,10 @@ def test_faults_of_a_mesh_are_found(
         pytest.param(
             {"leave_out": ["profile"]}, OpenNetError, "deck edge at (0.000, 0.000, 9.375) m",
             id="the profile left out",
+        ),
+        pytest.param(
+            {"leave_out": INSIDE},
+            OpenNetError, "add sections and waterlines", id="all but the border left out",
         ),
     ],
 )  # fmt: skip
