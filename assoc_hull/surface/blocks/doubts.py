@@ -13,7 +13,8 @@ from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.net_records import Border, Residuals
 
 __all__ = [
-    "doubts_of_border", "doubts_of_fit", "doubts_of_penalty", "doubts_of_shape", "shown_place",
+    "doubts_of_border", "doubts_of_fit", "doubts_of_half", "doubts_of_penalty",
+    "doubts_of_shape", "shown_place",
 ]  # fmt: skip
 
 _KNUCKLE = 5.0
@@ -28,6 +29,9 @@ _STEM = 4.0
 
 _BESIDE = 0.002
 """So near to the centre plane, as a part of the length, is beside it."""
+
+_ACROSS = 0.0001
+"""By so much, m on a hull of 300 m, a half may wave across the centre plane."""
 
 
 def shown_place(place: FloatArray) -> str:
@@ -102,6 +106,30 @@ def doubts_of_shape(surface: SplineSurface, shape: Elements, folded: FloatArray)
     if shape.least < _LEAST and shape.place not in shape.singular:
         place = surface.at(*shape.place)
         yield f"the element of area is {shape.least:.3f} of the median at {shown_place(place)}"
+
+
+def doubts_of_half(surface: SplineSurface, shape: Elements, options: FitOptions) -> Iterator[str]:
+    """Say where the half y >= 0 waves across the centre plane, so that the two halves intersect.
+
+    Parameters
+    ----------
+    surface : SplineSurface
+        The surface.
+    shape : Elements
+        Its grid of places.
+    options : FitOptions
+        They tell the length of the ship.
+    """
+    least = -_ACROSS * options.scale
+    if surface.net[..., 1].min() >= least:
+        return
+    place = surface.at(shape.u[:, None], shape.v[None, :]).reshape(-1, 3)
+    worst = place[int(place[:, 1].argmin())]
+    if worst[1] < least:
+        yield (
+            f"waves across the centre plane by {-1e3 * worst[1]:.2f} mm at {shown_place(worst)}: "
+            "the two halves intersect there"
+        )
 
 
 def doubts_of_border(border: Border) -> Iterator[str]:

@@ -14,6 +14,7 @@ from assoc_hull.model.state import HullState
 from assoc_hull.surface.blocks.doubts import (
     doubts_of_border,
     doubts_of_fit,
+    doubts_of_half,
     doubts_of_penalty,
     doubts_of_shape,
 )
@@ -127,6 +128,7 @@ def _published(
         *doubts_of_penalty(part.smoothing, options.smoothing_of(block.kind, block.area)),
         *doubts_of_fit(block.kind, on_lines, options),
         *doubts_of_shape(surface, shape, folded),
+        *doubts_of_half(surface, shape, options),
     )
     limit = options.limit(block.kind)
     residuals = (on_lines, *others)

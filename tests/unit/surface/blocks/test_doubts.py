@@ -8,6 +8,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.doubts import (
     doubts_of_border,
     doubts_of_fit,
+    doubts_of_half,
     doubts_of_penalty,
     doubts_of_shape,
 )
@@ -95,3 +96,19 @@ def test_borders_over_their_limits_are_told() -> None:
     assert list(doubts_of_border(good)) == []
     bad = Border(("body", "bow"), gap, 1e-4, np.array([0.0, 0.0, 0.2]), place, limit)
     assert [note.split(": ")[1][:9] for note in doubts_of_border(bad)] == ["a gap of ", "the norma"]
+
+
+@pytest.mark.parametrize(("across", "told"), [(0.0, False), (0.00005, False), (0.002, True)])
+def test_a_half_that_crosses_the_centre_plane_is_told(across: float, told: bool) -> None:
+    """By how much, and where; to a tenth of a millimetre on 300 m it may."""
+    net = np.zeros((4, 4, 3))
+    net[..., 0], net[..., 2] = np.mgrid[0:4, 0:4]
+    net[..., 1] = -across
+    net[:, -1, 1] = 1.0
+    knots = [0.0, 0, 0, 0, 3, 3, 3, 3]
+    surface = SplineSurface("half", (3, 3), knots, knots, net)
+    notes = list(doubts_of_half(surface, elements(surface), OPTIONS))
+    assert len(notes) == told
+    if told:
+        assert notes[0].startswith("waves across the centre plane by 2.00 mm at (")
+        assert "(0.00, -0.00, 0.00)" in notes[0]
