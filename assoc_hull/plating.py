@@ -29,7 +29,7 @@ from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.hull_plates_file import write_hull_plates
 from assoc_hull.io.plates_file import write_plates
 from assoc_hull.io.surface_file import read_surface_file
-from assoc_hull.surface.blocks.fit_options import fit_options
+from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitting import surface_of_net
 from assoc_hull.surface.hull_plates.hull_plate_table import HullPlates as FoundHullPlates
 from assoc_hull.surface.hull_plates.hull_plates import hull_plates
@@ -123,7 +123,7 @@ def plates_of_hull(surface: Any, seams: HullSeams, *args: Any, **options: Any) -
     """Find plates of a hull; of a hull its surface is made, and two more to compare with."""
     if hasattr(surface, "state"):
         state = state_of(surface, "in plates of a hull")
-        usual = fit_options(state.particulars.length)
+        usual = fit_options(length_of(state))
         if "others" not in options:
             options["others"] = other_fits(state, usual)
         surface = surface_of_net(state, usual)

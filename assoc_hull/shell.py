@@ -19,7 +19,7 @@ import attrs
 from assoc_hull.analysis.measured_hull import HasState, state_of
 from assoc_hull.arguments import all_of, instance, number
 from assoc_hull.geometry.patches.below import Below, below
-from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options
+from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
 from assoc_hull.surface.blocks.fitting import surface_of_net
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
@@ -163,7 +163,7 @@ def surface(
     state = state_of(hull, _WHERE)
     if previous is not None:
         instance(previous, NetSurface, "previous", _WHERE)
-    options = fit_options(state.particulars.length, smoothing, tolerance, cutoff)
+    options = fit_options(length_of(state), smoothing, tolerance, cutoff)
     names = all_of(leave_out, str, "leave_out", _WHERE)
     found = surface_of_net(state, options, tuple(names), previous)
     return HullSurface(*attrs.astuple(found, recurse=False))

@@ -13,10 +13,12 @@ Examples
 from __future__ import annotations
 
 import attrs
+import numpy as np
 
 from assoc_hull.arguments import not_negative, positive
+from assoc_hull.model.state import HullState
 
-__all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options"]
+__all__ = ["CUTOFF", "FitOptions", "angle_limit", "fit_options", "length_of"]
 
 _LENGTH = 300.0
 SMOOTHING = 9.6e-10
@@ -101,6 +103,24 @@ class FitOptions:
 def angle_limit(kinds: tuple[str, str]) -> float:
     """Give the angle that the normals at a border of two kinds of blocks should keep, degrees."""
     return _BODY_ANGLE if "body" in kinds else _END_ANGLE
+
+
+def length_of(state: HullState) -> float:
+    """Give the length that tolerances go by, m.
+
+    That between perpendiculars; or that of the lines, if they are not half as long or more than
+    twice: a hull that was scaled keeps its particulars.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.surface.blocks.fit_options import length_of
+    >>> length_of(ah.examples.wigley().state)
+    100.0
+    """
+    x = state.rows.xyz.data[state.live("rows"), 0]
+    stated, drawn = state.particulars.length, float(np.ptp(x))
+    return stated if 0.5 * stated <= drawn <= 2.0 * stated else drawn
 
 
 def fit_options(

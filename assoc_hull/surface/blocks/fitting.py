@@ -69,12 +69,21 @@ def surface_of_net(
     )
     borders = tuple(border for each in made for border in each.borders)
     told = (note for border in borders for note in doubts_of_border(border))
-    notes = tuple(dict.fromkeys(told))
+    notes = tuple(dict.fromkeys((*_of_length(state, options), *told)))
     refitted = tuple(block.name for block in found if block.name in followed.refitted)
     return NetSurface(
         state.particulars, options, net, found, borders, tuple(leave_out), refitted, notes,
         _of_all(made, misses, net),
     )  # fmt: skip
+
+
+def _of_length(state: HullState, options: FitOptions) -> tuple[str, ...]:
+    """Say that tolerances go by another length than that of the particulars."""
+    stated = state.particulars.length
+    if options.length == stated:
+        return ()
+    return (f"tolerances go by {options.length:.4g} m, the length of the lines: the particulars "
+            f"have {stated:.4g} m",)  # fmt: skip
 
 
 def earlier_of(

@@ -114,3 +114,16 @@ def test_a_tolerance_that_is_not_kept_is_told(small: Hull) -> None:
     (note,) = (each for each in found.blocks[0].notes if each.startswith("95 %"))
     assert "over the limit of 0.0 mm; the largest is" in note
     assert f"on {found.blocks[0].fitted.line}" in note
+
+
+def test_a_hull_that_was_scaled_goes_by_the_length_of_its_lines() -> None:
+    """Its particulars stay; tolerances and penalty do not, and a note says so."""
+    model = ah.examples.wigley(stations=11, waterlines=6)
+    with model.edit("model scale") as edit:
+        edit.transform(scale=(0.04, 0.04, 0.04), planes="follow", drivers=["sections", "boundary"])
+    found = ah.surface(model)
+    assert found.options.length == pytest.approx(4.0, abs=1e-9)
+    assert found.notes == (
+        "tolerances go by 4 m, the length of the lines: the particulars have 100 m",
+    )
+    assert found.whole[0].p95 < 0.01 * 0.008
