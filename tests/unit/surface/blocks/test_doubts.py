@@ -105,7 +105,7 @@ def test_a_half_that_crosses_the_centre_plane_is_told(across: float, told: bool)
     net[..., 0], net[..., 2] = np.mgrid[0:4, 0:4]
     net[..., 1] = -across
     net[:, -1, 1] = 1.0
-    knots = [0.0, 0, 0, 0, 3, 3, 3, 3]
+    knots = np.repeat([0.0, 3.0], 4)
     surface = SplineSurface("half", (3, 3), knots, knots, net)
     notes = list(doubts_of_half(surface, elements(surface), OPTIONS))
     assert len(notes) == told
