@@ -273,27 +273,27 @@ MAKERS: dict[str, tuple[Callable[..., object], Given]] = {
     ),
     "plates.hull_map": (hull_map, {"found": None, "path": None, "title": "a", "paper": "A4"}),
     "read_surfaces": (ah.read_surfaces, {"path": "a", "unit": "m"}),
-    "write_cad": (
+    "surface.write_cad": (
         write_cad,
         {
             "surfaces": three_blocks(), "path": "a.igs", "form": "iges-surfaces", "unit": "m",
             "half": True, "name": "hull",
         },
     ),
-    "write_iges_lines": (
+    "surface.write_iges_lines": (
         write_iges_lines,
         {
             "state": ah.examples.wigley().state, "path": "a.igs", "unit": "m", "half": True,
             "families": ["sections"],
         },
     ),
-    "write_mesh": (
+    "closed_mesh.write_mesh": (
         write_mesh,
         {"mesh": closed_mesh(SMALL, points=2), "path": "a.ply", "form": None, "unit": "m",
          "name": "a"},
     ),
     "HullSurface.below": (ah.surface(SMALL).below, {"draught": 5.0}),
-    "write_surface": (
+    "surface.write_surface": (
         write_surface,
         {"found": ah.surface(SMALL), "path": "a.ply", "form": None, "unit": None, "half": True},
     ),
