@@ -18,16 +18,12 @@ name,range,area,length,breadth
 
 from __future__ import annotations
 
-import csv
-import io
 import json
-import math
 import os
 from typing import Any
 
-import numpy as np
-
 from assoc_hull.arguments import instance
+from assoc_hull.io.plate_cells import plain, rows_csv
 from assoc_hull.io.whole_file import form_by_ending, write_whole
 from assoc_hull.surface.hull_plates.hull_plate import HullPlate
 from assoc_hull.surface.hull_plates.hull_plate_table import COLUMNS, HullPlates
@@ -75,23 +71,7 @@ def hull_plates_csv(plates: HullPlates) -> str:
 
     Numbers have all digits; what a plate does not have is blank.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([column.name for column in COLUMNS])
-    writer.writerow([column.unit for column in COLUMNS])
-    for row in plates.table():
-        writer.writerow([_cell(value) for value in row.values()])
-    return out.getvalue()
-
-
-def _cell(value: object) -> str:
-    """Give what stands in a cell."""
-    found = _plain(value)
-    if found is None:
-        return ""
-    if isinstance(found, bool):
-        return "true" if found else "false"
-    return repr(found + 0.0) if isinstance(found, float) else str(found)
+    return rows_csv(COLUMNS, plates.table())
 
 
 def hull_plates_document(plates: HullPlates) -> dict[str, Any]:
@@ -123,16 +103,9 @@ def hull_plates_document(plates: HullPlates) -> dict[str, Any]:
 def _document(plate: HullPlate, row: dict[str, Any]) -> dict[str, Any]:
     """Give one plate: its row, its ranges, and the axis in space."""
     direction = None if plate.roll_direction is None else plate.roll_direction.tolist()
-    found = {name: _plain(value) for name, value in row.items()}
-    ranges = {axis: [_plain(end) for end in getattr(plate.range, axis)] for axis in AXES}
+    found = {name: plain(value) for name, value in row.items()}
+    ranges = {axis: [plain(end) for end in getattr(plate.range, axis)] for axis in AXES}
     return {
         **found, "ranges": ranges, "blocks": list(plate.blocks),
         "axes": plate.axes.tolist(), "roll_direction": direction, "notes": list(plate.notes),
     }  # fmt: skip
-
-
-def _plain(value: object) -> object:
-    """Give a value as JSON says it: a number that is not finite becomes null."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value

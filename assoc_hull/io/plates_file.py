@@ -20,7 +20,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import os
 from collections.abc import Iterable
 from typing import Any
@@ -29,6 +28,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.io.plate_cells import cell, plain, rows_csv
 from assoc_hull.io.whole_file import form_by_ending, write_whole
 from assoc_hull.surface.development import LABEL, Development
 from assoc_hull.surface.plate import Plate
@@ -76,23 +76,7 @@ def plates_csv(plates: Plates) -> str:
 
     Numbers have all digits; what a plate does not have is blank.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([column.name for column in COLUMNS])
-    writer.writerow([column.unit for column in COLUMNS])
-    for row in plates.table():
-        writer.writerow([_cell(value) for value in row.values()])
-    return out.getvalue()
-
-
-def _cell(value: object) -> str:
-    """Give what stands in a cell."""
-    found = _plain(value)
-    if found is None:
-        return ""
-    if isinstance(found, bool):
-        return "true" if found else "false"
-    return repr(found + 0.0) if isinstance(found, float) else str(found)
+    return rows_csv(COLUMNS, plates.table())
 
 
 def plates_json(plates: Plates) -> str:
@@ -103,7 +87,7 @@ def plates_json(plates: Plates) -> str:
 def plates_document(plates: Plates) -> dict[str, Any]:
     """Give plates as JSON says it; null where a plate has no such number."""
     options = {
-        field.name: _plain(getattr(plates.options, field.name))
+        field.name: plain(getattr(plates.options, field.name))
         for field in attrs.fields(type(plates.options))
         if field.name != "suggestions"
     }
@@ -133,16 +117,9 @@ def _search(result: RegionResult) -> dict[str, Any]:
 def _document(plate: Plate, row: dict[str, Any]) -> dict[str, Any]:
     """Give one plate: its row, its areas, and the axis in space."""
     direction = None if plate.roll_direction is None else plate.roll_direction.tolist()
-    areas = {name: _plain(value) for name, value in attrs.asdict(plate.areas).items()}
-    found = {name: _plain(value) for name, value in row.items()}
+    areas = {name: plain(value) for name, value in attrs.asdict(plate.areas).items()}
+    found = {name: plain(value) for name, value in row.items()}
     return {**found, "areas": areas, "roll_direction": direction, "notes": list(plate.notes)}
-
-
-def _plain(value: object) -> object:
-    """Give a value as JSON says it: a number that is not finite becomes null."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def development_csv(developments: Iterable[Development]) -> str:
@@ -178,5 +155,5 @@ def development_csv(developments: Iterable[Development]) -> str:
         along[:-1], across[:, :-1] = each.longitudinal, each.transverse
         table = np.dstack([each.u, each.v, each.place, each.flat, along, across])
         for i, j in np.ndindex(rows, columns):
-            writer.writerow([each.name, i, j, *(_cell(value) for value in table[i, j].tolist())])
+            writer.writerow([each.name, i, j, *(cell(value) for value in table[i, j].tolist())])
     return out.getvalue()

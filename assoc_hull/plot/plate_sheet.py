@@ -22,7 +22,8 @@ from assoc_hull.plot.plate_grid import Field
 from assoc_hull.plot.plate_panels import draw_plates, regions
 from assoc_hull.plot.sheet import Path_, Sheet, require_matplotlib
 from assoc_hull.surface.plate import Plate
-from assoc_hull.surface.plate_table import COLUMNS, Column, Plates
+from assoc_hull.surface.plate_column import Column
+from assoc_hull.surface.plate_table import COLUMNS, Plates
 from assoc_hull.surface.suggestions import CAVEAT
 
 __all__ = ["plate_pdf", "plate_sheet", "plate_sheets"]

@@ -9,7 +9,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import attrs
@@ -18,86 +18,41 @@ import numpy as np
 from assoc_hull.arguments import shown, shown_name
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.surface.plate import Plate
+from assoc_hull.surface.plate_column import Column, own, share
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.suggestions import CAVEAT
 
-__all__ = ["COLUMNS", "Column", "Plates"]
-
-_NIL = 1e-12
-"""Below this a number is printed as 0."""
-
-
-@attrs.frozen
-class Column:
-    """A column of the table of plates.
-
-    Attributes
-    ----------
-    name : str
-        Its name in files and of `Plates.column`.
-    unit : str
-        Its unit; "" of words and of numbers without one.
-    head : str
-        What stands over it in print; "" of a column that is in files only.
-    style : str
-        The format of its numbers in print.
-    value : callable
-        What a plate has there.
-    """
-
-    name: str
-    unit: str
-    head: str
-    style: str
-    value: Callable[[Plate], Any]
-
-    def printed(self, plate: Plate) -> str:
-        """Write the value: a dash where there is none, 0 for what rounding leaves of nil."""
-        value = self.value(plate)
-        if isinstance(value, float) and abs(value) < _NIL:
-            value = 0.0
-        return "-" if value is None else format(value, self.style)
-
-
-def _share(name: str) -> Callable[[Plate], float]:
-    """Give what takes a share, in per cent."""
-    return lambda plate: 100.0 * float(getattr(plate.shares, name))
-
-
-def _own(name: str) -> Callable[[Plate], Any]:
-    """Give what takes an attribute."""
-    return lambda plate: getattr(plate, name)
-
+__all__ = ["COLUMNS", "Plates"]
 
 COLUMNS: tuple[Column, ...] = (
-    Column("name", "", "plate", "s", _own("name")),
-    Column("area", "m2", "area", ".3f", _own("area")),
-    Column("length", "m", "a", ".2f", _own("length")),
-    Column("breadth", "m", "b", ".2f", _own("breadth")),
-    Column("k0", "1/m2", "K0", ".3g", _own("k0")),
-    Column("convex", "%", "convex", ".1f", _share("convex")),
-    Column("saddle", "%", "saddle", ".1f", _share("saddle")),
-    Column("cylinder", "%", "cyl.", ".1f", _share("cylinder")),
-    Column("flat", "%", "flat", ".1f", _share("flat")),
-    Column("kind", "", "class", "s", _own("kind")),
-    Column("order", "", "order", "d", _own("order")),
-    Column("roll_axis", "deg", "axis", ".1f", _own("roll_axis")),
-    Column("coherence", "", "coh.", ".2f", _own("coherence")),
-    Column("least_radius", "m", "R least", ".2f", _own("least_radius")),
-    Column("total_curvature", "", "int |K|", ".2e", _own("total_curvature")),
-    Column("mean_strain", "", "strain", ".1e", _own("mean_strain")),
-    Column("lines", "", "lines", "d", _own("lines")),
-    Column("unresolved_area", "m2", "unres.", ".2g", _own("unresolved_area")),
-    Column("band_breadth", "m", "", "", _own("band_breadth")),
-    Column("unresolved", "%", "", "", _share("unresolved")),
+    Column("name", "", "plate", "s", own("name")),
+    Column("area", "m2", "area", ".3f", own("area")),
+    Column("length", "m", "a", ".2f", own("length")),
+    Column("breadth", "m", "b", ".2f", own("breadth")),
+    Column("k0", "1/m2", "K0", ".3g", own("k0")),
+    Column("convex", "%", "convex", ".1f", share("convex")),
+    Column("saddle", "%", "saddle", ".1f", share("saddle")),
+    Column("cylinder", "%", "cyl.", ".1f", share("cylinder")),
+    Column("flat", "%", "flat", ".1f", share("flat")),
+    Column("kind", "", "class", "s", own("kind")),
+    Column("order", "", "order", "d", own("order")),
+    Column("roll_axis", "deg", "axis", ".1f", own("roll_axis")),
+    Column("coherence", "", "coh.", ".2f", own("coherence")),
+    Column("least_radius", "m", "R least", ".2f", own("least_radius")),
+    Column("total_curvature", "", "int |K|", ".2e", own("total_curvature")),
+    Column("mean_strain", "", "strain", ".1e", own("mean_strain")),
+    Column("lines", "", "lines", "d", own("lines")),
+    Column("unresolved_area", "m2", "unres.", ".2g", own("unresolved_area")),
+    Column("band_breadth", "m", "", "", own("band_breadth")),
+    Column("unresolved", "%", "", "", share("unresolved")),
     Column("developable", "%", "", "", lambda plate: 100.0 * plate.shares.developable),
-    Column("rollable", "", "", "", _own("rollable")),
-    Column("largest_radius", "m", "", "", _own("largest_radius")),
-    Column("largest_strain", "", "", "", _own("largest_strain")),
-    Column("heating", "", "", "", _own("heating")),
+    Column("rollable", "", "", "", own("rollable")),
+    Column("largest_radius", "m", "", "", own("largest_radius")),
+    Column("largest_strain", "", "", "", own("largest_strain")),
+    Column("heating", "", "", "", own("heating")),
     Column("area_error", "m2", "", "", lambda plate: plate.areas.error_estimate),
-    Column("suggestion", "", "", "", _own("suggestion")),
+    Column("suggestion", "", "", "", own("suggestion")),
 )
 """The columns, in the order of files; those with a head are printed."""
 

@@ -9,7 +9,7 @@ Examples
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import attrs
@@ -20,72 +20,44 @@ from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.surface.hull_plates.hull_plate import HullPlate
 from assoc_hull.surface.hull_plates.hull_seams import HullSeams
 from assoc_hull.surface.hull_plates.shell import Shell
+from assoc_hull.surface.plate_column import Column, own, share
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.suggestions import CAVEAT
 
-__all__ = ["COLUMNS", "HullColumn", "HullPlates"]
-
-_NIL = 1e-12
-"""Below this a number is printed as 0."""
+__all__ = ["COLUMNS", "HullPlates"]
 
 _SEEN = 1e-3
 """m2: slivers below this are not told."""
 
 
-@attrs.frozen
-class HullColumn:
-    """A column of the table; see `assoc_hull.surface.plate_table.Column`."""
-
-    name: str
-    unit: str
-    head: str
-    style: str
-    value: Callable[[HullPlate], Any]
-
-    def printed(self, plate: HullPlate) -> str:
-        """Write the value: a dash where there is none, 0 for what rounding leaves of nil."""
-        value = self.value(plate)
-        if isinstance(value, float) and abs(value) < _NIL:
-            value = 0.0
-        return "-" if value is None else format(value, self.style)
-
-
-def _share(name: str) -> Callable[[HullPlate], float]:
-    return lambda plate: 100.0 * float(getattr(plate.shares, name))
-
-
-def _own(name: str) -> Callable[[HullPlate], Any]:
-    return lambda plate: getattr(plate, name)
-
-
-COLUMNS: tuple[HullColumn, ...] = (
-    HullColumn("name", "", "plate", "s", _own("name")),
-    HullColumn("range", "", "", "s", lambda plate: str(plate.range)),
-    HullColumn("area", "m2", "area", ".3f", _own("area")),
-    HullColumn("length", "m", "a", ".2f", _own("length")),
-    HullColumn("breadth", "m", "b", ".2f", _own("breadth")),
-    HullColumn("k0", "1/m2", "K0", ".3g", _own("k0")),
-    HullColumn("dk", "1/m2", "dK", ".1e", _own("dk")),
-    HullColumn("convex", "%", "convex", ".1f", _share("convex")),
-    HullColumn("saddle", "%", "saddle", ".1f", _share("saddle")),
-    HullColumn("cylinder", "%", "cyl.", ".1f", _share("cylinder")),
-    HullColumn("flat", "%", "flat", ".1f", _share("flat")),
-    HullColumn("unresolved", "%", "unres.", ".1f", _share("unresolved")),
-    HullColumn("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
-    HullColumn("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
-    HullColumn("kind", "", "class", "s", _own("kind")),
-    HullColumn("roll_axis", "deg", "axis", ".1f", _own("roll_axis")),
-    HullColumn("coherence", "", "coh.", ".2f", _own("coherence")),
-    HullColumn("least_radius", "m", "R least", ".2f", _own("least_radius")),
-    HullColumn("mean_strain", "", "strain", ".1e", _own("mean_strain")),
-    HullColumn("order", "", "", "", _own("order")),
-    HullColumn("rollable", "", "", "", _own("rollable")),
-    HullColumn("largest_radius", "m", "", "", _own("largest_radius")),
-    HullColumn("total_curvature", "", "", "", _own("total_curvature")),
-    HullColumn("largest_strain", "", "", "", _own("largest_strain")),
-    HullColumn("area_error", "m2", "", "", _own("area_error")),
-    HullColumn("suggestion", "", "", "", _own("suggestion")),
+COLUMNS: tuple[Column, ...] = (
+    Column("name", "", "plate", "s", own("name")),
+    Column("range", "", "", "s", lambda plate: str(plate.range)),
+    Column("area", "m2", "area", ".3f", own("area")),
+    Column("length", "m", "a", ".2f", own("length")),
+    Column("breadth", "m", "b", ".2f", own("breadth")),
+    Column("k0", "1/m2", "K0", ".3g", own("k0")),
+    Column("dk", "1/m2", "dK", ".1e", own("dk")),
+    Column("convex", "%", "convex", ".1f", share("convex")),
+    Column("saddle", "%", "saddle", ".1f", share("saddle")),
+    Column("cylinder", "%", "cyl.", ".1f", share("cylinder")),
+    Column("flat", "%", "flat", ".1f", share("flat")),
+    Column("unresolved", "%", "unres.", ".1f", share("unresolved")),
+    Column("contested", "%", "contested", ".1f", lambda plate: 100.0 * plate.contested),
+    Column("changed", "%", "changed", ".1f", lambda plate: 100.0 * plate.changed),
+    Column("kind", "", "class", "s", own("kind")),
+    Column("roll_axis", "deg", "axis", ".1f", own("roll_axis")),
+    Column("coherence", "", "coh.", ".2f", own("coherence")),
+    Column("least_radius", "m", "R least", ".2f", own("least_radius")),
+    Column("mean_strain", "", "strain", ".1e", own("mean_strain")),
+    Column("order", "", "", "", own("order")),
+    Column("rollable", "", "", "", own("rollable")),
+    Column("largest_radius", "m", "", "", own("largest_radius")),
+    Column("total_curvature", "", "", "", own("total_curvature")),
+    Column("largest_strain", "", "", "", own("largest_strain")),
+    Column("area_error", "m2", "", "", own("area_error")),
+    Column("suggestion", "", "", "", own("suggestion")),
 )
 """The columns, in the order of files; those with a head are printed."""
 
