@@ -27,5 +27,5 @@ def test_any_choice_of_lines_makes_a_closed_mesh(net: Net, seed: int, share: flo
     without = np.isin(np.array(net.name), np.array(names)[drawn])
     mesh = mesh_of_net(net, points=2, leave_out=without)
     assert mesh.report.sound
-    assert mesh.notes == ()
+    assert all(note.startswith("chords leave") for note in mesh.notes)
     assert mesh.volume == pytest.approx(16_496.0, rel=0.02)
