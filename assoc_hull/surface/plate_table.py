@@ -13,12 +13,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import attrs
-import numpy as np
 
-from assoc_hull.arguments import shown, shown_name
-from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.surface.plate import Plate
-from assoc_hull.surface.plate_column import Column, own, share
+from assoc_hull.surface.plate_column import Column, column_of, own, plate_at, printed_rows, share
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.suggestions import CAVEAT
@@ -89,23 +86,7 @@ class Plates:
         BadInputError, UnknownNameError, WrongTypeError
             No such number or name; a name that several have.
         """
-        where = "in Plates"
-        if isinstance(which, str):
-            found = [plate for plate in self.rows if plate.name == which]
-            if not found:
-                raise UnknownNameError(
-                    "plate", shown_name(which), tuple(plate.name for plate in self.rows)
-                )
-            if len(found) > 1:
-                what = f"{len(found)} plates are named {which!r}"
-                raise BadInputError(what, where, "give the number of one")
-            return found[0]
-        if isinstance(which, bool) or not isinstance(which, int | np.integer):
-            raise WrongTypeError(f"a plate is {shown(which)}", where, "give a number or a name")
-        if not -len(self.rows) <= which < len(self.rows):
-            remedy = f"give 0 to {len(self.rows) - 1}"
-            raise BadInputError(f"there is no plate {shown(which)}", where, remedy)
-        return self.rows[which]
+        return plate_at(self.rows, which, "in Plates")
 
     def result_of(self, number: int) -> RegionResult:
         """Give the regions that hold a plate, by its number from 0; its `Plate.number` is there."""
@@ -131,11 +112,7 @@ class Plates:
         UnknownNameError
             No such column.
         """
-        wanted = shown_name(name)
-        for each in COLUMNS:
-            if each.name == wanted:
-                return [each.value(plate) for plate in self.rows]
-        raise UnknownNameError("column", wanted, tuple(each.name for each in COLUMNS))
+        return column_of(COLUMNS, self.rows, name)
 
     def table(self) -> list[dict[str, Any]]:
         """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
@@ -143,22 +120,8 @@ class Plates:
 
     def __str__(self) -> str:
         """Write the table, the advice, and what is to be known."""
-        lines = [*self._printed(), "", *self._advice(), CAVEAT, str(self._band())]
+        lines = [*printed_rows(COLUMNS, self.rows), "", *self._advice(), CAVEAT, str(self._band())]
         return "\n".join([*lines, *self.notes])
-
-    def _printed(self) -> Iterator[str]:
-        """Write the columns that have a head."""
-        seen = [each for each in COLUMNS if each.head]
-        heads = [each.head for each in seen]
-        units = [each.unit for each in seen]
-        body = [[each.printed(plate) for each in seen] for plate in self.rows]
-        wide = [max(map(len, column)) for column in zip(heads, units, *body, strict=True)]
-        for row in (heads, units, *body):
-            first, *others = (
-                f"{text:<{width}}" if i == 0 else f"{text:>{width}}"
-                for i, (text, width) in enumerate(zip(row, wide, strict=True))
-            )
-            yield "  ".join([first, *others]).rstrip()
 
     def _advice(self) -> Iterator[str]:
         """Write the suggestion of each plate, with rulings where no single axis serves."""

@@ -13,14 +13,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import attrs
-import numpy as np
 
-from assoc_hull.arguments import shown, shown_name
-from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.surface.hull_plates.hull_plate import HullPlate
 from assoc_hull.surface.hull_plates.hull_seams import HullSeams
 from assoc_hull.surface.hull_plates.shell import Shell
-from assoc_hull.surface.plate_column import Column, own, share
+from assoc_hull.surface.plate_column import Column, column_of, own, plate_at, printed_rows, share
 from assoc_hull.surface.plate_options import PlateOptions
 from assoc_hull.surface.region_result import RegionResult
 from assoc_hull.surface.suggestions import CAVEAT
@@ -106,20 +103,7 @@ class HullPlates:
         BadInputError, UnknownNameError, WrongTypeError
             No such number or name.
         """
-        if isinstance(which, str):
-            for plate in self.rows:
-                if plate.name == which:
-                    return plate
-            raise UnknownNameError(
-                "plate", shown_name(which), tuple(plate.name for plate in self.rows)
-            )
-        where = "in HullPlates"
-        if isinstance(which, bool) or not isinstance(which, int | np.integer):
-            raise WrongTypeError(f"a plate is {shown(which)}", where, "give a number or a name")
-        if not -len(self.rows) <= which < len(self.rows):
-            remedy = f"give 0 to {len(self.rows) - 1}"
-            raise BadInputError(f"there is no plate {shown(which)}", where, remedy)
-        return self.rows[which]
+        return plate_at(self.rows, which, "in HullPlates")
 
     @property
     def area(self) -> float:
@@ -155,11 +139,7 @@ class HullPlates:
         UnknownNameError
             No such column.
         """
-        wanted = shown_name(name)
-        for each in COLUMNS:
-            if each.name == wanted:
-                return [each.value(plate) for plate in self.rows]
-        raise UnknownNameError("column", wanted, tuple(each.name for each in COLUMNS))
+        return column_of(COLUMNS, self.rows, name)
 
     def table(self) -> list[dict[str, Any]]:
         """Give all as plain values, a dictionary for each plate; units are those of `COLUMNS`."""
@@ -168,20 +148,9 @@ class HullPlates:
     def __str__(self) -> str:
         """Write the table, and what is to be known."""
         advice = (f"{plate.name}, {plate.range}: {plate.suggestion}." for plate in self.rows)
-        return "\n".join([*self._printed(), "", *advice, CAVEAT, *self._facts(), *self.notes])
-
-    def _printed(self) -> Iterator[str]:
-        """Write the columns that have a head."""
-        seen = [each for each in COLUMNS if each.head]
-        body = [[each.printed(plate) for each in seen] for plate in self.rows]
-        rows = [[each.head for each in seen], [each.unit for each in seen], *body]
-        wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        for row in rows:
-            first, *others = (
-                f"{text:<{width}}" if i == 0 else f"{text:>{width}}"
-                for i, (text, width) in enumerate(zip(row, wide, strict=True))
-            )
-            yield "  ".join([first, *others]).rstrip()
+        return "\n".join(
+            [*printed_rows(COLUMNS, self.rows), "", *advice, CAVEAT, *self._facts(), *self.notes]
+        )
 
     def _facts(self) -> Iterator[str]:
         """Say what counted as no curvature, and of what the areas are."""
