@@ -18,10 +18,10 @@ export PIP_NO_INPUT := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint bench wheel
+.PHONY: help demo test test-long lint bench wheel
 
 help:  ## say what can be made
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(STAMP)  ## the main job on a shipped hull, with pictures in build/demo
 	$(BIN)/assoc-hull demo --out build/demo
@@ -29,9 +29,13 @@ demo: $(STAMP)  ## the main job on a shipped hull, with pictures in build/demo
 test: $(STAMP)  ## all tests and docstring examples, on two processes
 	$(BIN)/python -m pytest -n 2 $(ARGS)
 
-lint: $(STAMP)  ## rules of style, formatting and types
+test-long: $(STAMP)  ## the tests again, with the forms that take long
+	ASSOC_HULL_LONG=1 $(BIN)/python -m pytest -n 2 $(ARGS)
+
+lint: $(STAMP)  ## rules of style, formatting, imports and types
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
+	$(BIN)/lint-imports --no-logo
 	$(BIN)/python -m mypy
 
 bench: $(STAMP)  ## the benchmarks

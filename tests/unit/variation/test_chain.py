@@ -116,10 +116,16 @@ def test_bounds_hold_everywhere(course: Course) -> None:
 
 @given(course=courses(), factor=st.floats(-3.0, 3.0))
 def test_a_scaled_function_is_scaled_everywhere(course: Course, factor: float) -> None:
-    """Values and slopes both."""
+    """Values and slopes both, to the rounding of a spline that is solved twice."""
     x, scaled = np.linspace(-60.0, 400.0, 400), course.scaled(factor)
-    assert_allclose(scaled.at(x), factor * course.at(x), rtol=0, atol=1e-14)
-    assert_allclose(scaled.slope(x), factor * course.slope(x), rtol=0, atol=1e-14)
+    for found, wanted in (
+        (scaled.at(x), factor * course.at(x)),
+        (scaled.slope(x), factor * course.slope(x)),
+    ):
+        # 79 units in the last place of the largest value were the most in 8,000 draws: the
+        # slopes of a contour solve a system whose condition goes with its unequal nodes.
+        rounding = 128 * np.finfo(float).eps * float(np.abs(wanted).max())
+        assert_allclose(found, wanted, rtol=0, atol=rounding + 1e-15)
 
 
 @given(course=courses())

@@ -1,0 +1,21 @@
+"""How many modules a reader must open to follow an act through the package."""
+
+import pytest
+
+from benchmarks.house import TRIPS, entered
+
+MOST = {
+    "a moved point": 55,
+    "a pull": 60,
+    "hydrostatics": 45,
+    "a variation of the breadth": 152,
+}
+"""Modules entered, at most. A change that raises a number says why in its commit."""
+
+
+@pytest.mark.parametrize("trip", TRIPS)
+def test_a_trip_enters_no_more_modules_than_before(trip: str) -> None:
+    """Following one act, a reader opens no more files than the number that stands here."""
+    act = TRIPS[trip]()
+    act()  # what is imported or made once is not the trip
+    assert len(entered(act)) <= MOST[trip]
