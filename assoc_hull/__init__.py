@@ -11,27 +11,26 @@ Examples
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-import assoc_hull.examples  # else its first import would bind this name again
-import assoc_hull.study  # likewise
+import assoc_hull.study  # else its first import would bind this name again
 import assoc_hull.surface  # likewise
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.appendage import Appendage
-    from assoc_hull.analysis.curve_transforms import curve_transform
-    from assoc_hull.analysis.derivatives import hydrostatic_derivatives
-    from assoc_hull.analysis.equilibrium import immersion
-    from assoc_hull.analysis.fairness import fairness
+    from assoc_hull.analysis.derivatives.derivatives import hydrostatic_derivatives
+    from assoc_hull.analysis.fairness.fairness import fairness
+    from assoc_hull.analysis.form.curve_transforms import curve_transform
     from assoc_hull.analysis.form.form_parameters import form_parameters
     from assoc_hull.analysis.form.screw import Screw
-    from assoc_hull.analysis.hydrostatics import hydrostatic_table, hydrostatics
+    from assoc_hull.analysis.hydrostatics.appendage import Appendage
+    from assoc_hull.analysis.hydrostatics.equilibrium import immersion
+    from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table, hydrostatics
     from assoc_hull.analysis.panels.build import panels
     from assoc_hull.analysis.stability.cross_curves import cross_curves
     from assoc_hull.analysis.stability.equilibrium import equilibrium
     from assoc_hull.analysis.stability.flooding import FloodingPoint
     from assoc_hull.analysis.stability.stability import stability
-    from assoc_hull.creation.courses import course, design_waterline, sectional_area
     from assoc_hull.creation.design import Design
     from assoc_hull.creation.form_curve import FormCurve
+    from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
     from assoc_hull.errors import (
         AssocHullError,
         BadInputError,
@@ -51,10 +50,12 @@ if TYPE_CHECKING:
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
     from assoc_hull.geometry.plane import Plane
     from assoc_hull.hull import Hull
-    from assoc_hull.model.family import BoundaryKind
-    from assoc_hull.model.forms.definition import FormDefinition
-    from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point
-    from assoc_hull.model.source import LineSource
+    from assoc_hull.model.curve import Curve
+    from assoc_hull.model.definition_part import FormDefinition
+    from assoc_hull.model.kinds import BoundaryKind
+    from assoc_hull.model.line import Group, Line
+    from assoc_hull.model.line_source import LineSource
+    from assoc_hull.model.point import Crossing, Point
     from assoc_hull.model.state import Association, Ends, Particulars
     from assoc_hull.plating import plates, read_surfaces
     from assoc_hull.production import production_arcs
@@ -64,12 +65,12 @@ if TYPE_CHECKING:
     from assoc_hull.studies import Study, study
     from assoc_hull.study.sampling import sample
     from assoc_hull.surface.cells.hull_mesh import closed_mesh
-    from assoc_hull.surface.curvature_regions import curvature_regions
-    from assoc_hull.surface.hull_plates.hull_seams import HullSeams
+    from assoc_hull.surface.plates.hull_seams import HullSeams
+    from assoc_hull.surface.regions.curvature_regions import curvature_regions
     from assoc_hull.tolerance import Tolerances
     from assoc_hull.variants import vary, vary_by
-    from assoc_hull.variation.anchors import measure
-    from assoc_hull.variation.comparison import compare
+    from assoc_hull.variation.comparing.compare import compare
+    from assoc_hull.variation.parameters.parameter_measures import measure
     from assoc_hull.variation.sensitivities import sensitivities
 
 __all__ = [
@@ -150,22 +151,29 @@ __all__ = [
 __version__ = "0.1.0"
 
 _HOMES = {
-    "analysis.appendage": ("Appendage",),
-    "analysis.curve_transforms": ("curve_transform",),
-    "analysis.derivatives": ("hydrostatic_derivatives",),
-    "analysis.equilibrium": ("immersion",),
-    "analysis.fairness": ("fairness",),
+    "analysis.derivatives.derivatives": ("hydrostatic_derivatives",),
+    "analysis.fairness.fairness": ("fairness",),
+    "analysis.form.curve_transforms": ("curve_transform",),
     "analysis.form.form_parameters": ("form_parameters",),
     "analysis.form.screw": ("Screw",),
-    "analysis.hydrostatics": ("hydrostatic_table", "hydrostatics"),
+    "analysis.hydrostatics.appendage": ("Appendage",),
+    "analysis.hydrostatics.equilibrium": ("immersion",),
+    "analysis.hydrostatics.hydrostatics": (
+        "hydrostatic_table",
+        "hydrostatics",
+    ),
     "analysis.panels.build": ("panels",),
     "analysis.stability.cross_curves": ("cross_curves",),
     "analysis.stability.equilibrium": ("equilibrium",),
     "analysis.stability.flooding": ("FloodingPoint",),
     "analysis.stability.stability": ("stability",),
-    "creation.courses": ("course", "design_waterline", "sectional_area"),
     "creation.design": ("Design",),
     "creation.form_curve": ("FormCurve",),
+    "creation.form_definitions": (
+        "course",
+        "design_waterline",
+        "sectional_area",
+    ),
     "errors": (
         "AssocHullError",
         "BadInputError",
@@ -185,25 +193,58 @@ _HOMES = {
     "geometry.patches.spline_surface": ("SplineSurface",),
     "geometry.plane": ("Plane",),
     "hull": ("Hull",),
-    "model.family": ("BoundaryKind",),
-    "model.forms.definition": ("FormDefinition",),
-    "model.handles": ("Crossing", "Curve", "Group", "Line", "Point"),
-    "model.source": ("LineSource",),
-    "model.state": ("Association", "Ends", "Particulars"),
-    "plating": ("plates", "read_surfaces"),
+    "model.curve": ("Curve",),
+    "model.definition_part": ("FormDefinition",),
+    "model.kinds": ("BoundaryKind",),
+    "model.line": (
+        "Group",
+        "Line",
+    ),
+    "model.line_source": ("LineSource",),
+    "model.point": (
+        "Crossing",
+        "Point",
+    ),
+    "model.state": (
+        "Association",
+        "Ends",
+        "Particulars",
+    ),
+    "plating": (
+        "plates",
+        "read_surfaces",
+    ),
     "production": ("production_arcs",),
-    "shell": ("HullSurface", "surface"),
-    "shifts": ("shift_sections", "swing"),
-    "sources": ("create", "examples", "open", "read", "read_classical"),
-    "studies": ("Study", "study"),
+    "shell": (
+        "HullSurface",
+        "surface",
+    ),
+    "shifts": (
+        "shift_sections",
+        "swing",
+    ),
+    "sources": (
+        "create",
+        "examples",
+        "open",
+        "read",
+        "read_classical",
+    ),
+    "studies": (
+        "Study",
+        "study",
+    ),
     "study.sampling": ("sample",),
     "surface.cells.hull_mesh": ("closed_mesh",),
-    "surface.curvature_regions": ("curvature_regions",),
-    "surface.hull_plates.hull_seams": ("HullSeams",),
+    "surface.plates.hull_seams": ("HullSeams",),
+    "surface.regions.curvature_regions": ("curvature_regions",),
     "tolerance": ("Tolerances",),
-    "variants": ("vary", "vary_by"),
-    "variation.anchors": ("measure",),
-    "variation.comparison": ("compare",),
+    "variants": (
+        "vary",
+        "vary_by",
+    ),
+    "variation.comparing.compare": ("compare",),
+    "variation.parameters.parameter_measures": ("measure",),
     "variation.sensitivities": ("sensitivities",),
 }
 """Modules and what is public of them."""
@@ -211,7 +252,7 @@ _HOMES = {
 if not TYPE_CHECKING:
     # What only lofts and cuts does not wait for the modules of whole hulls.
     _home = {name: module for module, names in _HOMES.items() for name in names}
-    del assoc_hull, examples, study, surface  # the subpackages; below the names mean other things
+    del assoc_hull, study, surface  # the subpackages; below the names mean other things
 
     def __getattr__(name: str) -> object:
         """Import a public name when it is first used."""

@@ -23,31 +23,35 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import Changes, GapsName, PolicyName, carry_out, settings_of
 from assoc_hull.edit.session import Edit
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.family import FAMILIES
-from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, handle
-from assoc_hull.model.named import Named
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.handles import handle
+from assoc_hull.model.kinds import FAMILIES
+from assoc_hull.model.line import Group, Line
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.model.named_mapping import Named
+from assoc_hull.model.point import Crossing, Point
 from assoc_hull.model.points import Points
-from assoc_hull.model.source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 from assoc_hull.tolerance import Tolerances
 
 if TYPE_CHECKING:
     import networkx
 
-    from assoc_hull.creation.report import CreationReport
-    from assoc_hull.edit.adopt import AdoptionReport
-    from assoc_hull.edit.check_hull import Finding
-    from assoc_hull.edit.compare import Comparison
-    from assoc_hull.edit.explain import Thing, Why
-    from assoc_hull.edit.keeper import Label
-    from assoc_hull.edit.preview import Preview
+    from assoc_hull.creation.creation_report import CreationReport
+    from assoc_hull.edit.adoption.report import AdoptionReport
+    from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.edit.explain.cause import Why
+    from assoc_hull.edit.explain.compare import Comparison
+    from assoc_hull.edit.explain.explain import Thing
+    from assoc_hull.edit.explain.hull_graph import OnlyName
+    from assoc_hull.edit.explain.preview import Preview
     from assoc_hull.edit.replay import Replayed
-    from assoc_hull.edit.view import OnlyName
+    from assoc_hull.edit.step_storage import Label
     from assoc_hull.io.export_book import ExportReport
-    from assoc_hull.io.saving import Saved
+    from assoc_hull.io.hull_file.saving import Saved
+    from assoc_hull.model.definition.verify import Difference
+    from assoc_hull.model.definition_part import FormDefinition
     from assoc_hull.model.feature_handle import FeatureHandle
-    from assoc_hull.model.forms.definition import FormDefinition
-    from assoc_hull.model.verify import Difference
 
 __all__ = ["Hull", "to_change"]
 
@@ -71,8 +75,8 @@ class Hull:
         associations: Sequence[Association],
         tolerances: Tolerances | None = None,
     ) -> Self:
-        """Make a net of given lines; see `assoc_hull.edit.adopt.adopt`."""
-        from assoc_hull.edit.adopt import adopt
+        """Make a net of given lines; see `assoc_hull.edit.adoption.adopt.adopt`."""
+        from assoc_hull.edit.adoption.adopt import adopt
 
         state, report = adopt(lines, particulars, associations, tolerances)
         hull = cls(state)
@@ -133,7 +137,7 @@ class Hull:
     @property
     def creation(self) -> CreationReport:
         """The hull beside its definitions; BadInputError if it has none."""
-        from assoc_hull.creation.report import creation_report
+        from assoc_hull.creation.creation_report import creation_report
 
         return creation_report(self.state)
 
@@ -202,7 +206,7 @@ class Hull:
         Preview
             The report, or why it would be refused; lines that would change; volume and LCB.
         """
-        from assoc_hull.edit.preview import preview
+        from assoc_hull.edit.explain.preview import preview
 
         return preview(
             self.document, lambda edit: carry_out(edit, edits), settings_of(policy, gaps), name, why
@@ -250,7 +254,7 @@ class Hull:
 
     def diff(self, before: str, after: str | None = None) -> Comparison:
         """Compare two checkpoints or branches, or one with the present state."""
-        from assoc_hull.edit.states import diff
+        from assoc_hull.edit.explain.states import diff
 
         return diff(self.document, before, after)
 
@@ -273,20 +277,20 @@ class Hull:
         UnknownNameError, ForeignPointError, BadInputError
             Nothing that this hull has, or a group.
         """
-        from assoc_hull.edit.explain import node_of, why
+        from assoc_hull.edit.explain.explain import node_of, why
 
         return why(self.document, node_of(self.state, thing))
 
     def check(self, notes: bool = False) -> tuple[Finding, ...]:
         """Give what is wrong with the hull; empty if nothing is."""
-        from assoc_hull.edit.check_hull import check
+        from assoc_hull.edit.checks.hull import check
 
         return check(self.document, flag(notes, "notes", "in check"))
 
     def verify(self, relative: float = 0.0) -> tuple[Difference, ...]:
         """Rebuild the hull beside the published one, look through its file: all that differs."""
-        from assoc_hull.io.saving import damages
-        from assoc_hull.model.verify import verify
+        from assoc_hull.io.hull_file.saving import damages
+        from assoc_hull.model.definition.verify import verify
 
         found = verify(self.state, not_negative(relative, "relative", "in verify"))
         return (*found, *damages(self.document))
@@ -294,7 +298,7 @@ class Hull:
     @property
     def fingerprint(self) -> str:
         """SHA-256 of definition and published values; undo gives the old one back."""
-        from assoc_hull.model.definition import fingerprint
+        from assoc_hull.model.definition.definition import fingerprint
 
         return fingerprint(self.state)
 
@@ -307,8 +311,8 @@ class Hull:
         only: OnlyName | None = None,
         edit: int | None = None,
     ) -> networkx.MultiDiGraph[str]:
-        """Give objects and links as a graph; see `assoc_hull.edit.view.graph_of`."""
-        from assoc_hull.edit.view import graph_of
+        """Give objects and links as a graph; see `assoc_hull.edit.explain.hull_graph.graph_of`."""
+        from assoc_hull.edit.explain.hull_graph import graph_of
 
         hops = integer(up, "up", "in graph", least=0), integer(down, "down", "in graph", least=0)
         return graph_of(self.document, around, hops, only, edit)
@@ -320,8 +324,8 @@ class Hull:
         return dependencies(self.state, flag(points, "points", "in dependencies"))
 
     def half_breadth(self, x: float, z: float) -> float:
-        """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.breadth`."""
-        from assoc_hull.model.breadth import half_breadth
+        """Give the half-breadth (m) at x and z (m); see `assoc_hull.model.half_breadth`."""
+        from assoc_hull.model.half_breadth import half_breadth
 
         where = "in half_breadth"
         return half_breadth(self.state, number(x, "x", where), number(z, "z", where))
@@ -329,12 +333,12 @@ class Hull:
     @property
     def path(self) -> Path | None:
         """The hull file that holds every edit; None for a hull in memory."""
-        from assoc_hull.io.saving import path_of
+        from assoc_hull.io.hull_file.saving import path_of
 
         return path_of(self.document)
 
     def save(self, path: str | os.PathLike[str] | None = None, *, replace: bool = False) -> Saved:
-        """Write the hull; see `assoc_hull.io.saving`.
+        """Write the hull; see `assoc_hull.io.hull_file.saving`.
 
         Parameters
         ----------
@@ -350,34 +354,34 @@ class Hull:
         BadInputError, HullFileError
             There is such a file; it cannot be written; no name for a hull in memory.
         """
-        from assoc_hull.io.saving import save
+        from assoc_hull.io.hull_file.saving import save
 
         return save(self.document, path, replace=flag(replace, "replace", "in save"))
 
     def export(
         self, path: str | os.PathLike[str], form: str | None = None, unit: str | None = None
     ) -> ExportReport:
-        """Write offsets or lines for other programs; see `assoc_hull.io.export.export`."""
-        from assoc_hull.io.export import export
+        """Write offsets or lines for other programs; see `assoc_hull.io.export.write.export`."""
+        from assoc_hull.io.export.write import export
 
         self.document.require_ended("export")
         return export(self.state, path, form, unit)
 
     def refresh(self) -> None:
         """Take over what another process has committed to the hull file since."""
-        from assoc_hull.io.saving import refresh
+        from assoc_hull.io.hull_file.saving import refresh
 
         refresh(self.document)
 
     def detach(self) -> None:
         """Edit in memory from now on; the hull file stays as it is until the hull is saved."""
-        from assoc_hull.io.saving import detach
+        from assoc_hull.io.hull_file.saving import detach
 
         detach(self.document)
 
     def close(self) -> None:
         """Let go of the hull file; the hull can be read on, and not be edited, nor its history."""
-        from assoc_hull.io.saving import close
+        from assoc_hull.io.hull_file.saving import close
 
         close(self.document)
 
@@ -392,7 +396,7 @@ def to_change(hull: Hull, act: str, *, in_place: object) -> Hull:
     BadInputError
         An edit of the hull is open.
     """
-    from assoc_hull.analysis.measured_hull import state_of
+    from assoc_hull.analysis.hydrostatics.measured_hull import state_of
     from assoc_hull.model.copy import copy_of
 
     state = state_of(hull, f"in {act}")

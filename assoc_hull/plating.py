@@ -23,34 +23,34 @@ from typing import Any, overload
 
 import attrs
 
-from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.hull_plates_file import write_hull_plates
-from assoc_hull.io.plates_file import write_plates
-from assoc_hull.io.surface_file import read_surface_file
+from assoc_hull.io.surfaces.surface_file import read_surface_file
+from assoc_hull.io.tables.hull_plates_file import write_hull_plates
+from assoc_hull.io.tables.plates_file import write_plates
 from assoc_hull.surface.blocks.fit_options import fit_options, length_of
 from assoc_hull.surface.blocks.fitting import surface_of_net
-from assoc_hull.surface.hull_plates.hull_plate_table import HullPlates as FoundHullPlates
-from assoc_hull.surface.hull_plates.hull_plates import hull_plates
-from assoc_hull.surface.hull_plates.hull_seams import HullSeams
-from assoc_hull.surface.hull_plates.other_fits import other_fits
-from assoc_hull.surface.net_surface import NetSurface
-from assoc_hull.surface.plate_table import Plates as FoundPlates
-from assoc_hull.surface.plates import plates as find_plates
-from assoc_hull.surface.seams import Seams
+from assoc_hull.surface.blocks.net_surface import NetSurface
+from assoc_hull.surface.plates.hull_plate_table import HullPlates as FoundHullPlates
+from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.surface.plates.hull_seams import HullSeams
+from assoc_hull.surface.plates.other_fits import other_fits
+from assoc_hull.surface.plates.plate_table import Plates as FoundPlates
+from assoc_hull.surface.plates.plates import plates as find_plates
+from assoc_hull.surface.plates.seams import Seams
 
 __all__ = ["HullPlates", "Plates", "plates", "plates_of_hull", "read_surfaces"]
 
 
 @attrs.frozen(eq=False)
 class Plates(FoundPlates):
-    """Plates that can be written; what they hold says `assoc_hull.surface.plate_table.Plates`."""
+    """Plates that can be written; see `assoc_hull.surface.plates.plate_table.Plates`."""
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the plates, as a table (``.csv``) or as a document (``.json``).
 
-        `assoc_hull.plot.plate_sheet.plate_sheet` draws them on a sheet, with the same table.
+        `assoc_hull.plot.plates.plate_book.plate_sheet` draws them on a sheet, with the same table.
 
         Parameters
         ----------
@@ -69,13 +69,13 @@ class Plates(FoundPlates):
 class HullPlates(FoundHullPlates):
     """Plates of a hull that can be written.
 
-    What they hold says `assoc_hull.surface.hull_plates.hull_plate_table.HullPlates`.
+    What they hold says `assoc_hull.surface.plates.hull_plate_table.HullPlates`.
     """
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the plates, as a table (``.csv``) or as a document (``.json``).
 
-        `assoc_hull.plot.hull_map.hull_map` draws them on the hull.
+        `assoc_hull.plot.plates.hull_map.hull_map` draws them on the hull.
 
         Parameters
         ----------

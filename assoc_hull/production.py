@@ -16,13 +16,14 @@ from collections.abc import Sequence
 import attrs
 
 from assoc_hull.analysis.arc_lines import ArcLines
-from assoc_hull.analysis.measured_hull import state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import state_of
 from assoc_hull.analysis.production_arcs import arc_lines
 from assoc_hull.arguments import not_negative, positive
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.io.arc_file import write_arcs
-from assoc_hull.model.handles import Curve, Group, Line
+from assoc_hull.io.export.arc_file import write_arcs
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.line import Group, Line
 
 __all__ = ["ProductionArcs", "production_arcs"]
 

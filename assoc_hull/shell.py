@@ -16,18 +16,18 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.arguments import all_of, instance, number
-from assoc_hull.geometry.patches.below import Below, below
+from assoc_hull.geometry.patches.volume_below import Below, below
 from assoc_hull.surface.blocks.fit_options import CUTOFF, fit_options, length_of
 from assoc_hull.surface.blocks.fitting import surface_of_net
+from assoc_hull.surface.blocks.net_report import ResidualTable, document_of, text_of
+from assoc_hull.surface.blocks.net_surface import NetSurface
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
-from assoc_hull.surface.net_report import ResidualTable, document_of, text_of
-from assoc_hull.surface.net_surface import NetSurface
 
 if TYPE_CHECKING:
     from assoc_hull.io.cad.write import CadReport
-    from assoc_hull.io.closed_mesh_file import MeshFile
+    from assoc_hull.io.mesh.closed_mesh_file import MeshFile
 
 __all__ = ["HullSurface", "surface"]
 
@@ -85,7 +85,7 @@ class HullSurface(NetSurface):
         unit: str | None = None,
         half: bool = False,
     ) -> CadReport | MeshFile:
-        """Write it for CAD programs, or the closed mesh; see `assoc_hull.io.hull_surface_file`.
+        """Write it for CAD programs, or the closed mesh.
 
         Parameters
         ----------
@@ -104,7 +104,7 @@ class HullSurface(NetSurface):
         BadInputError, MissingExtraError, OpenNetError, OpenMeshError
             See there.
         """
-        from assoc_hull.io.hull_surface_file import write_surface
+        from assoc_hull.io.surfaces.hull_surface_file import write_surface
 
         return write_surface(self, path, form, unit=unit, half=half)
 

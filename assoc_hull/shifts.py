@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.hull import Hull, to_change
 from assoc_hull.variation.ask import TOLERANCE
-from assoc_hull.variation.shift_ask import ShiftAsk
-from assoc_hull.variation.shift_hull import ShiftReport, shift_document
-from assoc_hull.variation.shift_terms import Fade, ShiftShape, Terminals
-from assoc_hull.variation.swing import swing_document
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.shifts.hull import ShiftReport, shift_document
+from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.shifts.shift_terms import Fade, ShiftShape, Terminals
+from assoc_hull.variation.shifts.swing_hull import swing_document
 
 __all__ = ["Shifted", "shift_sections", "swing"]
 
@@ -84,8 +84,8 @@ def shift_sections(
     shape : str
         Of the movement between parallel body and end: ``"c2"`` leaves with slope and curvature
         nil at both; ``"c1"``, ``"end"``, ``"half"``, ``"lackenby"`` are those of
-        `assoc_hull.variation.bump.SHAPES`; ``"1-cp"`` is a straight line, which lengthens the
-        parallel body.
+        `assoc_hull.variation.fields.bump.SHAPES`; ``"1-cp"`` is a straight line, which lengthens
+        the parallel body.
     terminals : (4,), m from AP, or Terminals
         After terminal, start and end of the parallel body, fore terminal. Nothing moves abaft the
         first and forward of the last. By default where the profile begins to rise, and the measured

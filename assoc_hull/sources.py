@@ -19,10 +19,10 @@ from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
 
 if TYPE_CHECKING:
-    from assoc_hull.creation.classical.net import ClassicalDefinition
+    from assoc_hull.creation.classical.classical_net import ClassicalDefinition
     from assoc_hull.creation.design import Design
     from assoc_hull.geometry.patches.spline_surface import SplineSurface
-    from assoc_hull.io.slice_places import Places
+    from assoc_hull.io.slicing.cut_planes import Places
 
 __all__ = ["Examples", "create", "examples", "open", "read", "read_classical"]
 
@@ -39,14 +39,14 @@ class Examples:
         stations: int = 21,
         waterlines: int = 11,
     ) -> Hull:
-        """Make the Wigley hull; see `assoc_hull.examples.wigley`."""
-        from assoc_hull.examples.wigley import wigley
+        """Make the Wigley hull; see `assoc_hull.shipped.wigley`."""
+        from assoc_hull.shipped.wigley import wigley
 
         return Hull(wigley(length, breadth, draught, stations=stations, waterlines=waterlines))
 
     def series60(self, cb: float = 0.70) -> Hull:
-        """Make a Series 60 parent, CB 0.60 or 0.70; see `assoc_hull.examples.series60`."""
-        from assoc_hull.examples.series60 import series60_net
+        """Make a Series 60 parent, CB 0.60 or 0.70; see `assoc_hull.shipped.series60`."""
+        from assoc_hull.shipped.series60 import series60_net
 
         state, report = series60_net(cb)
         hull = Hull(state)
@@ -54,8 +54,8 @@ class Examples:
         return hull
 
     def bulk_carrier_207k(self) -> Hull:
-        """Make a 207,000 TDW bulk carrier; see `assoc_hull.examples.bulk_carrier`."""
-        from assoc_hull.examples.bulk_carrier import bulk_carrier_207k_net
+        """Make a 207,000 TDW bulk carrier; see `assoc_hull.shipped.bulk_carrier`."""
+        from assoc_hull.shipped.bulk_carrier import bulk_carrier_207k_net
 
         state, report = bulk_carrier_207k_net()
         hull = Hull(state)
@@ -63,23 +63,23 @@ class Examples:
         return hull
 
     def bulk_carrier_180m(self) -> Hull:
-        """Create a bulk carrier by form parameters; see `assoc_hull.examples.bulk_carrier_180m`."""
-        from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
+        """Create a bulk carrier by form parameters; see `assoc_hull.shipped.bulk_carrier_180m`."""
+        from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
 
         return create(bulk_carrier_180m_design())
 
     def container_ship_225m(self) -> Hull:
         """Create a container ship by form parameters, with a bulb.
 
-        See `assoc_hull.examples.container_ship_225m`.
+        See `assoc_hull.shipped.container_ship_225m`.
         """
-        from assoc_hull.examples.container_ship_225m import container_ship_225m_design
+        from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 
         return create(container_ship_225m_design())
 
     def plain_ship(self) -> Hull:
-        """Create a plain cargo ship of few definitions; see `assoc_hull.examples.plain_ship`."""
-        from assoc_hull.examples.plain_ship import plain_ship_design
+        """Create a plain cargo ship of few definitions; see `assoc_hull.shipped.plain_ship`."""
+        from assoc_hull.shipped.plain_ship import plain_ship_design
 
         return create(plain_ship_design())
 
@@ -96,14 +96,14 @@ class Examples:
         return _classical("prelikon_ship")
 
     def typical_plates(self) -> tuple[SplineSurface, ...]:
-        """Give six shell plates; see `assoc_hull.examples.typical_plates`."""
-        from assoc_hull.examples.typical_plates import typical_plates
+        """Give six shell plates; see `assoc_hull.shipped.typical_plates`."""
+        from assoc_hull.shipped.typical_plates import typical_plates
 
         return typical_plates()
 
 
 def _classical(name: str) -> Hull:
-    from assoc_hull.examples.classical_ships import classical_ship
+    from assoc_hull.shipped.classical_ships import classical_ship
 
     return create(classical_ship(name))
 
@@ -141,7 +141,7 @@ def create(design: Design | ClassicalDefinition) -> Hull:
     RefusedEditError
         A waterline or a buttock that cannot be cut fairly; the error names it.
     """
-    from assoc_hull.creation.classical.net import classical_net
+    from assoc_hull.creation.classical.classical_net import classical_net
     from assoc_hull.creation.design import Design
     from assoc_hull.creation.net import build_net
     from assoc_hull.io.classical.read import is_definition
@@ -174,7 +174,7 @@ def open(path: str | os.PathLike[str], *, wait: float = 0.0, damaged: bool = Fal
     BadInputError, DamagedFileError, FileBusyError, HullFileError
         The file cannot be read or holds no hull; another process is writing.
     """
-    from assoc_hull.io.saving import open_document
+    from assoc_hull.io.hull_file.saving import open_document
 
     if not (isinstance(path, str) and path.lstrip()[:1] == "{"):
         file_path(path, "in open")
@@ -206,7 +206,7 @@ def read(
     The hull lives in memory, also one that was saved, with its history; `open` edits the file.
     A table in normalised form needs its dimensions (m), unless its comments tell them. Meshes
     (STL, OBJ, PLY, also ``.gz``) and surfaces (IGES, STEP) take `scale`, full scale over model
-    scale, and the other options, as `assoc_hull.io.slice_read.read_slices` does; digitised lines
+    scale, and the other options, as `assoc_hull.io.slicing.read.read_slices` does; digitised lines
     (CSV, DXF, curves of IGES, BRITFAIR, DELFTship, GHS) all but planes and axes. Texts of
     definitions (`read_classical`) take no options. Tables of offsets may be CSV or XLSX. No form
     tells whether there is a deck between the deck edges: `deck` does, "open" (the default) or
@@ -217,11 +217,11 @@ def read(
     BadInputError
         The file cannot be read, or is none of these; or an option that its form does not take.
     """
-    from assoc_hull.examples.completion import net_from_table
     from assoc_hull.io.classical.read import holds_definition
-    from assoc_hull.io.offsets import read_offsets
-    from assoc_hull.io.saving import holds_hull
-    from assoc_hull.io.slice_read import holds_lines, read_slices
+    from assoc_hull.io.hull_file.saving import holds_hull
+    from assoc_hull.io.offsets.completion import net_from_table
+    from assoc_hull.io.offsets.read import read_offsets
+    from assoc_hull.io.slicing.read import holds_lines, read_slices
 
     file = Path(file_path(path, "in read"))
     named: dict[str, Any] = {
@@ -288,7 +288,7 @@ def read_classical(path: str | os.PathLike[str]) -> ClassicalDefinition:
 
 
 def _refuse_options(options: Mapping[str, object], file: Path) -> None:
-    from assoc_hull.io.slice_read import require_file
+    from assoc_hull.io.slicing.read import require_file
 
     if options:
         require_file(file)

@@ -21,17 +21,17 @@ from typing import Any
 import attrs
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.measured_hull import state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import state_of
 from assoc_hull.arguments import file_path, integer, shown
 from assoc_hull.errors import BadInputError, WrongTypeError
 from assoc_hull.hull import Hull
-from assoc_hull.io.study_table import study_csv, study_json
-from assoc_hull.io.whole_file import write_whole
+from assoc_hull.io.tables.study import study_csv, study_json
+from assoc_hull.io.write_file import write_whole
 from assoc_hull.model.copy import copy_of
 from assoc_hull.study.design import OUTPUTS, Design
 from assoc_hull.study.run import Row, Run, run_study
 from assoc_hull.study.table import columns_of
-from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parameters.layout import Layout
 
 __all__ = ["Study", "study"]
 
@@ -153,8 +153,8 @@ def study(
         Values of named parameters (m, degrees), or factors on layers: one, or one per variant.
     reach : mapping of str to float or (n,), or sequence of mappings
         Targets by the names of outputs: one, or one per variant; or a mapping per variant. See
-        `assoc_hull.variation.outputs.Outputs`: fields of hydrostatics, symbols of form parameters,
-        areas of sections.
+        `assoc_hull.variation.aiming.outputs.Outputs`: fields of hydrostatics, symbols of form
+        parameters, areas of sections.
     free : sequence of str or layer
         Parameters whose values are sought, as in `vary`; as many as there are targets, or more:
         then the variant is one of nearly the least change.

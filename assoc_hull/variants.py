@@ -18,12 +18,12 @@ from typing import Any
 import attrs
 
 from assoc_hull.hull import Hull, to_change
-from assoc_hull.model.handles import Group, Line
+from assoc_hull.model.line import Group, Line
 from assoc_hull.variation.ask import TOLERANCE, Ask, Planes, Stations, ask_from
-from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.parameters.layout import Layout
 from assoc_hull.variation.script import read_script
 from assoc_hull.variation.vary import VariationReport, vary_document
-from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Variation", "vary", "vary_by"]
 
@@ -85,7 +85,7 @@ def vary(
     reach : mapping of str to float
         Values of outputs by name, in their units, at the design draught: fields of
         `hydrostatics`, form parameters, sectional areas; see
-        `assoc_hull.variation.outputs.Outputs`.
+        `assoc_hull.variation.aiming.outputs.Outputs`.
     free : sequence of str, layer or mapping
         What may change so that they are reached: named parameters that are not `set`, and
         layers, of which the strength is found: 1 is the layer as given, 0 none of it. Layers as
@@ -100,9 +100,9 @@ def vary(
     layers : sequence
         Raw layers that act after those of the named parameters: a `FieldLayer`, `AdditiveLayer`,
         `CornerLayer` or `DeadriseLayer`, or a list of fields as data (see
-        `assoc_hull.variation.raw`).
+        `assoc_hull.variation.fields.field_data`).
     layout : mapping or Layout
-        How far the fields reach; see `assoc_hull.variation.layout.Layout`.
+        How far the fields reach; see `assoc_hull.variation.parameters.layout.Layout`.
     drivers : sequence of Group, Line or str
         Lines whose images are taken exactly; boundary curves always are. By default all lines
         whose planes the map keeps.

@@ -17,11 +17,11 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.evaluation import sample
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.variants import Variation
-from assoc_hull.variation.compose import compose
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.parameters.compose_map import compose
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.read_parent import parent_of
 from benchmarks.affine_image import affine_image
 from benchmarks.ships import duisburg_test_case
 

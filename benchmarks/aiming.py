@@ -18,11 +18,11 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.errors import UnreachableError
-from assoc_hull.variation.aim import solve
-from assoc_hull.variation.aim_report import Aimed
-from assoc_hull.variation.aim_rule import Rule
+from assoc_hull.variation.aiming.reach import problem_of
+from assoc_hull.variation.aiming.report import Aimed
+from assoc_hull.variation.aiming.stopping_rule import Rule
+from assoc_hull.variation.aiming.target_solver import solve
 from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.reaching import problem_of
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["free_of", "targets_of"]

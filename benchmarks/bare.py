@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.geometry.crossing import Meetings, meet_planes
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import Meetings, meet_planes
 from benchmarks.shape import BUTTOCKS, SECTIONS, WATERLINES, Shape, batch_of
 
 __all__ = ["Bare"]

@@ -12,8 +12,8 @@ from assoc_hull.io.cad.found import find_in
 from assoc_hull.io.cad.kernel import quiet
 from assoc_hull.io.cad.step_write import step_bytes
 from assoc_hull.io.cad.write import cad_bytes
-from assoc_hull.io.iges_read import surfaces_of_iges
-from assoc_hull.io.iges_write import iges_text
+from assoc_hull.io.iges.read import surfaces_of_iges
+from assoc_hull.io.iges.write import iges_text
 from benchmarks.clock import Figure, side_by_side
 
 __all__ = ["figures"]

@@ -13,10 +13,10 @@ import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.faces import sewn
+from assoc_hull.io.cad.hull_faces import Faces
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
-from assoc_hull.io.slice_types import Slices
-from assoc_hull.io.surface_faces import Faces
-from assoc_hull.io.surface_slices import slice_surfaces
+from assoc_hull.io.lines.slices import Slices
+from assoc_hull.io.slicing.surface_slices import slice_surfaces
 from benchmarks.cad_files import LENGTH, blocks
 from benchmarks.clock import Figure, side_by_side
 

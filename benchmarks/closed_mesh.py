@@ -14,7 +14,7 @@ import trimesh
 
 import assoc_hull as ah
 from assoc_hull.analysis.net.gather import gather
-from assoc_hull.analysis.panels.quality import panel_report
+from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.hull import Hull
 from assoc_hull.surface.cells.closed_mesh import mesh_of_net
 from assoc_hull.surface.cells.mesh_report import examined

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.geometry.classical.conformal import lewis_sections
+from assoc_hull.geometry.classical.conformal_sections import lewis_sections
 from assoc_hull.geometry.curves import FloatArray
 from benchmarks.clock import Figure, side_by_side
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import attrs
 
 import assoc_hull as ah
-from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
+from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
 from benchmarks.clock import Figure, side_by_side
 
 __all__ = ["figures"]

@@ -21,7 +21,7 @@ from assoc_hull.geometry.patches.curvature_functions import gauss_function
 from assoc_hull.geometry.patches.patches import Patches
 from assoc_hull.geometry.patches.solve import solve
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.curvature_regions import curvature_regions
+from assoc_hull.surface.regions.curvature_regions import curvature_regions
 from benchmarks.clock import Figure, side_by_side
 from tests.curved_patches import graph_plates, patch, references
 

@@ -19,7 +19,7 @@ from time import perf_counter, thread_time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.quiet import settle
+from assoc_hull.edit.garbage_collection import settle
 from benchmarks.clock import Figure
 from benchmarks.drag import Dragging
 from benchmarks.net import make_net

@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.variation.field import Region
+from assoc_hull.variation.fields.field import Region
 
 __all__ = ["DEGREE", "Lattice", "LatticeLayer", "LatticePlan"]
 

@@ -19,10 +19,10 @@ import numpy as np
 
 from assoc_hull.errors import FoldError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.certificate import Certificate
-from assoc_hull.variation.certify import MARGIN, certify
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.certificate.certify import MARGIN, certify
+from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.space_map import VMap
 from benchmarks.fold_fields import draw_box, draw_layer, scaled
 from benchmarks.fold_polish import Least, minors_at, polished
 from benchmarks.fold_samples import Samples, sample

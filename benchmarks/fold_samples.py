@@ -14,13 +14,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.additive import AdditiveLayer, Factors
-from assoc_hull.variation.chain import Course
-from assoc_hull.variation.corner import CornerLayer
-from assoc_hull.variation.field import Field
-from assoc_hull.variation.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.shear import DeadriseLayer
+from assoc_hull.variation.fields.additive import AdditiveLayer, Factors
+from assoc_hull.variation.fields.corner import CornerLayer
+from assoc_hull.variation.fields.field import Field
+from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.piecewise_linear import Course
+from assoc_hull.variation.fields.shear import DeadriseLayer
 
 __all__ = ["Samples", "sample"]
 

@@ -14,10 +14,10 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.backend import Backend, backend, set_backend
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.backend import Backend, backend, set_backend
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 from benchmarks.clock import Figure, side_by_side
 from benchmarks.loops import Job, opencascade, scipy_loop
 from benchmarks.shape import FAMILIES, Shape, batch_of, shape

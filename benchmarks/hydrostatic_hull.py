@@ -8,10 +8,10 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.mesh_flotation import mesh_flotation
+from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.triangles import Triangles
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.surfaces.triangles import Triangles
 
 __all__ = ["EVEN", "INCLINED", "Measured", "Position", "exact", "measured", "panels", "triangles"]
 

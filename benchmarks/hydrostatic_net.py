@@ -8,12 +8,13 @@ import attrs
 
 from assoc_hull.analysis.net.cells import lay_out
 from assoc_hull.analysis.net.gather import gather
-from assoc_hull.geometry.coons import Cells, CoonsStrips
 from assoc_hull.geometry.curves import CurveData
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersion import Prepared, immersed, prepare
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.recipe import curve_data
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.surfaces.coons import Cells, CoonsStrips
+from assoc_hull.model.lofting import curve_data
 from tests.nets import wigley_net
 
 __all__ = ["NetToMeasure", "net"]

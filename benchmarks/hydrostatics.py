@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from assoc_hull.analysis.mesh_flotation import mesh_flotation
-from assoc_hull.geometry.backend import backend, set_backend
+from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersion import immersed
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.splines.backend import backend, set_backend
 from benchmarks.clock import Figure
 from benchmarks.hydrostatic_hull import (
     EVEN,

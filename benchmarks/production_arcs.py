@@ -15,8 +15,8 @@ import numpy as np
 
 from assoc_hull.geometry.classical.arc_fit import fit_arcs
 from assoc_hull.geometry.curves import CurveData, FloatArray
-from assoc_hull.geometry.segments import power
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import power
 from assoc_hull.hull import Hull
 from assoc_hull.model.line import Line
 from assoc_hull.production import production_arcs

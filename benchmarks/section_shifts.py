@@ -17,15 +17,15 @@ from time import perf_counter
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, OutOfRangeError
-from assoc_hull.variation.fairness_of import (
+from assoc_hull.variation.comparing.line_fairness import (
     FairnessTable,
     LineFairness,
     compare_fairness,
     measure_fairness,
 )
-from assoc_hull.variation.shift_ask import ShiftAsk
-from assoc_hull.variation.shift_terms import SHIFT_SHAPES, ShiftShape
-from assoc_hull.variation.shift_work import ShiftWork
+from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.shifts.shift_terms import SHIFT_SHAPES, ShiftShape
+from assoc_hull.variation.shifts.trials import ShiftWork
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["main"]

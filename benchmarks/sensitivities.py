@@ -15,16 +15,16 @@ import attrs
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.analysis.moved import flotation_like, moved
-from assoc_hull.analysis.moves import Moves
-from assoc_hull.analysis.moving import moving
+from assoc_hull.analysis.derivatives.curve_tangents import moving
+from assoc_hull.analysis.derivatives.given_motion import Moves
+from assoc_hull.analysis.derivatives.reused_layout import flotation_like, moved
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
 from assoc_hull.model.copy import copy_of
+from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.hull_moves import HullMoves
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.outputs import Outputs
+from assoc_hull.variation.parameters.layout import Layout
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["Agreement", "agreements"]

@@ -22,7 +22,7 @@ import assoc_hull as ah
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.step import Step
 from assoc_hull.errors import AssocHullError
-from assoc_hull.io.hull_file import HullFile
+from assoc_hull.io.hull_file.storage import HullFile
 from benchmarks.clock import Figure
 
 __all__ = ["figures"]

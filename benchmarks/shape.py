@@ -13,9 +13,9 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 
 __all__ = ["BUTTOCKS", "FAMILIES", "SECTIONS", "WATERLINES", "Shape", "shape"]
 

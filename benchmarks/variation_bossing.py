@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.blend import Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, Tube, stack
-from assoc_hull.variation.fields_layer import FieldLayer
+from assoc_hull.variation.fields.blend import Blend
+from assoc_hull.variation.fields.field import Field, Piece, Tube, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
 from benchmarks.variation_methods import cloud, fared
 from benchmarks.variation_tasks import METHODS, Task
 

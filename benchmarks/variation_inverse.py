@@ -9,11 +9,11 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.blend import Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.inverse import solve
+from assoc_hull.variation.fields.blend import Blend
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.inverse import solve
+from assoc_hull.variation.fields.piecewise_linear import Chain
 from benchmarks.variation_bossing import HATS, bossing
 from benchmarks.variation_methods import cloud
 from benchmarks.variation_tasks import METHODS, Task

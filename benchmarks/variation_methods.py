@@ -17,17 +17,21 @@ import numpy as np
 
 import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.comb_integrals import DEAD_BAND, comb_integrals, curvature_sign_changes
 from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray, PointKind
-from assoc_hull.geometry.evaluation import sample
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.recipe import curve_data
+from assoc_hull.geometry.fairness.comb_integrals import (
+    DEAD_BAND,
+    comb_integrals,
+    curvature_sign_changes,
+)
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.apply import apply
-from assoc_hull.variation.certify import certify
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.vmap import VMap
-from assoc_hull.variation.weights import FieldPlan
+from assoc_hull.variation.carrying.apply import apply
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.fields.batch_displacements import FieldPlan
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.space_map import VMap
 from benchmarks.clock import Figure
 from benchmarks.ffd import SIDE, LatticePlan
 from benchmarks.ships import duisburg_test_case

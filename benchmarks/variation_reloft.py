@@ -11,15 +11,15 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.edit.image import Image, misfit
-from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.recut.driver_image import Image, misfit
+from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.evaluation import evaluate
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.recipe import curve_data
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.space_map import VMap
 from benchmarks.variation_methods import mapped, sections
 
 __all__ = ["SPACING", "TOLERANCES", "Relofted", "evenly", "relofted"]

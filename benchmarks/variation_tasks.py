@@ -13,14 +13,14 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.additive import AdditiveLayer
-from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.hat import hat
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.variation.fields.additive import AdditiveLayer
+from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.parameters.read_parent import parent_of
 from benchmarks.ffd import SIDE, Lattice, LatticeLayer
 
 __all__ = ["METHODS", "Task", "active_points", "lattice", "tasks"]

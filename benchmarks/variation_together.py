@@ -10,14 +10,14 @@ import numpy as np
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.catalogue import CATALOGUE
-from assoc_hull.variation.certify import certify
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.compose import compose, solve
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.share import Share
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.compose_map import compose, solve
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.share import Share
 from benchmarks.variation_methods import cloud
 from benchmarks.variation_tasks import Task
 

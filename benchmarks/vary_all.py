@@ -22,8 +22,12 @@ from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
 from assoc_hull.variants import Variation
-from assoc_hull.variation.catalogue import NAMES
-from assoc_hull.variation.fairness_of import LineFairness, compare_fairness, measure_fairness
+from assoc_hull.variation.comparing.line_fairness import (
+    LineFairness,
+    compare_fairness,
+    measure_fairness,
+)
+from assoc_hull.variation.parameters.catalogue import NAMES
 from benchmarks.ships import duisburg_test_case
 
 __all__ = ["AMOUNTS", "Row", "rows", "table"]

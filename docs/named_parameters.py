@@ -15,15 +15,15 @@ from typing import Any
 import attrs
 
 import assoc_hull as ah
-from assoc_hull.variation.anchors import measure_all
-from assoc_hull.variation.catalogue import CATALOGUE
-from assoc_hull.variation.field import Region
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.listing import Listed, listing
-from assoc_hull.variation.main_layer import main_layer
-from assoc_hull.variation.parent import Parent
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.share import Share
+from assoc_hull.variation.carrying.listing import Listed, listing
+from assoc_hull.variation.fields.field import Region
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.main_layer import main_layer
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.read_parent import parent_of
+from assoc_hull.variation.parameters.share import Share
 
 PAGE = Path(__file__).resolve().parent / "variation.md"
 MARK = "<!-- Made by `python docs/named_parameters.py`; edit nothing from here ... -->\n"

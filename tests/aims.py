@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import assoc_hull as ah
+from assoc_hull.variation.aiming.hull_problem import HullProblem
+from assoc_hull.variation.aiming.reach import problem_of
 from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.hull_problem import HullProblem
-from assoc_hull.variation.reaching import problem_of
 
 FULLER = {
     "name": "fuller",

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.integrate import quad
 
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.numeric.tensor_bernstein import basis
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.tensor_bernstein import basis
 
 Shape = Callable[[FloatArray, FloatArray], tuple[FloatArray, ...]]
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from assoc_hull.variation.blend import QUINTIC, Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, Tube, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.blend import QUINTIC, Blend
+from assoc_hull.variation.fields.field import Field, Piece, Tube, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.space_map import VMap
 
 __all__ = ["boss_map"]
 

@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 from scipy.optimize import brentq
 
-from assoc_hull.examples import carrier_form as form
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.shipped import bulk_carrier_207k_form as form
 from tests import carrier_truth
 
 __all__ = [

@@ -11,8 +11,8 @@ from functools import cache
 import attrs
 import numpy as np
 
-from assoc_hull.examples import carrier_form as form
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.shipped import bulk_carrier_207k_form as form
 
 __all__ = [
     "Sums", "Waterline", "area_of", "between", "flotation_of", "inertias", "volumes",

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = ["FormStrips", "box", "ellipsoid", "wigley"]
 

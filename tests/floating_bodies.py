@@ -8,12 +8,13 @@ from functools import cache
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.floating import Limits
-from assoc_hull.analysis.floating_body import Change, StationAreas
-from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.floating import Limits
+from assoc_hull.analysis.hydrostatics.floating_body import Change, StationAreas
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
 from tests import exact_hulls
 
 __all__ = ["Box", "StripBody", "Wigley", "box_body", "ellipsoid_body", "head", "wigley_body"]

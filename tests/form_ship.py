@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.state import Particulars
 

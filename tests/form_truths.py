@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from assoc_hull.examples import carrier_form as form
+from assoc_hull.shipped import bulk_carrier_207k_form as form
 from tests import carrier_ends, carrier_truth
 
 __all__ = [

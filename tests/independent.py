@@ -14,7 +14,7 @@ from scipy.interpolate import PPoly
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = [

@@ -21,7 +21,7 @@ from pathlib import Path
 import attrs
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file import HullFile
+from assoc_hull.io.hull_file.storage import HullFile
 
 __all__ = ["Tally", "run"]
 

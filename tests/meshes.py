@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from assoc_hull.examples.wigley import half_breadth
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.mesh_file import Triangles, grid_triangles, merge_vertices
+from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
+from assoc_hull.shipped.wigley import half_breadth
 
 L, B, T = 100.0, 10.0, 6.25
 """Main dimensions of the Wigley hull here, m."""

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from assoc_hull.edit.adopt import adopt
-from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.edit.adoption.adopt import adopt
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Association, Ends, HullState, Particulars
+from assoc_hull.shipped.wigley import half_breadth
 
 __all__ = ["ellipsoid_net", "wigley_net"]
 

@@ -7,17 +7,17 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.compute import values_at
-from assoc_hull.analysis.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.measured_hull import HasState, header_of
-from assoc_hull.analysis.parameters import Parameter, Position, Shape
-from assoc_hull.analysis.record_fields import FIELDS
-from assoc_hull.analysis.varied import Varied
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.recipe import curve_data
+from assoc_hull.analysis.derivatives.parameters import Parameter, Position, Shape
+from assoc_hull.analysis.derivatives.tangent_flotation import Varied
+from assoc_hull.analysis.hydrostatics.compute import values_at
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of
+from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.lofting import curve_data
 from tests.complex_loft import as_batch
 
 __all__ = ["Floats"]

@@ -11,14 +11,14 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from assoc_hull.edit.adopt import adopt
+from assoc_hull.edit.adoption.adopt import adopt
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending import Settings
+from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.family import BoundaryKind, Role, Sort
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Association, HullState, Particulars
 
 __all__ = [

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import assoc_hull as ah
-from assoc_hull.examples import carrier_form as form
-from assoc_hull.examples.carrier_lines import station
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.shipped import bulk_carrier_207k_form as form
+from assoc_hull.shipped.carrier_lines import station
 
 __all__ = [
     "AFT", "BILGE", "DRAUGHT", "EDGE", "FORE", "LEAN", "LENGTH", "RISE", "RUN", "SCREW", "TRANSOM",

@@ -10,16 +10,16 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.bump import Bump, Shape
-from assoc_hull.variation.chain import Chain, Contour, Course
-from assoc_hull.variation.corner import CornerLayer
-from assoc_hull.variation.field import Axis, Boundary, Field, Piece, Tube
-from assoc_hull.variation.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.hat import hat
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.shear import DeadriseLayer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
+from assoc_hull.variation.fields.bump import Bump, Shape
+from assoc_hull.variation.fields.corner import CornerLayer
+from assoc_hull.variation.fields.field import Axis, Boundary, Field, Piece, Tube
+from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.piecewise_linear import Chain, Contour, Course
+from assoc_hull.variation.fields.shear import DeadriseLayer
+from assoc_hull.variation.fields.space_map import VMap
 
 __all__ = [
     "BEAM",

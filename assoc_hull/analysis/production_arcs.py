@@ -12,10 +12,12 @@ from assoc_hull.errors import BadInputError, GeometryError, WrongTypeError
 from assoc_hull.geometry.classical.arc_fit import ArcFit, fit_arcs
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.flats import fit_plane
 from assoc_hull.geometry.plane import unit_normal
-from assoc_hull.geometry.segments import power
-from assoc_hull.model.handles import Curve, Group, Line, handle
+from assoc_hull.geometry.polylines.flats import fit_plane
+from assoc_hull.geometry.splines.segments import power
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.handles import handle
+from assoc_hull.model.line import Group, Line
 from assoc_hull.model.state import HullState
 
 __all__ = ["arc_lines", "curves_of", "drawing_axes"]

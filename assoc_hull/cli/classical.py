@@ -65,7 +65,7 @@ def _classical(arguments: argparse.Namespace) -> int:
 
 def _example(arguments: argparse.Namespace) -> int:
     """Print the text of an example."""
-    from assoc_hull.examples.classical_ships import SHIPS, classical_text
+    from assoc_hull.shipped.classical_ships import SHIPS, classical_text
 
     if arguments.file is not None or arguments.out is not None or arguments.json:
         raise UsageError("--example stands alone, in classical; leave the rest out")

@@ -43,9 +43,9 @@ def add(commands: Commands) -> None:
 
 def _compare(arguments: argparse.Namespace) -> int:
     from assoc_hull.arguments import integer
-    from assoc_hull.variation.comparison import compare
-    from assoc_hull.variation.comparison_json import comparison_document
-    from assoc_hull.variation.comparison_text import comparison_text
+    from assoc_hull.variation.comparing.compare import compare
+    from assoc_hull.variation.comparing.json import comparison_document
+    from assoc_hull.variation.comparing.text import comparison_text
 
     integer(arguments.lines, "lines", "in --lines", least=0)
     screw = screw_of(arguments)
@@ -55,8 +55,8 @@ def _compare(arguments: argparse.Namespace) -> int:
         found = compare(parent, variant, draught=arguments.draught, screw=screw)
     saved: list[str] = []
     if arguments.pdf is not None:
-        from assoc_hull.io.whole_file import write_whole
-        from assoc_hull.plot.comparison_sheet import comparison_pdf
+        from assoc_hull.io.write_file import write_whole
+        from assoc_hull.plot.lines_plan.comparison_sheet import comparison_pdf
 
         with progress(f"writing {arguments.pdf}"):
             write_whole(arguments.pdf, comparison_pdf(parent, variant, found))

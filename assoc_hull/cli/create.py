@@ -61,7 +61,7 @@ def _create(arguments: argparse.Namespace) -> int:
 
 def _example(arguments: argparse.Namespace) -> int:
     """Print the design of an example."""
-    from assoc_hull.examples.plain_ship import plain_ship_design
+    from assoc_hull.shipped.plain_ship import plain_ship_design
 
     if arguments.design is not None or arguments.out is not None or arguments.json:
         raise UsageError("--example stands alone, in create; leave the rest out")

@@ -71,7 +71,7 @@ def _curve(arguments: argparse.Namespace) -> int:
     text = curve.table()
     document: dict[str, Any] = {"format": "assoc-hull form curve", "schema": 1, **curve.document()}
     if arguments.out is not None:
-        from assoc_hull.plot.form_curve import form_curve_picture
+        from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 
         with progress(f"drawing {arguments.out}"):
             form_curve_picture(curve, arguments.out)

@@ -14,14 +14,14 @@ from assoc_hull.cli.arguments import Commands, add_command, add_json
 from assoc_hull.cli.demo_edits import EDITS, Outcome, carry_out
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.words import adoption_words, edit_words, hull_words, largest_gap
-from assoc_hull.edit.explain import Why
+from assoc_hull.edit.explain.cause import Why
 from assoc_hull.errors import BadInputError, MissingExtraError
 from assoc_hull.hull import Hull
 from assoc_hull.sources import examples
 from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.plot.drawing import Drawing
+    from assoc_hull.plot.lines_plan.drawing import Drawing
 
 __all__ = ["Demo", "add"]
 
@@ -106,8 +106,8 @@ class Demo:
         self.facts["seconds"][name] = time.perf_counter() - start
 
     def _adopt(self) -> Hull:
-        from assoc_hull.examples.series60 import series60_adopted
-        from assoc_hull.examples.series60_table import todd_table
+        from assoc_hull.shipped.series60 import series60_adopted
+        from assoc_hull.shipped.series60_table import todd_table
 
         with progress("adopting the offsets, cutting further lines"):
             hull = examples.series60(_CB)
@@ -156,7 +156,7 @@ class Demo:
         if not self.pictures:
             return None
         from assoc_hull.plot import lines_plan, snapshot
-        from assoc_hull.plot.sheet import save
+        from assoc_hull.plot.sheet.sheet import save
 
         lines = snapshot(hull)
         with progress(f"drawing the lines {name}"):

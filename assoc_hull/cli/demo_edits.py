@@ -12,7 +12,8 @@ from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.model.handles import Curve, Point
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.point import Point
 
 __all__ = ["EDITS", "DemoEdit", "Outcome", "carry_out"]
 

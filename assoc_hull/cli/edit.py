@@ -24,7 +24,7 @@ from assoc_hull.cli.preview_words import preview_words
 from assoc_hull.cli.problems import InFileError
 from assoc_hull.cli.why import why_words
 from assoc_hull.cli.words import edit_words
-from assoc_hull.edit.cause import Why
+from assoc_hull.edit.explain.cause import Why
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.script import carry_out
 from assoc_hull.edit.session import Edit

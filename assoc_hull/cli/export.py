@@ -11,7 +11,7 @@ from assoc_hull.cli.lengths import length
 from assoc_hull.cli.output import emit, progress
 from assoc_hull.cli.problems import check_other_target
 from assoc_hull.io.export_book import ExportReport
-from assoc_hull.io.whole_file import form_by_ending
+from assoc_hull.io.write_file import form_by_ending
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add", "export_words"]
@@ -118,7 +118,7 @@ def _export(arguments: argparse.Namespace) -> int:
         from assoc_hull.cli.export_surface import export_surface
 
         return export_surface(arguments, form)
-    from assoc_hull.io.export import export
+    from assoc_hull.io.export.write import export
 
     hull = open_hull(arguments.hull)
     with progress(f"writing {arguments.out}"):

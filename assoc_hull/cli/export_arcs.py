@@ -14,7 +14,7 @@ __all__ = ["arc_words", "export_arcs"]
 
 def export_arcs(arguments: argparse.Namespace) -> int:
     """Write the lines that are asked for as arcs, and report them."""
-    from assoc_hull.io.arc_file import arc_form
+    from assoc_hull.io.export.arc_file import arc_form
     from assoc_hull.production import production_arcs
 
     form = arc_form(arguments.out)
@@ -37,7 +37,7 @@ def arc_words(arcs: ArcLines) -> str:
     --------
     >>> from assoc_hull.analysis.production_arcs import arc_lines
     >>> from assoc_hull.cli.export_arcs import arc_words
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> print(arc_words(arc_lines(wigley(), "WL 5", 0.0005, 0.0)))
     line  arcs  straight  net points  off by (mm)  least radius (m)
     WL 5    10         0          21        0.440           244.449

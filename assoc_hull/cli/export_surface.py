@@ -11,14 +11,14 @@ from assoc_hull.sources import open as open_hull
 if TYPE_CHECKING:
     from assoc_hull.hull import Hull
     from assoc_hull.io.cad.write import CadReport
-    from assoc_hull.io.closed_mesh_file import MeshFile
+    from assoc_hull.io.mesh.closed_mesh_file import MeshFile
 
 __all__ = ["cad_words", "export_surface", "file_words", "mesh_words"]
 
 
 def export_surface(arguments: argparse.Namespace, form: str) -> int:
     """Write patches for CAD programs, or the closed mesh, and say what was written."""
-    from assoc_hull.io.closed_mesh_forms import MESH_FORMS
+    from assoc_hull.io.mesh.closed_mesh_forms import MESH_FORMS
 
     hull = open_hull(arguments.hull)
     write = _mesh if form in MESH_FORMS else _patches
@@ -29,7 +29,7 @@ def export_surface(arguments: argparse.Namespace, form: str) -> int:
 
 def _mesh(arguments: argparse.Namespace, hull: Hull, form: str) -> MeshFile:
     """Write the mesh: it needs no surface, which takes longer."""
-    from assoc_hull.io.closed_mesh_file import write_mesh
+    from assoc_hull.io.mesh.closed_mesh_file import write_mesh
     from assoc_hull.surface.cells.hull_mesh import closed_mesh
 
     with progress(f"writing {arguments.out}"):
@@ -50,7 +50,7 @@ def _patches(arguments: argparse.Namespace, hull: Hull, form: str) -> CadReport 
 
 def file_words(report: CadReport | MeshFile) -> str:
     """Say what was written of a surface."""
-    from assoc_hull.io.closed_mesh_file import MeshFile
+    from assoc_hull.io.mesh.closed_mesh_file import MeshFile
 
     return mesh_words(report) if isinstance(report, MeshFile) else cad_words(report)
 
@@ -61,7 +61,7 @@ def mesh_words(report: MeshFile) -> str:
     Examples
     --------
     >>> from assoc_hull.cli.export_surface import mesh_words
-    >>> from assoc_hull.io.closed_mesh_file import MeshFile
+    >>> from assoc_hull.io.mesh.closed_mesh_file import MeshFile
     >>> groups = ("shell", "deck")
     >>> print(mesh_words(MeshFile("a.stl", "stl", "m", False, 9, 14, 0, groups, 8.0, 784)))
     9 vertices, 14 triangles: shell, deck

@@ -37,7 +37,7 @@ def add(commands: Commands) -> None:
 
 
 def _fairness(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.fairness import hull_fairness
+    from assoc_hull.analysis.fairness.fairness import hull_fairness
 
     lines = arguments.lines or None
     hull = open_hull(arguments.hull)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from assoc_hull.errors import BadInputError
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.hydrostatics.appendage import Appendage
 
 __all__ = ["add_draughts", "add_water", "appendages_of", "density_of", "levels"]
 
@@ -100,7 +100,7 @@ def levels(text: str, option: str, what: str = "draughts") -> list[float]:
 
 def _appendage(text: str) -> Appendage:
     """Take an appendage, ``NAME,VOLUME,X,Y,Z,AREA``."""
-    from assoc_hull.analysis.appendage import Appendage
+    from assoc_hull.analysis.hydrostatics.appendage import Appendage
 
     name, *rest = (part.strip() for part in text.split(","))
     try:

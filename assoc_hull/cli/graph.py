@@ -67,8 +67,8 @@ def _count(text: str) -> int:
 
 
 def _graph(arguments: argparse.Namespace) -> int:
-    from assoc_hull.graph.export import export
-    from assoc_hull.io.whole_file import write_whole
+    from assoc_hull.graph.graph_text import export
+    from assoc_hull.io.write_file import write_whole
 
     up, down = _hops(arguments)
     if arguments.out is not None:

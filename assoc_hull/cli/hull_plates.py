@@ -86,7 +86,7 @@ def refuse_seams(arguments: argparse.Namespace) -> None:
 
 def hull_plates(arguments: argparse.Namespace) -> int:
     """Find plates of a hull, write what is asked for, and tell of them."""
-    from assoc_hull.io.hull_plates_file import hull_plates_document
+    from assoc_hull.io.tables.hull_plates_file import hull_plates_document
     from assoc_hull.sources import open as open_hull
 
     _refuse_others(arguments)
@@ -117,7 +117,7 @@ def _refuse_others(arguments: argparse.Namespace) -> None:
 def _found(hull: Any, arguments: argparse.Namespace) -> HullPlates:
     """Find the plates, by the options that are given."""
     from assoc_hull.plating import plates
-    from assoc_hull.surface.hull_plates.hull_seams import HullSeams
+    from assoc_hull.surface.plates.hull_seams import HullSeams
 
     x, z, girth = (
         tuple(place for each in given for place in each)
@@ -138,14 +138,14 @@ def _saved(found: HullPlates, arguments: argparse.Namespace) -> list[str]:
     if arguments.out is not None:
         with progress(f"writing {arguments.out}"):
             if arguments.out.suffix == ".pdf":
-                from assoc_hull.plot.hull_sheet import hull_sheet
+                from assoc_hull.plot.plates.hull_sheet import hull_sheet
 
                 hull_sheet(found, arguments.out, title=title)
             else:
                 found.save(arguments.out)
         saved.append(arguments.out)
     if arguments.picture is not None:
-        from assoc_hull.plot.hull_map import hull_map
+        from assoc_hull.plot.plates.hull_map import hull_map
 
         with progress(f"drawing {arguments.picture}"):
             hull_map(found, arguments.picture, title=title)

@@ -7,8 +7,8 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
-from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
-from assoc_hull.analysis.record_fields import FIELDS, Field
+from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
+from assoc_hull.analysis.hydrostatics.record_fields import FIELDS, Field
 
 __all__ = ["document", "table_words"]
 

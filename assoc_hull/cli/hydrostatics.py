@@ -18,8 +18,8 @@ from assoc_hull.hull import Hull
 from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.appendage import Appendage
-    from assoc_hull.analysis.hydrostatic_table import HydrostaticTable
+    from assoc_hull.analysis.hydrostatics.appendage import Appendage
+    from assoc_hull.analysis.hydrostatics.hydrostatic_table import HydrostaticTable
 
 __all__ = ["add"]
 
@@ -106,7 +106,7 @@ def _hydrostatics(arguments: argparse.Namespace) -> int:
 
 def _deck_edge(hull: Hull, table: HydrostaticTable) -> float | None:
     """Give the heel at which the deck edge goes under; nan where she does not float upright."""
-    from assoc_hull.analysis.equilibrium import deck_edge_angle
+    from assoc_hull.analysis.hydrostatics.equilibrium import deck_edge_angle
 
     if len(table) != 1:
         return None
@@ -133,7 +133,7 @@ def _check_targets(arguments: argparse.Namespace) -> None:
 
 def _table(hull: Hull, arguments: argparse.Namespace) -> HydrostaticTable:
     """Compute what was asked."""
-    from assoc_hull.analysis.hydrostatics import hydrostatic_table
+    from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatic_table
 
     rho, appendages = density_of(arguments), appendages_of(arguments)
     draughts, trims, moulded = _draughts(hull, arguments, rho, appendages)
@@ -154,7 +154,7 @@ def _draughts(
     if arguments.table is not None:
         return levels(arguments.table, "--table"), arguments.trims or (0.0,), False
     if arguments.weight is not None:
-        from assoc_hull.analysis.equilibrium import immersion
+        from assoc_hull.analysis.hydrostatics.equilibrium import immersion
 
         found = immersion(
             hull, arguments.weight, lcg=arguments.lcg, kg=arguments.kg, heel_deg=arguments.heel,
@@ -173,12 +173,12 @@ def _saved(hull: Hull, table: HydrostaticTable, arguments: argparse.Namespace) -
     """Write table and picture, where they were asked; name the files."""
     saved: list[Any] = []
     if arguments.out is not None:
-        from assoc_hull.io.hydrostatic_table import write_hydrostatic_table
+        from assoc_hull.io.tables.hydrostatics import write_hydrostatic_table
 
         write_hydrostatic_table(table, arguments.out)
         saved.append(arguments.out)
     if arguments.plot is not None:
-        from assoc_hull.plot.hydrostatics import plot_hydrostatics
+        from assoc_hull.plot.diagrams.hydrostatics import plot_hydrostatics
 
         kind = arguments.plot_of or ("curves" if table.shape[0] > 1 else "areas")
         with progress(f"drawing {arguments.plot}"):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
 
-from assoc_hull.edit.adoption_report import AdoptionReport, LineReport
-from assoc_hull.io.slice_sources import SmoothReport
+from assoc_hull.edit.adoption.report import AdoptionReport, LineReport
+from assoc_hull.io.slicing.sources import SmoothReport
 
 __all__ = ["line_table"]
 
@@ -33,7 +33,7 @@ def line_table(adoption: AdoptionReport, smoothing: Sequence[SmoothReport] = ())
     Examples
     --------
     >>> from assoc_hull.cli.line_table import line_table
-    >>> from assoc_hull.examples.series60 import series60_adopted
+    >>> from assoc_hull.shipped.series60 import series60_adopted
     >>> print(line_table(series60_adopted(0.70)[1]).splitlines()[0].split()[:4])
     ['line', 'median', 'p95', 'max']
     """

@@ -19,8 +19,8 @@ from assoc_hull.cli.problems import check_hull_target, check_target, is_apart
 from assoc_hull.cli.words import adoption_words, hull_words, slice_words
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
+from assoc_hull.io.hull_file.saving import holds_hull
 from assoc_hull.io.progress import Tell
-from assoc_hull.io.saving import holds_hull
 from assoc_hull.model.state import DECKS
 from assoc_hull.sources import create, examples, read_classical
 from assoc_hull.sources import open as open_hull
@@ -144,7 +144,7 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _example_surfaces(arguments: argparse.Namespace) -> int:
     """Write surfaces: control nets as a table or JSON, or IGES."""
-    from assoc_hull.io.surface_file import write_surfaces
+    from assoc_hull.io.surfaces.surface_file import write_surfaces
 
     check_target(arguments.out, _SURFACE_ENDINGS)
     surfaces = _SURFACES[arguments.name]()
@@ -156,7 +156,7 @@ def _example_surfaces(arguments: argparse.Namespace) -> int:
 
 
 def _import(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.whole_file import write_whole
+    from assoc_hull.io.write_file import write_whole
 
     check_hull_target(arguments.out, replace=arguments.replace)
     if arguments.report is not None:
@@ -181,7 +181,7 @@ def _import(arguments: argparse.Namespace) -> int:
 
 def _require_plot() -> None:
     """Say before anything is computed that pictures cannot be drawn."""
-    from assoc_hull.plot.sheet import require_matplotlib
+    from assoc_hull.plot.sheet.sheet import require_matplotlib
 
     require_matplotlib()
 
@@ -206,7 +206,7 @@ _OF_SLICES = ("stations", "waterlines", "buttocks", "scale", "axes", "tolerance"
 
 def _adopt(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
     from assoc_hull.io.classical.read import holds_definition
-    from assoc_hull.io.slice_read import holds_lines, require_file
+    from assoc_hull.io.slicing.read import holds_lines, require_file
 
     if holds_hull(arguments.file):
         return _adopt_nothing(arguments)
@@ -260,7 +260,7 @@ def _adopt_definition(arguments: argparse.Namespace) -> tuple[Hull, dict[str, An
 
 
 def _adopt_slices(arguments: argparse.Namespace, tell: Tell) -> tuple[Hull, dict[str, Any], str]:
-    from assoc_hull.io.slice_read import read_slices
+    from assoc_hull.io.slicing.read import read_slices
 
     names = ("length", "breadth", "draught", "deck", "unit", *_OF_SLICES)
     given = {name: getattr(arguments, name) for name in names}
@@ -280,8 +280,8 @@ _SCHEMA = {"format": "assoc-hull report", "schema": 1}
 
 
 def _adopt_offsets(arguments: argparse.Namespace) -> tuple[Hull, dict[str, Any], str]:
-    from assoc_hull.examples.completion import net_from_table
-    from assoc_hull.io.offsets import read_offsets
+    from assoc_hull.io.offsets.completion import net_from_table
+    from assoc_hull.io.offsets.read import read_offsets
 
     names = ("length", "breadth", "draught", "unit", "station_zero")
     table, offsets = read_offsets(

@@ -15,7 +15,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.edit.explain import Why
+from assoc_hull.edit.explain.cause import Why
 from assoc_hull.io.progress import Tell, silent
 
 __all__ = ["can_print", "emit", "plain", "progress", "progress_bar", "say", "why_document"]

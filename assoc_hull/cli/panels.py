@@ -14,7 +14,7 @@ from assoc_hull.hull import Hull
 from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.geometry.panel_mesh import PanelMesh
+    from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 
 __all__ = ["add"]
 
@@ -82,7 +82,7 @@ def _add_division(parser: argparse.ArgumentParser) -> None:
 
 
 def _panels(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.panels.quality import panel_report
+    from assoc_hull.analysis.panels.mesh_quality import panel_report
 
     _check_targets(arguments)
     hull = open_hull(arguments.hull)
@@ -98,7 +98,7 @@ def _panels(arguments: argparse.Namespace) -> int:
 def _check_targets(arguments: argparse.Namespace) -> None:
     """Refuse, before anything is computed, what could not be written."""
     if arguments.out is not None:
-        from assoc_hull.io.panels_file import panel_form_of
+        from assoc_hull.io.panels.files import panel_form_of
 
         panel_form_of(arguments.out, arguments.format)
         check_other_target(arguments.out, arguments.hull)
@@ -125,13 +125,13 @@ def _saved(mesh: PanelMesh, arguments: argparse.Namespace) -> list[str]:
     """Write mesh and picture, where they were asked; name the files."""
     saved: list[Path] = []
     if arguments.out is not None:
-        from assoc_hull.io.panels_file import write_panels
+        from assoc_hull.io.panels.files import write_panels
 
         with progress(f"writing {arguments.out}"):
             write_panels(mesh, arguments.out, arguments.format)
         saved.append(arguments.out)
     if arguments.plot is not None:
-        from assoc_hull.plot.panels import panel_plan
+        from assoc_hull.plot.plates.panel_plan import panel_plan
 
         with progress(f"drawing {arguments.plot}"):
             panel_plan(mesh, arguments.plot)

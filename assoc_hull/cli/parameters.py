@@ -80,14 +80,14 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 def _parameters(arguments: argparse.Namespace) -> int:
     if arguments.catalogue:
         return _catalogue(arguments)
-    from assoc_hull.io.form_json import form_document
-    from assoc_hull.io.form_text import form_text
+    from assoc_hull.io.tables.form_json import form_document
+    from assoc_hull.io.tables.form_text import form_text
 
     _check_target(arguments)
     report = _report(arguments)
     words, saved = form_text(report), []
     if arguments.out is not None:
-        from assoc_hull.plot.form_files import write_form_report
+        from assoc_hull.plot.diagrams.form_files import write_form_report
 
         with progress(f"writing {arguments.out}"):
             write_form_report(report, arguments.out)
@@ -132,9 +132,9 @@ def _symbols(arguments: argparse.Namespace) -> list[str] | None:
 
 def _catalogue(arguments: argparse.Namespace) -> int:
     """Tell the definitions."""
-    from assoc_hull.io.form_json import catalogue_document, catalogue_json
-    from assoc_hull.io.form_text import catalogue_text
-    from assoc_hull.io.whole_file import write_whole
+    from assoc_hull.io.tables.form_json import catalogue_document, catalogue_json
+    from assoc_hull.io.tables.form_text import catalogue_text
+    from assoc_hull.io.write_file import write_whole
 
     if arguments.hull is not None:
         raise BadInputError("a hull and --catalogue are both given", _CALL, "give one of them")

@@ -6,6 +6,7 @@ import argparse
 import sys
 from typing import NoReturn
 
+from assoc_hull.cli.arguments import Commands
 from assoc_hull.cli.classical import add as add_classical
 from assoc_hull.cli.compare import add as add_compare
 from assoc_hull.cli.create import add as add_create
@@ -106,7 +107,9 @@ def make_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"assoc-hull {_version()}")
-    commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
+    commands: Commands = parser.add_subparsers(
+        metavar="COMMAND", required=True, parser_class=_Parser
+    )
     for add in _COMMANDS:
         add(commands)
     return parser

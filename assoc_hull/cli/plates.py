@@ -13,7 +13,7 @@ from assoc_hull.cli.problems import check_target
 from assoc_hull.errors import BadInputError
 
 if TYPE_CHECKING:
-    from assoc_hull.io.surface_file import ReadSurfaces
+    from assoc_hull.io.surfaces.surface_file import ReadSurfaces
     from assoc_hull.plating import Plates
 
 __all__ = ["add"]
@@ -106,7 +106,7 @@ def _breadth(text: str) -> float | str:
 
 
 def _plates(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.surface_file import read_surface_file
+    from assoc_hull.io.surfaces.surface_file import read_surface_file
 
     _check_targets(arguments)
     if is_hull(arguments.file):
@@ -123,7 +123,7 @@ def _plates(arguments: argparse.Namespace) -> int:
 
 def _check_targets(arguments: argparse.Namespace) -> None:
     """Refuse, before anything is computed, what could not be written."""
-    from assoc_hull.io.whole_file import require_no_hull_file
+    from assoc_hull.io.write_file import require_no_hull_file
 
     targets = ((arguments.out, _OUT), (arguments.picture, PICTURE_ENDINGS),
                (arguments.development, (".csv",)),
@@ -139,7 +139,7 @@ def _check_targets(arguments: argparse.Namespace) -> None:
             raise BadInputError(what, f"at {path}", "give another name")
         known.add(path.resolve())
     if arguments.picture is not None or _is_sheet(arguments):
-        from assoc_hull.plot.sheet import require_matplotlib
+        from assoc_hull.plot.sheet.sheet import require_matplotlib
 
         require_matplotlib()
 
@@ -151,7 +151,7 @@ def _is_sheet(arguments: argparse.Namespace) -> bool:
 def _found(surfaces: ReadSurfaces, arguments: argparse.Namespace) -> Plates:
     """Find the plates, by the options that are given."""
     from assoc_hull.plating import plates
-    from assoc_hull.surface.seams import Seams
+    from assoc_hull.surface.plates.seams import Seams
 
     names = ("strain_tol", "k0", "delta", "share", "sagitta_tol", "area_tol")
     given: dict[str, Any] = {name: getattr(arguments, name) for name in names}
@@ -170,21 +170,21 @@ def _saved(found: Plates, arguments: argparse.Namespace) -> list[str]:
             _write(found, arguments)
         saved.append(arguments.out)
     if arguments.picture is not None:
-        from assoc_hull.plot.curvature_map import curvature_figure
+        from assoc_hull.plot.plates.curvature_map import curvature_figure
 
         with progress(f"drawing {arguments.picture}"):
             curvature_figure(found, arguments.picture)
         saved.append(arguments.picture)
     if arguments.development is not None:
-        from assoc_hull.io.plates_file import development_csv
-        from assoc_hull.io.whole_file import write_whole
+        from assoc_hull.io.tables.plates_file import development_csv
+        from assoc_hull.io.write_file import write_whole
 
         with progress("laying plates flat"):
             text = development_csv([plate.development() for plate in found])
         write_whole(arguments.development, text.encode())
         saved.append(arguments.development)
     if arguments.surfaces is not None:
-        from assoc_hull.io.surface_file import write_surfaces
+        from assoc_hull.io.surfaces.surface_file import write_surfaces
 
         write_surfaces([plate.surface for plate in found], arguments.surfaces)
         saved.append(arguments.surfaces)
@@ -196,7 +196,7 @@ def _write(found: Plates, arguments: argparse.Namespace) -> None:
     if not _is_sheet(arguments):
         found.save(arguments.out)
         return
-    from assoc_hull.plot.plate_sheet import plate_sheet
+    from assoc_hull.plot.plates.plate_book import plate_sheet
 
     plate_sheet(found, arguments.out, developments=arguments.development is not None)
 
@@ -205,7 +205,7 @@ def _tell(
     arguments: argparse.Namespace, surfaces: ReadSurfaces, found: Plates, saved: list[str]
 ) -> None:
     """Print what was found."""
-    from assoc_hull.io.plates_file import plates_document
+    from assoc_hull.io.tables.plates_file import plates_document
 
     document = plates_document(found)
     document["notes"] = [*surfaces.notes, *document["notes"]]

@@ -7,8 +7,8 @@ from itertools import groupby
 from operator import attrgetter
 
 from assoc_hull.cli.words import lists, wrapped
-from assoc_hull.edit.line_changes import LineChange
-from assoc_hull.edit.preview import Preview
+from assoc_hull.edit.explain.line_changes import LineChange
+from assoc_hull.edit.explain.preview import Preview
 from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
 from assoc_hull.model.address import AddressBook

@@ -144,7 +144,7 @@ def check_other_target(path: Path, hull: Path) -> None:
     BadInputError
         See `check_target`; or a hull file lies there, or the hull that is read.
     """
-    from assoc_hull.io.whole_file import require_no_hull_file
+    from assoc_hull.io.write_file import require_no_hull_file
 
     check_target(path, ("",))
     require_no_hull_file(path)

@@ -45,7 +45,7 @@ def add(commands: Commands) -> None:
 
 
 def _tell(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.parameters import PointMove
+    from assoc_hull.analysis.derivatives.parameters import PointMove
     from assoc_hull.variation.sensitivities import sensitivities
 
     points = [PointMove(each, follow=True) for each in arguments.point]

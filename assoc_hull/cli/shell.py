@@ -69,7 +69,7 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 
 def _schema(arguments: argparse.Namespace) -> int:
     from assoc_hull.io.hull_schema import dumps_schema
-    from assoc_hull.io.whole_file import write_whole
+    from assoc_hull.io.write_file import write_whole
 
     text = dumps_schema(_schema_of(arguments.of))
     if arguments.out is None:
@@ -87,7 +87,7 @@ def _schema_of(document: str) -> dict[str, Any]:
 
         return hull_json_schema()
     if document == "comparison":
-        from assoc_hull.io.comparison_schema import comparison_schema
+        from assoc_hull.io.tables.comparison import comparison_schema
 
         return comparison_schema()
     if document == "design":
@@ -95,21 +95,21 @@ def _schema_of(document: str) -> dict[str, Any]:
 
         return design_schema()
     if document == "surfaces":
-        from assoc_hull.io.surface_json import surfaces_schema
+        from assoc_hull.io.surfaces.surface_json import surfaces_schema
 
         return surfaces_schema()
     if document == "plates":
-        from assoc_hull.io.plates_schema import plates_schema
+        from assoc_hull.io.tables.plates_schema import plates_schema
 
         return plates_schema()
     if document == "hull-surface":
-        from assoc_hull.io.net_surface_schema import net_surface_schema
+        from assoc_hull.io.surfaces.net_surface_schema import net_surface_schema
 
         return net_surface_schema()
     if document == "hull-plates":
-        from assoc_hull.io.hull_plates_schema import hull_plates_schema
+        from assoc_hull.io.tables.hull_plates_schema import hull_plates_schema
 
         return hull_plates_schema()
-    from assoc_hull.io.form_schema import catalogue_schema, form_schema
+    from assoc_hull.io.tables.form_schema import catalogue_schema, form_schema
 
     return catalogue_schema() if document == "form-catalogue" else form_schema()

@@ -83,8 +83,8 @@ def _stability(arguments: argparse.Namespace) -> int:
     _check(arguments)
     if arguments.rest:
         return _rest(arguments)
-    from assoc_hull.io.stability_json import stability_document
-    from assoc_hull.io.stability_table import stability_text
+    from assoc_hull.io.tables.stability_json import stability_document
+    from assoc_hull.io.tables.stability_table import stability_text
 
     hull = open_hull(arguments.hull)
     with progress("heeling"):
@@ -159,7 +159,7 @@ def _cross(hull: Hull, arguments: argparse.Namespace) -> CrossCurves:
 def _rest(arguments: argparse.Namespace) -> int:
     """Tell where she comes to rest."""
     from assoc_hull.analysis.stability.equilibrium import equilibrium
-    from assoc_hull.io.stability_json import equilibrium_document
+    from assoc_hull.io.tables.stability_json import equilibrium_document
 
     hull = open_hull(arguments.hull)
     with progress("heeling"):
@@ -197,12 +197,12 @@ def _saved(found: Stability | CrossCurves, arguments: argparse.Namespace) -> lis
     """Write table and picture, where they were asked; name the files."""
     saved: list[Path] = []
     if arguments.out is not None:
-        from assoc_hull.io.stability_table import write_stability
+        from assoc_hull.io.tables.stability_table import write_stability
 
         write_stability(found, arguments.out)
         saved.append(arguments.out)
     if arguments.plot is not None:
-        from assoc_hull.plot.stability import plot_stability
+        from assoc_hull.plot.diagrams.stability import plot_stability
 
         with progress(f"drawing {arguments.plot}"):
             plot_stability(found, arguments.plot)

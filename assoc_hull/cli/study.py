@@ -76,7 +76,7 @@ def _add_design(parser: argparse.ArgumentParser) -> None:
 
 
 def _study(arguments: argparse.Namespace) -> int:
-    from assoc_hull.io.study_table import study_document
+    from assoc_hull.io.tables.study import study_document
     from assoc_hull.studies import study
 
     if arguments.out is not None:

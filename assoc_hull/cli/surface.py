@@ -66,7 +66,7 @@ def _surface(arguments: argparse.Namespace) -> int:
         saved.append(str(arguments.out))
         words += ["", file_words(report)]
     if arguments.picture is not None:
-        from assoc_hull.plot.surface_figure import surface_figure
+        from assoc_hull.plot.plates.lit_surface import surface_figure
 
         with progress(f"drawing {arguments.picture}"):
             surface_figure(found, arguments.picture)
@@ -89,12 +89,12 @@ def _check_targets(arguments: argparse.Namespace) -> None:
             if given:
                 raise BadInputError(f"{what} is for a file", "in surface", "give it with -o FILE")
     else:
-        from assoc_hull.io.hull_surface_file import surface_form_of
+        from assoc_hull.io.surfaces.hull_surface_file import surface_form_of
 
         surface_form_of(arguments.out)
         check_other_target(arguments.out, arguments.hull)
     if arguments.picture is not None:
-        from assoc_hull.plot.sheet import require_matplotlib
+        from assoc_hull.plot.sheet.sheet import require_matplotlib
 
         check_target(arguments.picture, PICTURE_ENDINGS)
         check_other_target(arguments.picture, arguments.hull)

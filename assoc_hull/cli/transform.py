@@ -12,7 +12,7 @@ from assoc_hull.cli.problems import check_target
 from assoc_hull.sources import open as open_hull
 
 if TYPE_CHECKING:
-    from assoc_hull.analysis.transform_record import CurveTransform
+    from assoc_hull.analysis.form.transform_record import CurveTransform
 
 __all__ = ["add"]
 
@@ -57,7 +57,7 @@ def add(commands: Commands) -> None:
 
 
 def _transform(arguments: argparse.Namespace) -> int:
-    from assoc_hull.analysis.curve_transforms import curve_transform
+    from assoc_hull.analysis.form.curve_transforms import curve_transform
 
     if arguments.plot is not None:
         check_target(arguments.plot, PICTURE_ENDINGS)
@@ -79,7 +79,7 @@ def _saved(found: CurveTransform, path: Path | None) -> list[str]:
     """Draw the picture, where it was asked; name the file."""
     if path is None:
         return []
-    from assoc_hull.plot.transforms import curve_series
+    from assoc_hull.plot.diagrams.curve_series import curve_series
 
     with progress(f"drawing {path}"):
         curve_series(found, path)

@@ -108,8 +108,8 @@ def _carry_out(arguments: argparse.Namespace, script: dict[str, Any]) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    from assoc_hull.variation.layout import Layout
-    from assoc_hull.variation.listing import list_table, listing
+    from assoc_hull.variation.carrying.listing import list_table, listing
+    from assoc_hull.variation.parameters.layout import Layout
 
     layout = Layout.of(_script(arguments).get("layout"))
     hull = open_hull(arguments.hull)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from assoc_hull.cli.arguments import Commands, add_command, add_hull, add_json
 from assoc_hull.cli.output import can_print, emit, progress, why_document
-from assoc_hull.edit.cause import Why
+from assoc_hull.edit.explain.cause import Why
 from assoc_hull.sources import open as open_hull
 
 __all__ = ["add", "why_words"]

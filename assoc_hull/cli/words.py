@@ -8,15 +8,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from assoc_hull.cli.line_table import line_table
-from assoc_hull.edit.adopt import AdoptionReport
+from assoc_hull.edit.adoption.report import AdoptionReport
 from assoc_hull.edit.report import EditReport
 from assoc_hull.hull import Hull
 from assoc_hull.io.offset_report import OffsetReport
-from assoc_hull.io.offset_table import OffsetTable
-from assoc_hull.io.slice_report import SliceReport
+from assoc_hull.io.offsets.table import OffsetTable
+from assoc_hull.io.slicing.report import SliceReport
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.family import Sort
-from assoc_hull.model.handles import Curve
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.kinds import Sort
 
 __all__ = [
     "adoption_words",

@@ -2,7 +2,7 @@
 
 Examples
 --------
->>> from assoc_hull.creation.courses import course
+>>> from assoc_hull.creation.form_definitions import course
 >>> from assoc_hull.creation.design import Design
 >>> from assoc_hull.model.state import Particulars
 >>> Design(Particulars("ship", 100.0, 16.0, 9.0, 6.0), [course("keel_angle", {"AP": (0, 45)})])
@@ -22,10 +22,10 @@ import numpy as np
 
 from assoc_hull.arguments import all_of, instance, number, numbers, text
 from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.forms.closure import close_halves
-from assoc_hull.model.forms.definition import FormDefinition
-from assoc_hull.model.forms.uses import USES
 from assoc_hull.model.state import Particulars
+from assoc_hull.model.uses import USES
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["Design"]

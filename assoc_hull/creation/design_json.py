@@ -30,7 +30,11 @@ import attrs
 from assoc_hull.arguments import file_path, once
 from assoc_hull.creation.design import Design
 from assoc_hull.errors import BadInputError
-from assoc_hull.model.form import (
+from assoc_hull.model.definition_part import HALVES, NODE_FIELDS, RULES, FormDefinition
+from assoc_hull.model.forms.closure import close_halves
+from assoc_hull.model.state import DECKS, Particulars
+from assoc_hull.model.uses import USES
+from assoc_hull.model.value_schema import (
     NAME,
     NOT_NEGATIVE,
     POSITIVE,
@@ -43,10 +47,6 @@ from assoc_hull.model.form import (
     record,
     told,
 )
-from assoc_hull.model.forms.closure import close_halves
-from assoc_hull.model.forms.definition import HALVES, NODE_FIELDS, RULES, FormDefinition
-from assoc_hull.model.forms.uses import USES
-from assoc_hull.model.state import DECKS, Particulars
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["DESIGN_FORMAT", "design_document", "design_json", "design_schema", "read_design"]

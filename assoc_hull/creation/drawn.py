@@ -9,14 +9,15 @@ import numpy as np
 
 from assoc_hull.creation.design import Design
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.forms.definition import GeneratedCurve, Mark
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.model.definition_part import GeneratedCurve, Mark
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, layout_at, marks_for
-from assoc_hull.model.source import LineSource, curve_data
+from assoc_hull.model.forms.generate import generated_points, marks_for
+from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource, curve_data
 
 __all__ = ["Drawn", "boundary_curves", "section_curves"]
 

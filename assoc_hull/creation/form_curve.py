@@ -54,12 +54,12 @@ from assoc_hull.creation.form_curve_report import (
 )
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.form_chain import FormChain
-from assoc_hull.geometry.form_checks import FormMessage
-from assoc_hull.geometry.form_integrals import form_integrals
-from assoc_hull.geometry.form_middle import middle_vertex, slide_vertex
-from assoc_hull.geometry.form_shape import ENERGIES, energy, form_length, inflections
-from assoc_hull.geometry.form_solve import required_middle
+from assoc_hull.geometry.form_curves.chain import FormChain
+from assoc_hull.geometry.form_curves.checks import FormMessage
+from assoc_hull.geometry.form_curves.integrals import form_integrals
+from assoc_hull.geometry.form_curves.middle import middle_vertex, slide_vertex
+from assoc_hull.geometry.form_curves.shape import ENERGIES, energy, form_length, inflections
+from assoc_hull.geometry.form_curves.solve import required_middle
 
 __all__ = ["FormCurve"]
 

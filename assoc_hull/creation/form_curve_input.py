@@ -11,13 +11,13 @@ import numpy as np
 from assoc_hull.arguments import all_of, choice, number, numbers, positive, shown
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_checks import FormMessage
-from assoc_hull.geometry.form_curve import FormEnd, end_vertices
-from assoc_hull.geometry.form_middle import fair_vertex, with_middle
-from assoc_hull.geometry.form_parameters import NAMES, FormParameters
-from assoc_hull.geometry.form_shape import ENERGIES
-from assoc_hull.geometry.form_solve import required_middle
-from assoc_hull.geometry.form_tangents import (
+from assoc_hull.geometry.form_curves.checks import FormMessage
+from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices
+from assoc_hull.geometry.form_curves.middle import fair_vertex, with_middle
+from assoc_hull.geometry.form_curves.parameters import NAMES, FormParameters
+from assoc_hull.geometry.form_curves.shape import ENERGIES
+from assoc_hull.geometry.form_curves.solve import required_middle
+from assoc_hull.geometry.form_curves.tangents import (
     FASTEST,
     SLOWEST,
     chords,

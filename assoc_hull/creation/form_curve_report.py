@@ -10,10 +10,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_checks import FormMessage, check_parameters, check_shape
-from assoc_hull.geometry.form_inverse import form_values
-from assoc_hull.geometry.form_parameters import FormParameters
-from assoc_hull.geometry.form_shape import ENERGIES
+from assoc_hull.geometry.form_curves.checks import FormMessage, check_parameters, check_shape
+from assoc_hull.geometry.form_curves.inverse import form_values
+from assoc_hull.geometry.form_curves.parameters import FormParameters
+from assoc_hull.geometry.form_curves.shape import ENERGIES
 
 if TYPE_CHECKING:
     from assoc_hull.creation.form_curve import FormCurve

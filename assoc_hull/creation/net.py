@@ -14,14 +14,15 @@ import numpy as np
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.drawn import Drawn, boundary_curves, section_curves
 from assoc_hull.creation.straight import go_straight
-from assoc_hull.edit.adopt import AdoptionReport, adopt
-from assoc_hull.edit.cut import add_line
+from assoc_hull.edit.adoption.adopt import adopt
+from assoc_hull.edit.adoption.report import AdoptionReport
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.newline.add_line import add_line
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.family import Sort
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.make import Maker
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.state import Association, HullState
 
 __all__ = ["LINKS", "build_net"]

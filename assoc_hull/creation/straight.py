@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.thread import thread
+from assoc_hull.edit.followup.thread import thread
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.forms.definition import GeneratedCurve
+from assoc_hull.model.definition_part import GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, layout_at, marks_for
-from assoc_hull.model.make import PointSpec
+from assoc_hull.model.forms.generate import generated_points, marks_for
+from assoc_hull.model.forms.layout import layout_at
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import PointSpec
 from assoc_hull.model.regenerate import ends_of, place_of
 
 __all__ = ["go_straight"]

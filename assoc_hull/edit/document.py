@@ -16,8 +16,8 @@ from datetime import UTC, datetime
 import attrs
 
 from assoc_hull.arguments import shown, shown_name, text
-from assoc_hull.edit.keeper import Keeper, Label
 from assoc_hull.edit.step import Step
+from assoc_hull.edit.step_storage import Keeper, Label
 from assoc_hull.errors import BadInputError, NameTakenError, UnknownNameError
 from assoc_hull.model.copy import copy_of, put_back
 from assoc_hull.model.index import Index, build_index

@@ -22,9 +22,9 @@ import numpy as np
 from assoc_hull.edit.normals import free_normals, hull_normals, shape_stamp
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.spline import sample
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.family import BoundaryKind, Role, Sort
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = [

@@ -6,10 +6,13 @@ from collections.abc import Sequence
 
 import attrs
 
-from assoc_hull.edit.arguments import shown, shown_name
+from assoc_hull.arguments import shown, shown_name
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError, WrongTypeError
 from assoc_hull.model.address import Place, resolve
-from assoc_hull.model.handles import Crossing, Curve, Group, Line, Point, place_of
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.handles import place_of
+from assoc_hull.model.line import Group, Line
+from assoc_hull.model.point import Crossing, Point
 from assoc_hull.model.state import HullState
 
 __all__ = ["Given"]
@@ -33,7 +36,7 @@ class Given:
     Examples
     --------
     >>> from assoc_hull.edit.given import Given
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> Given(wigley()).group("sections")
     'sections'
     """

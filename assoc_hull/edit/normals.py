@@ -9,12 +9,12 @@ import numpy as np
 
 from assoc_hull.edit.outward import turn_outward
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.interpolation import interpolate
+from assoc_hull.geometry.numeric.interpolation import interpolate
 from assoc_hull.graph.table import ListColumn
-from assoc_hull.model.family import Sort
 from assoc_hull.model.gaps import crossing_normals, tangents
 from assoc_hull.model.index import Objects
-from assoc_hull.model.recipe import loft_curves
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.state import HullState
 
 __all__ = ["curve_tangents", "free_normals", "hull_normals", "shape_stamp"]

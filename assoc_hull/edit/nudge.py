@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 import attrs
 import numpy as np
 
-from assoc_hull.edit.carry_planes import Planes, into_planes
+from assoc_hull.edit.mapped_planes import Planes, into_planes
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, freeze
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.feature import Feature
+from assoc_hull.model.features import Feature
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.state import Ends, HullState, Particulars
 
 if TYPE_CHECKING:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from assoc_hull.edit.check import plane_normals
-from assoc_hull.edit.net_change import net_change
+from assoc_hull.edit.checks.after_update import plane_normals
+from assoc_hull.edit.followup.take_up_definitions import form_changes
+from assoc_hull.edit.net_difference import net_change
 from assoc_hull.edit.report import EditReport, Fairness, Movement
 from assoc_hull.edit.step import Step, StepBody
-from assoc_hull.edit.take_up_forms import form_changes
-from assoc_hull.edit.work import Work
+from assoc_hull.edit.update_passes import Work
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.node import Readers
 from assoc_hull.model.state import HullState, curve_node, row_node

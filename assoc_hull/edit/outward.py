@@ -40,7 +40,7 @@ def turn_outward(state: HullState, normal: FloatArray, tangent: FloatArray) -> F
     --------
     >>> import numpy as np
     >>> from assoc_hull.edit.normals import hull_normals
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> normal = hull_normals(wigley())
     >>> bool((normal[:, 1] > -1e-12).all())
     True

@@ -11,7 +11,7 @@ from assoc_hull.edit.field import Field, FieldContext, Shift, bell, move_normal
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
-from assoc_hull.model.family import Role, Sort, State
+from assoc_hull.model.kinds import Role, Sort, State
 from assoc_hull.model.state import HullState
 
 __all__ = ["Pull", "unreached"]

@@ -5,7 +5,7 @@ Examples
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.edit.replay import replay
 >>> from assoc_hull.edit.session import Edit
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> one, other = Document(wigley()), Document(wigley(breadth=11.0))
 >>> with Edit(one, "fuller") as edit:
 ...     edit.move("WL 2.5 x ST 7", y=2.95)

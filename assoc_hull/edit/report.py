@@ -5,7 +5,7 @@ from __future__ import annotations
 import attrs
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.fairness import inflections
+from assoc_hull.geometry.fairness.inflections import inflections
 
 __all__ = ["EditReport", "Fairness", "FormChange", "Movement", "told_change"]
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
 from assoc_hull.arguments import choice, shown, shown_name
-from assoc_hull.edit.pending import Settings
+from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
-from assoc_hull.graph.run import Policy
+from assoc_hull.graph.run_update import Policy
 
 __all__ = ["Changes", "GapsName", "PolicyName", "carry_out", "settings_of"]
 

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import attrs
 
-from assoc_hull.edit.record import Script
+from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import DamagedFileError
 from assoc_hull.geometry.curves import FloatArray, IntArray

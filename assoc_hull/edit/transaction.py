@@ -14,16 +14,16 @@ from typing import Any, Self
 import numpy as np
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending import Pending, Settings
-from assoc_hull.edit.quiet import Quiet
-from assoc_hull.edit.record import Script
+from assoc_hull.edit.garbage_collection import Quiet
+from assoc_hull.edit.pending_changes import Pending, Settings
+from assoc_hull.edit.recording import Script
 from assoc_hull.edit.report import EditReport
 from assoc_hull.edit.step import Step
 from assoc_hull.edit.update import update
 from assoc_hull.errors import BadInputError, RefusedEditError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
-from assoc_hull.model.make import Maker
+from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.state import HullState
 
 __all__ = ["Transaction"]

@@ -11,8 +11,7 @@ import time
 import attrs
 import numpy as np
 
-from assoc_hull.edit.carry_features import CarriedFeatures
-from assoc_hull.edit.check import (
+from assoc_hull.edit.checks.after_update import (
     find_beyond,
     find_folds,
     find_unbounded,
@@ -20,32 +19,39 @@ from assoc_hull.edit.check import (
     measure_gaps,
     splines_of,
 )
-from assoc_hull.edit.check_sense import find_turned
-from assoc_hull.edit.detach import detach, detach_rows, detached_note, off_definitions, tidy
+from assoc_hull.edit.checks.line_ends import ends_at_risk, find_endless, note_new_ends
+from assoc_hull.edit.checks.sense import find_turned
 from assoc_hull.edit.document import Document
 from assoc_hull.edit.field import add_shifts, context, land, sub_steps
-from assoc_hull.edit.line_ends import ends_at_risk, find_endless, note_new_ends
-from assoc_hull.edit.mend import mend
+from assoc_hull.edit.followup.adopted_points import rebase, ride_links
+from assoc_hull.edit.followup.births_and_deaths import latent_meetings, settle
+from assoc_hull.edit.followup.detach_curves import (
+    detach,
+    detach_rows,
+    detached_note,
+    off_definitions,
+    tidy,
+)
+from assoc_hull.edit.followup.mend_gaps import mend
+from assoc_hull.edit.followup.realign import rejoin
+from assoc_hull.edit.followup.refine_curves import refine_forms
+from assoc_hull.edit.followup.reorder_crossings import limit_watched, renew_followers, widen_limits
+from assoc_hull.edit.followup.settle_features import settle_features
+from assoc_hull.edit.followup.take_up_definitions import take_up_forms
+from assoc_hull.edit.mapped_features import CarriedFeatures
 from assoc_hull.edit.nudge import Nudge, write_nudge
 from assoc_hull.edit.outcome import step_of
-from assoc_hull.edit.pending import Pending, Settings
+from assoc_hull.edit.pending_changes import Pending, Settings
 from assoc_hull.edit.pull_field import unreached
-from assoc_hull.edit.refine_forms import refine_forms
-from assoc_hull.edit.rejoin import rejoin
-from assoc_hull.edit.renew_followers import limit_watched, renew_followers, widen_limits
-from assoc_hull.edit.ride import rebase, ride_links
-from assoc_hull.edit.settle_features import settle_features
 from assoc_hull.edit.step import Step
-from assoc_hull.edit.take_up_forms import take_up_forms
-from assoc_hull.edit.topology import latent_meetings, settle
-from assoc_hull.edit.work import Work
+from assoc_hull.edit.update_passes import Work
 from assoc_hull.errors import AssocHullError, RefusedEditError, RingError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import address
-from assoc_hull.model.family import Sort, State
 from assoc_hull.model.generated import attached
-from assoc_hull.model.make import Maker
+from assoc_hull.model.kinds import Sort, State
+from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.network import HullNetwork, bits_differ
 from assoc_hull.model.state import HullState
 

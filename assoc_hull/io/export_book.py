@@ -33,7 +33,7 @@ class ExportReport:
     path : str
         The file.
     form : str
-        As in `assoc_hull.io.export.FORMS`.
+        As in `assoc_hull.io.export.write.FORMS`.
     lines, curves, points : int
         What was written; a line may come in several curves.
     rounding : float, m

@@ -9,8 +9,8 @@ Top level, in this order::
     format       "assoc-hull"
     schema       version of this form, a whole number; this module reads and writes 1
     fingerprint  SHA-256 of definition and published values
-    definition   see `assoc_hull.model.definition.definition`
-    published    see `assoc_hull.model.definition.published`
+    definition   see `assoc_hull.model.definition.definition.definition`
+    published    see `assoc_hull.model.definition.definition.published`
 
 Opening puts the stored values back and compares the fingerprint; nothing is recomputed.
 
@@ -33,9 +33,9 @@ from typing import Any, NoReturn
 
 from assoc_hull.arguments import once, shown
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.io.whole_file import write_whole
-from assoc_hull.model.definition import definition, fingerprint, published
-from assoc_hull.model.restore import from_definition
+from assoc_hull.io.write_file import write_whole
+from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.state import HullState
 
 __all__ = [

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from assoc_hull.io.hull_json import FORMAT, SCHEMA
-from assoc_hull.model.schema import DEFINITION, PUBLISHED
+from assoc_hull.model.definition.schema import DEFINITION, PUBLISHED
 
 __all__ = ["DIALECT", "FINGERPRINT", "dumps_hull_schema", "dumps_schema", "hull_json_schema"]
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from assoc_hull.arguments import shown_name, word
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.model.family import Sort
+from assoc_hull.model.kinds import Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["AddressBook", "Place", "address", "resolve"]
@@ -303,7 +303,7 @@ def address(state: HullState, row: int, side: int | None = None) -> str:
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.address import address, resolve
     >>> state = wigley()
     >>> address(state, resolve(state, "ST 7 x WL 2.5").row)
@@ -335,7 +335,7 @@ def resolve(state: HullState, text: str) -> Place:
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.address import resolve
     >>> resolve(wigley(), "waterlines/WL 2.5 x ST 7").side
     1

@@ -11,9 +11,9 @@ Examples
 --------
 >>> from assoc_hull.edit.document import Document
 >>> from assoc_hull.edit.transaction import Transaction
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.change import change_of, run_change
->>> from assoc_hull.model.definition import fingerprint
+>>> from assoc_hull.model.definition.definition import fingerprint
 >>> document = Document(wigley())
 >>> before, table = fingerprint(document.state), document.state.rows
 >>> with Transaction(document, "move") as edit:
@@ -37,9 +37,9 @@ from numpy.typing import NDArray
 from assoc_hull.geometry.curves import IntArray, SplineBatch
 from assoc_hull.graph.journal import Journal, same_value
 from assoc_hull.graph.table import ArrayColumn
-from assoc_hull.model.family import State
+from assoc_hull.model.kinds import State
+from assoc_hull.model.lofting import loft_curves
 from assoc_hull.model.places_on_curves import PlacesOn, Then, places_of, put_places_of
-from assoc_hull.model.recipe import loft_curves
 from assoc_hull.model.state import HullState
 
 __all__ = ["TABLES", "Change", "change_of", "run_change", "shape_curves"]

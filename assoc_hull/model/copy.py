@@ -2,9 +2,9 @@
 
 Examples
 --------
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.copy import copy_of
->>> from assoc_hull.model.definition import fingerprint
+>>> from assoc_hull.model.definition.definition import fingerprint
 >>> state = wigley()
 >>> fingerprint(copy_of(state)) == fingerprint(state)
 True

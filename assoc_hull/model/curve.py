@@ -15,16 +15,16 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import integer, numbers
 from assoc_hull.arguments import place as one_place
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.curvature import curvature
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
-from assoc_hull.geometry.evaluation import evaluate, sample
-from assoc_hull.geometry.length import arc_length
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.curvature import curvature
+from assoc_hull.geometry.splines.evaluation import evaluate, sample
+from assoc_hull.geometry.splines.length import arc_length
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.family import State
 from assoc_hull.model.gaps import tangents
 from assoc_hull.model.handle import Handle
-from assoc_hull.model.place import generates_on, latent_curves, points_on
+from assoc_hull.model.kinds import State
+from assoc_hull.model.links import generates_on, latent_curves, points_on
 from assoc_hull.model.point import Point
 
 if TYPE_CHECKING:
@@ -55,8 +55,8 @@ class Curve(Handle):
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
-    >>> from assoc_hull.model.handles import Line
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.line import Line
     >>> line = Line.of(wigley(), 3)
     >>> line.curves[0].at(0.0)
     array([10.,  0.,  0.])

@@ -2,7 +2,7 @@
 
 Examples
 --------
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.feature_handle import features_by_name
 >>> features_by_name(wigley(stations=5, waterlines=4))["ST 2 straight"]
 <straight ST 2 straight, 2 points>
@@ -15,10 +15,10 @@ from collections.abc import Mapping
 
 import attrs
 
-from assoc_hull.model.feature import Feature, Place
-from assoc_hull.model.feature_shape import line_numbers
+from assoc_hull.model.feature_geometry import line_numbers
+from assoc_hull.model.features import Feature, Place
 from assoc_hull.model.line import Line
-from assoc_hull.model.named import Named
+from assoc_hull.model.named_mapping import Named
 from assoc_hull.model.point import Point
 from assoc_hull.model.state import HullState
 
@@ -57,7 +57,7 @@ class FeatureHandle:
 
     @property
     def parameters(self) -> Mapping[str, float | Place]:
-        """What its kind has, lengths in m: `assoc_hull.model.feature.PARAMETERS` lists it."""
+        """What its kind has, lengths in m: `assoc_hull.model.features.PARAMETERS` lists it."""
         return self.feature.parameters
 
     @property

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.spline import derivative
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.model.kinds import Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["crossing_normals", "gap_at", "tangents", "watched_on"]

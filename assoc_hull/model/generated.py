@@ -2,7 +2,7 @@
 
 Examples
 --------
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.generated import attached, attached_rows
 >>> state = wigley(stations=5, waterlines=4)
 >>> dict(attached(state)), attached_rows(state).tolist()
@@ -16,8 +16,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from assoc_hull.geometry.curves import IntArray, freeze
-from assoc_hull.model.forms.definition import GeneratedCurve
-from assoc_hull.model.recipe import same_objects
+from assoc_hull.model.definition_part import GeneratedCurve
+from assoc_hull.model.lofting import same_objects
 from assoc_hull.model.state import HullState
 
 __all__ = ["attached", "attached_rows", "generated_on", "kept_rows", "unmade_rows"]

@@ -9,7 +9,7 @@ Associative Geometry Objects", J. SNAK 36(4), 1999.
 
 Examples
 --------
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.handles import handle
 >>> point = handle(wigley(), "WL 2.5 x ST 7")
 >>> point, point.parent_curve, point.free, point.role
@@ -50,7 +50,7 @@ def handle(state: HullState, text: str) -> Group | Line | Curve | Point:
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.handles import handle
     >>> handle(wigley(), "waterlines"), handle(wigley(), "ST 7 [1]")
     (<Group waterlines>, <Curve ST 7>)
@@ -75,7 +75,7 @@ def place_of(thing: Group | Line | Curve | Point | Crossing) -> Place:
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.handles import handle, place_of
     >>> place_of(handle(wigley(), "sections"))
     Place(group=1, line=-1, curve=-1, row=-1, side=-1)

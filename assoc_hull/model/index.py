@@ -14,10 +14,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.graph.rank import levels
+from assoc_hull.graph.levels import levels
 from assoc_hull.model.forms.generate import reads
 from assoc_hull.model.generated import attached
-from assoc_hull.model.recipe import same_objects
+from assoc_hull.model.lofting import same_objects
 from assoc_hull.model.state import HullState
 
 __all__ = ["Index", "Objects", "PlaneSet", "build_index", "driven_levels"]

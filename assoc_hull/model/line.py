@@ -9,13 +9,13 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.geometry.plane import Plane, as_plane
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 from assoc_hull.model.curve import Curve
-from assoc_hull.model.family import BoundaryKind
 from assoc_hull.model.handle import Handle
-from assoc_hull.model.named import Named
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.named_mapping import Named
 from assoc_hull.model.point import Point
 
 __all__ = ["Group", "Line"]
@@ -85,8 +85,8 @@ class Line(Handle):
 
         Examples
         --------
-        >>> from assoc_hull.examples.wigley import wigley
-        >>> from assoc_hull.model.handles import Line
+        >>> from assoc_hull.shipped.wigley import wigley
+        >>> from assoc_hull.model.line import Line
         >>> Line.of(wigley(), 3).meet(((0, 0, 1), 7.0)).round(3).tolist()
         [[10.0, 1.8, 7.0]]
         """

@@ -20,11 +20,11 @@ from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.journal import Journal, Picked
 from assoc_hull.graph.node import Evaluation, Readers
 from assoc_hull.graph.plan import closure
-from assoc_hull.model.align import Alignment, align_curve
-from assoc_hull.model.cutting import Found, Recall, cut_curves
+from assoc_hull.model.align_intersections import Alignment, align_curve
 from assoc_hull.model.generated import attached, unmade_rows
 from assoc_hull.model.index import Index
-from assoc_hull.model.recipe import loft_curves, remember
+from assoc_hull.model.lofting import loft_curves, remember
+from assoc_hull.model.plane_intersections import Found, Recall, cut_curves
 from assoc_hull.model.regenerate import points_given
 from assoc_hull.model.state import HullState, Meets, curve_node, form_of, row_node
 

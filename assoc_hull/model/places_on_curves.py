@@ -7,7 +7,7 @@ together are all that the tables hold of places on curves; nothing of it is ever
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.places_on_curves import put_places_of, places_of
 >>> state = wigley()
 >>> found = places_of(state, np.arange(state.curves.count))

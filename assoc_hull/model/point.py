@@ -16,9 +16,9 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, PointKind, freeze
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.family import Role, Sort, State
 from assoc_hull.model.handle import Handle
-from assoc_hull.model.place import defines, free_axes, places
+from assoc_hull.model.kinds import Role, Sort, State
+from assoc_hull.model.links import defines, free_axes, places
 from assoc_hull.model.state import HullState
 
 if TYPE_CHECKING:
@@ -45,8 +45,8 @@ class Point(Handle):
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
-    >>> from assoc_hull.model.handles import Line
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.line import Line
     >>> line = Line.of(wigley(), 3)
     >>> line.curves[0].points[1].free
     ('y',)

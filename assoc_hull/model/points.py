@@ -6,7 +6,8 @@ from collections.abc import ItemsView, Iterator, Mapping, ValuesView
 
 from assoc_hull.errors import BadInputError, UnknownNameError
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.handles import Point, handle
+from assoc_hull.model.handles import handle
+from assoc_hull.model.point import Point
 from assoc_hull.model.state import HullState
 
 __all__ = ["Points"]
@@ -19,7 +20,7 @@ class Points(Mapping[str, Point]):
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.points import Points
     >>> points = Points(wigley())
     >>> next(iter(points)), points["ST 7 x WL 2.5"].parent_curve

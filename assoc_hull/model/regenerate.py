@@ -11,7 +11,7 @@ import numpy as np
 
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.generate import generated_points
 from assoc_hull.model.state import HullState

@@ -13,7 +13,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.family import Role
+from assoc_hull.model.kinds import Role
 from assoc_hull.tolerance import Tolerances
 
 __all__ = ["Candidates", "choose", "role_of"]

@@ -20,9 +20,9 @@ from assoc_hull.arguments import checked, choice, flag, integer, places, positiv
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import EndKind, FloatArray, IntArray, SplineBatch, freeze
 from assoc_hull.graph.table import Table
-from assoc_hull.model.family import FAMILIES, Family
-from assoc_hull.model.feature import Feature
-from assoc_hull.model.forms.definition import FormDefinition, GeneratedCurve
+from assoc_hull.model.definition_part import FormDefinition, GeneratedCurve
+from assoc_hull.model.features import Feature
+from assoc_hull.model.kinds import FAMILIES, Family
 from assoc_hull.tolerance import Tolerances
 
 __all__ = [

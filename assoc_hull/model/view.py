@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from assoc_hull.model.address import AddressBook
-from assoc_hull.model.canonical import Places, places
-from assoc_hull.model.family import Role, Sort, State
-from assoc_hull.model.place import defines, generates_on, latent_curves
+from assoc_hull.model.definition.canonical_columns import Places, places
+from assoc_hull.model.kinds import Role, Sort, State
+from assoc_hull.model.links import defines, generates_on, latent_curves
 from assoc_hull.model.state import HullState
 from assoc_hull.model.view_forms import add_definitions
 
@@ -63,7 +63,7 @@ def graph(state: HullState) -> networkx.MultiDiGraph[str]:
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.view import graph
     >>> found = graph(wigley())
     >>> found.nodes["sections:35.000000"]["name"]
@@ -199,7 +199,7 @@ def dependencies(state: HullState, points: bool = False) -> networkx.DiGraph[str
 
     Examples
     --------
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> from assoc_hull.model.view import dependencies
     >>> dependencies(wigley()).number_of_nodes()
     31

@@ -3,7 +3,7 @@
 Examples
 --------
 >>> import networkx
->>> from assoc_hull.examples.wigley import wigley
+>>> from assoc_hull.shipped.wigley import wigley
 >>> from assoc_hull.model.view_forms import add_definitions
 >>> found = networkx.MultiDiGraph()
 >>> add_definitions(found, wigley(stations=5, waterlines=4))

@@ -14,9 +14,9 @@ from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray, freeze
 from assoc_hull.variation.ask import Ask
 from assoc_hull.variation.ask_reach import AskReach
-from assoc_hull.variation.catalogue import NAMES
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.parameters.catalogue import NAMES
+from assoc_hull.variation.parameters.layout import Layout
 
 __all__ = ["OUTPUTS", "Design"]
 

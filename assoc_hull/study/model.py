@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.errors import AssocHullError, BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.study.ground import Ground
+from assoc_hull.study.prepared_parent import Ground
 
 __all__ = ["Model"]
 

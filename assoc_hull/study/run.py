@@ -25,8 +25,8 @@ from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
 from assoc_hull.study.design import Design
 from assoc_hull.study.failure import kind_of
-from assoc_hull.study.ground import Ground
 from assoc_hull.study.model import Model
+from assoc_hull.study.prepared_parent import Ground
 from assoc_hull.study.search import searched
 
 __all__ = ["Row", "Run", "Tell", "row_of", "run_study"]

@@ -17,8 +17,8 @@ from assoc_hull.errors import OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.study.design import Design
 from assoc_hull.study.failure import NotReachedError
-from assoc_hull.study.ground import Ground, Variant
 from assoc_hull.study.model import Model
+from assoc_hull.study.prepared_parent import Ground, Variant
 
 __all__ = ["EXACT", "Found", "searched"]
 

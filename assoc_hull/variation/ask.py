@@ -18,12 +18,12 @@ import attrs
 
 from assoc_hull.arguments import choice, number, positive, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
-from assoc_hull.model.handles import Group, Line
+from assoc_hull.model.line import Group, Line
 from assoc_hull.variation.ask_reach import AskReach, acts
-from assoc_hull.variation.catalogue import CATALOGUE, NAMES
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.raw import layers_from
+from assoc_hull.variation.fields.field_data import layers_from
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.parameters.catalogue import CATALOGUE, NAMES
+from assoc_hull.variation.parameters.layout import Layout
 
 __all__ = ["TOLERANCE", "VERSION", "Ask", "Planes", "Stations", "ask_from"]
 

@@ -18,11 +18,11 @@ import numpy as np
 from assoc_hull.arguments import flag, number, shown, shown_name, text
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.catalogue import NAMES
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.freedom import scaled_layer
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.raw import fields_from
+from assoc_hull.variation.fields.field_data import fields_from
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.parameters.catalogue import NAMES
+from assoc_hull.variation.parameters.freedom import scaled_layer
 
 __all__ = ["AskReach", "acts"]
 

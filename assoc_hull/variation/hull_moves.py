@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.parameters import DRAUGHT, TRIM, Parameter
+from assoc_hull.analysis.derivatives.parameters import DRAUGHT, TRIM, Parameter
 from assoc_hull.arguments import shown
 from assoc_hull.errors import (
     BadInputError,
@@ -17,18 +17,18 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.aiming.hull_problem import HullProblem
+from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.catalogue import NAMES
-from assoc_hull.variation.freedom import Freedom
-from assoc_hull.variation.hull_maps import HullMaps
-from assoc_hull.variation.hull_problem import HullProblem
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import hull_box, present
-from assoc_hull.variation.outputs import Outputs
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.room import Room
+from assoc_hull.variation.carrying.hull_maps import HullMaps
+from assoc_hull.variation.carrying.room import Room
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.parameters.catalogue import NAMES
+from assoc_hull.variation.parameters.freedom import Freedom
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.limits import hull_box, present
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.read_parent import parent_of
 
 __all__ = ["HullMoves", "Taken"]
 

@@ -6,15 +6,15 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from assoc_hull.edit.carry_planes import PLANE
+from assoc_hull.edit.mapped_planes import PLANE
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.catalogue import CATALOGUE
-from assoc_hull.variation.fold_outside import fold_outside
-from assoc_hull.variation.layouts_body import shift_terminals
-from assoc_hull.variation.limits import hull_box
-from assoc_hull.variation.parent import Parent
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.certificate.fold_outside import fold_outside
+from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.layouts_body import shift_terminals
+from assoc_hull.variation.parameters.limits import hull_box
+from assoc_hull.variation.parameters.parent_places import Parent
 
 __all__ = ["also_changed", "folds_outside", "shifted_without_body", "went_along"]
 

@@ -17,9 +17,9 @@ import attrs
 
 from assoc_hull.arguments import file_path, once
 from assoc_hull.errors import BadInputError
-from assoc_hull.model.handles import Group, Line
+from assoc_hull.model.line import Group, Line
 from assoc_hull.variation.ask import VERSION, Ask
-from assoc_hull.variation.layout import Layout
+from assoc_hull.variation.parameters.layout import Layout
 
 __all__ = ["read_script", "script_of"]
 

@@ -8,10 +8,10 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
+from assoc_hull.variation.aiming.outputs import Outputs
 from assoc_hull.variation.hull_moves import HullMoves
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.outputs import Outputs
+from assoc_hull.variation.parameters.layout import Layout
 from assoc_hull.variation.sensitivity_table import Sensitivities
 
 __all__ = ["USUAL_OUTPUTS", "sensitivities"]
@@ -44,8 +44,8 @@ def sensitivities(
     parameters : iterable of k or None
         Each the name of a parameter that `vary` knows ("breadth", m or degrees),
         "mean_draught" or "trim" (m), a raw layer (by its strength), or one of
-        `assoc_hull.analysis.parameters` such as a `PointMove`; None: all that `vary` knows and
-        this hull has.
+        `assoc_hull.analysis.derivatives.parameters` such as a `PointMove`; None: all that `vary`
+        knows and this hull has.
     kg : float or None, m
         Centre of gravity above the base line, for metacentric heights.
     layout : mapping or Layout or None

@@ -17,25 +17,25 @@ from assoc_hull.edit.report import EditReport
 from assoc_hull.errors import BadInputError
 from assoc_hull.model.copy import copy_of
 from assoc_hull.model.state import HullState
-from assoc_hull.variation.aim_report import Aimed
-from assoc_hull.variation.anchors import measure_all
+from assoc_hull.variation.aiming.corrections import Settled, measured, settle
+from assoc_hull.variation.aiming.reach import settle_reach
+from assoc_hull.variation.aiming.report import Aimed
 from assoc_hull.variation.ask import Ask
-from assoc_hull.variation.carry_out import carry_out
-from assoc_hull.variation.catalogue import CATALOGUE
-from assoc_hull.variation.certificate import Certificate
-from assoc_hull.variation.field import Region
-from assoc_hull.variation.limits import present
+from assoc_hull.variation.carrying.carry_out import carry_out
+from assoc_hull.variation.carrying.room import Room
+from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.fields.field import Region
+from assoc_hull.variation.fields.space_map import VMap
 from assoc_hull.variation.notes import (
     also_changed,
     folds_outside,
     shifted_without_body,
     went_along,
 )
-from assoc_hull.variation.reaching import settle_reach
-from assoc_hull.variation.room import Room
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.limits import present
+from assoc_hull.variation.parameters.parameter_measures import measure_all
 from assoc_hull.variation.script import script_of
-from assoc_hull.variation.settled import Settled, measured, settle
-from assoc_hull.variation.vmap import VMap
 
 __all__ = ["Target", "VariationReport", "vary_document"]
 

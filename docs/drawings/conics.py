@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from assoc_hull.geometry.classical.combined_waterline import waterline
-from assoc_hull.geometry.classical.conformal import fit_conformal, lewis_sections
+from assoc_hull.geometry.classical.conformal_sections import fit_conformal, lewis_sections
 from assoc_hull.geometry.classical.pieces import PiecedCurve
 from drawings.common import DRIVEN, FAINT, FIXED, INK, PALE, SHARED
 

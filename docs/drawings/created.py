@@ -5,10 +5,10 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
-from assoc_hull.examples.versluis import AREAS, MOMENTS, X
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.plot import lines_plan
+from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
+from assoc_hull.shipped.versluis_section_areas import AREAS, MOMENTS, X
 from drawings.common import ACCENT, INK, PALE, SHARED
 
 __all__ = ["bulk_carrier_180m", "bulk_carrier_180m_parent"]

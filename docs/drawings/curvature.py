@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.plot.curvature_map import curvature_figure
-from assoc_hull.plot.development import development_figure
+from assoc_hull.plot.plates.curvature_map import curvature_figure
+from assoc_hull.plot.plates.development import development_figure
 
 __all__ = ["curvature_lines", "curvature_mixed", "curvature_typical", "plate_flat"]
 

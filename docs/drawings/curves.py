@@ -5,12 +5,12 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from assoc_hull.examples.contours import centre_profile, end_contours
-from assoc_hull.examples.flats import flat_of_bottom
-from assoc_hull.examples.series60_table import todd_table
 from assoc_hull.geometry.curves import CurveData
-from assoc_hull.geometry.evaluation import sample
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.io.offsets.contours import centre_profile, end_contours
+from assoc_hull.io.offsets.flats import flat_of_bottom
+from assoc_hull.shipped.series60_table import todd_table
 from drawings.common import DRIVEN, FAINT, FIXED, INK, PALE, SHARED, arrow, bare, curve, ship
 
 __all__ = ["completions", "knuckle_end"]

@@ -9,8 +9,8 @@ from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
+from assoc_hull.io.dxf.lines_plan import plan_drawing
 from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.plan_dxf import plan_drawing
 from assoc_hull.sources import examples
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.plot.hull_map import hull_map
-from assoc_hull.plot.surface_figure import surface_figure
+from assoc_hull.plot.plates.hull_map import hull_map
+from assoc_hull.plot.plates.lit_surface import surface_figure
 
 __all__ = ["hull_plates", "hull_surface"]
 

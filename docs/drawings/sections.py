@@ -5,11 +5,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from assoc_hull.examples.plain_ship import plain_ship_design
-from assoc_hull.model.forms.definition import GeneratedCurve
+from assoc_hull.model.definition_part import GeneratedCurve
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.generate import generated_points, layout_at, marks_for
+from assoc_hull.model.forms.generate import generated_points, marks_for
+from assoc_hull.model.forms.layout import layout_at
 from assoc_hull.model.forms.sections import section_shape
+from assoc_hull.shipped.plain_ship import plain_ship_design
 from drawings.common import ACCENT, DRIVEN, FIXED, INK, PALE, SHARED, WATCHED
 
 COLOURS = {

@@ -4,12 +4,12 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from assoc_hull.analysis.area_curve import area_curve
-from assoc_hull.analysis.flotation import flotation
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.variation.shift_ask import ShiftAsk
-from assoc_hull.variation.shift_solve import closed_form
-from assoc_hull.variation.shift_work import ShiftWork
+from assoc_hull.analysis.hydrostatics.area_curve import area_curve
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.variation.shifts.closed_form import closed_form
+from assoc_hull.variation.shifts.shift_request import ShiftAsk
+from assoc_hull.variation.shifts.trials import ShiftWork
 from drawings.common import DRIVEN, FAINT, INK, PALE, SHARED, ship
 
 __all__ = ["section_shifts"]

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import assoc_hull as ah
-from assoc_hull.geometry.crossing import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 from assoc_hull.plot import combs_plan, lines_plan
 from drawings.common import ACCENT, INK, PALE, SHARED, Floats
 

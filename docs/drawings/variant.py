@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import flotation
-from assoc_hull.analysis.section_areas import section_areas
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.analysis.hydrostatics.section_areas import section_areas
+from assoc_hull.geometry.floating.immersed import Planes
 from assoc_hull.plot import comparison_plan
 from drawings.common import ACCENT, FAINT, INK, PALE, Floats
 

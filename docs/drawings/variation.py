@@ -5,14 +5,14 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import assoc_hull as ah
-from assoc_hull.plot.variation import field_plan
-from assoc_hull.variation.anchors import measure_all
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.compose import compose
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.parent_of import parent_of
+from assoc_hull.plot.lines_plan.variation_fields import field_plan
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.parameters.compose_map import compose
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.read_parent import parent_of
 from drawings.common import DRIVEN, FAINT, INK, PALE, SHARED
 
 __all__ = ["rounded_hat", "variation_fields"]

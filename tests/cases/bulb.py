@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import freeze
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
 
 __all__ = [
     "ALONG", "DEPTH", "UP", "breadth_at", "bulb_hull", "contour", "girth", "gradient", "onto",

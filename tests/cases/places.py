@@ -12,9 +12,10 @@ from assoc_hull.edit.field import on_flat
 from assoc_hull.edit.normals import free_normals, hull_normals
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.order import folds
-from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.handles import Curve, Point
+from assoc_hull.geometry.splines.curve_order import folds
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.point import Point
 
 PAIRS = (("sections", "waterlines"), ("sections", "buttocks"), ("waterlines", "buttocks"))
 BoolArray = np.typing.NDArray[np.bool_]

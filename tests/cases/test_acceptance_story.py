@@ -10,11 +10,11 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.report import EditReport
-from assoc_hull.geometry.closest import closest
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.handles import Curve
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.kinds import Role, Sort
 from tests.independent import trouble
 
 NAMES = {"BTK 0.5": (10.0, 0.4), "BTK 1": (10.0, 2.5)}

@@ -13,7 +13,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.hull import Hull
-from assoc_hull.model.family import Role
+from assoc_hull.model.kinds import Role
 from benchmarks.affine_exactness import (
     SCALINGS,
     deviation,

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.arcs import find_arcs
-from assoc_hull.geometry.corners import find_corners
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.noise import scatter
-from assoc_hull.geometry.polyline import arc_length, resample
-from assoc_hull.geometry.straight import find_runs
-from assoc_hull.io.mesh import slice_mesh
-from assoc_hull.io.mesh_file import Triangles
-from assoc_hull.io.slice_features import plane_columns
+from assoc_hull.geometry.polylines.circular_arcs import find_arcs
+from assoc_hull.geometry.polylines.corners import find_corners
+from assoc_hull.geometry.polylines.noise import scatter
+from assoc_hull.geometry.polylines.operations import arc_length, resample
+from assoc_hull.geometry.polylines.straight import find_runs
+from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.io.slicing.features import plane_columns
+from assoc_hull.io.slicing.mesh import slice_mesh
 from tests import meshes
 
 SEEDS, NOISE = 200, 1e-3

@@ -10,8 +10,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.form.value import Value
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 
 LENGTH, HALF, DEPTH, DRAUGHT, BILGE = 100.0, 10.0, 12.0, 6.0, 2.0
 SMOOTH, TANGENT = int(PointKind.SMOOTH), int(PointKind.TANGENT)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.examples.bulk_carrier_180m import bulk_carrier_180m_design
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.spline import sample
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.forms.chains import chain_of
+from assoc_hull.shipped.bulk_carrier_180m import bulk_carrier_180m_design
 from tests.cases.versluis import AREAS, BREADTH, DRAUGHT, LPP, MOMENTS, X
 
 FULL = 292.59

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.volume import displaced
+from assoc_hull.analysis.hydrostatics.volume import displaced
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.fairness import inflections
-from assoc_hull.geometry.spline import evaluate, sample
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.evaluation import evaluate, sample
+from assoc_hull.model.kinds import Role, Sort
 from tests.independent import lost_meetings, trouble
 
 AXIS = {"sections": 0, "waterlines": 2, "buttocks": 1}

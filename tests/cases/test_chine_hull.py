@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.surfaces.triangles import Triangles, grid_triangles, merge_vertices
 from assoc_hull.hull import Hull
-from assoc_hull.io.digitised import read_lines
-from assoc_hull.io.mesh import slice_mesh
-from assoc_hull.io.mesh_file import Triangles, grid_triangles, merge_vertices
-from assoc_hull.io.slice_net import SliceReport, net_from_slices
-from assoc_hull.io.slice_types import Piece, SliceLine, Slices
-from assoc_hull.model.family import BoundaryKind
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.lines.slices import Piece, SliceLine, Slices
+from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.slicing.net import net_from_slices
+from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.state import HullState
-from tests.unit.io.test_digitised import as_csv
+from tests.unit.io.digitised.test_digitised import as_csv
 
 NOISE = 1e-3
 

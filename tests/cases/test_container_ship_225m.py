@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.examples.container_ship_225m import container_ship_225m_design
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.fairness import inflections
-from assoc_hull.geometry.spline import sample
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.forms.chains import chain_of
+from assoc_hull.shipped.container_ship_225m import container_ship_225m_design
 from tests.taken_back import taken_back
 
 LPP, BREADTH, DRAUGHT, FULL = 225.0, 32.0, 10.8, 0.975 * 32.0 * 10.8

@@ -8,10 +8,10 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.numeric.tensor_bernstein import basis
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.tensor_bernstein import basis
-from assoc_hull.surface.region_areas import RegionAreas
-from assoc_hull.surface.region_result import RegionResult
+from assoc_hull.surface.regions.region_areas import RegionAreas
+from assoc_hull.surface.regions.region_result import RegionResult
 from tests.curved_patches import graph_plates, patch, random_nets, references
 
 NAMES = tuple(references())

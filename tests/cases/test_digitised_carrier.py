@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from assoc_hull.examples import carrier_form as form
-from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, PointKind
+from assoc_hull.geometry.splines.closest import closest
 from assoc_hull.hull import Hull
-from assoc_hull.io.digitised import read_lines
-from assoc_hull.io.slice_net import SliceReport, net_from_slices
-from assoc_hull.model.family import BoundaryKind
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.slicing.net import net_from_slices
+from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.model.kinds import BoundaryKind
 from assoc_hull.model.state import HullState
+from assoc_hull.shipped import bulk_carrier_207k_form as form
 from tests.digitise import as_digitised
 
 NOISE = 1e-3

@@ -7,8 +7,8 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.gaps import tangents
+from assoc_hull.model.kinds import Role, Sort
 
 SPACING = 0.2
 """Adopted points keep this far from crossings, along the curve, m."""

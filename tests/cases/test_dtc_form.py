@@ -16,7 +16,7 @@ from assoc_hull.analysis.form.form_parameters import shape_of
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Value
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.io.mesh_file import read_triangles
+from assoc_hull.io.mesh.read import read_triangles
 
 LENGTH, DRAUGHT = 355.0, 14.5
 """Published; a mesh does not tell where its perpendiculars are."""

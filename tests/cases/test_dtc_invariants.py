@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.model.definition import definition
+from assoc_hull.model.definition.definition import definition
 from tests.cases.walk import walk
 from tests.independent import closure, relofted, snapshot
 from tests.properties.test_i01_consistency import assert_consistent
@@ -89,7 +89,7 @@ def test_what_was_decided_stays(dtc: ah.Hull) -> None:
 ANEW = """
 import random, sys
 from pathlib import Path
-import assoc_hull.io.slice_net as net
+import assoc_hull.io.slicing.net as net
 from tests.cases.dtc import read_dtc
 from tests.cases.walk import walk
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import flotation
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.section_areas import section_areas
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.analysis.hydrostatics.section_areas import section_areas
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.floating.immersed import Planes
 from tests import form_truths
 from tests.cases.test_hydrostatics_of_a_box import box_net
 from tests.nets import ellipsoid_net, wigley_net

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.surface_file import write_surfaces
+from assoc_hull.io.surfaces.surface_file import write_surfaces
 
 
 def test_the_published_wigley_surface_becomes_a_net(data_folder: Path) -> None:

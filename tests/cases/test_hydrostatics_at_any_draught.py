@@ -14,10 +14,10 @@ import pytest
 from numpy.typing import NDArray
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.examples.wigley import wigley
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.shipped.wigley import wigley
 from tests.nets import ellipsoid_net
 
 STEP = 1e-4

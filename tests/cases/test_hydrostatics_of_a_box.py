@@ -7,8 +7,8 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Association, Particulars
 
 LENGTH, BREADTH, DEPTH = 100.0, 20.0, 12.0

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.compute import table_of
-from assoc_hull.analysis.floating import FloatingPosition
-from assoc_hull.analysis.record import Hydrostatics
-from assoc_hull.examples.wigley import wigley as shipped_wigley
-from assoc_hull.geometry.immersion import prepare
+from assoc_hull.analysis.hydrostatics.compute import table_of
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.record import Hydrostatics
+from assoc_hull.geometry.floating.prepared_strips import prepare
 from assoc_hull.model.state import HullState
+from assoc_hull.shipped.wigley import wigley as shipped_wigley
 from tests import exact_hulls
 from tests.floating_bodies import StripBody, head
 from tests.nets import ellipsoid_net, wigley_net

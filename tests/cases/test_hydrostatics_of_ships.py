@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.analysis.section_areas import between_stations, section_areas
-from assoc_hull.examples.series60 import series60_adopted
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
+from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.shipped.series60 import series60_adopted
 
 TODD = {0.60: (0.614, -1.5), 0.70: (0.710, 0.5)}
 """CP, and LCB in per cent of Lpp from midship, + forward, as published."""

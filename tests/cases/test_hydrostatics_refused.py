@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import flotation
-from assoc_hull.examples.wigley import half_breadth
+from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.io.digitised import read_lines
-from assoc_hull.io.mesh import slice_mesh
-from assoc_hull.io.slice_net import net_from_slices
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.slicing.mesh import slice_mesh
+from assoc_hull.io.slicing.net import net_from_slices
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Association, Particulars
+from assoc_hull.shipped.wigley import half_breadth
 from tests.cases.test_chine_hull import chine_hull, scattered
 
 WIGLEY = 100.0, 10.0, 6.25

@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from assoc_hull.analysis.mesh_flotation import mesh_flotation
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.io.mesh_file import Triangles, read_triangles
+from assoc_hull.analysis.hydrostatics.mesh_flotation import mesh_flotation
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.io.mesh.read import read_triangles
 
 
 def test_the_container_ship_clipped_directly_has_the_published_values(data_folder: Path) -> None:

@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.panels.assemble import Choices, assemble, axes_of
 from assoc_hull.analysis.panels.bands import Waterplane, bands_of_strips
-from assoc_hull.geometry.isocurves import Strips
-from assoc_hull.geometry.panel_mesh import PanelMesh
+from assoc_hull.geometry.surfaces.isocurves import Strips
+from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from tests.exact_hulls import box, ellipsoid, wigley
 
 EXACT = 4.0 / 9.0 * 100.0 * 10.0 * 6.25

@@ -10,8 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.panels.build import panels
-from assoc_hull.analysis.panels.points import section_points
-from assoc_hull.analysis.panels.quality import panel_report
+from assoc_hull.analysis.panels.mesh_quality import panel_report
+from assoc_hull.analysis.panels.section_points import section_points
 from assoc_hull.errors import AssocHullError, OutOfRangeError
 from assoc_hull.hull import Hull
 from assoc_hull.model.state import HullState

@@ -15,9 +15,9 @@ import assoc_hull as ah
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.largest_section import largest_section
 from assoc_hull.analysis.form.slices import Slices, slices
-from assoc_hull.geometry.between_planes import between
-from assoc_hull.geometry.cross_sections import areas_at
-from assoc_hull.geometry.quadrature import gauss
+from assoc_hull.geometry.floating.between_planes import between
+from assoc_hull.geometry.floating.cross_sections import areas_at
+from assoc_hull.geometry.numeric.quadrature import gauss
 from tests import twin_skeg
 from tests.cases.test_twin_skeg import half_area
 

@@ -5,9 +5,9 @@ import pytest
 
 from assoc_hull.geometry.classical.arc_pieces import Pieces
 from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.segments import power
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.segments import power
 from assoc_hull.hull import Hull
 from assoc_hull.production import ProductionArcs, production_arcs
 from tests.arc_optimum import PlaneCurve, fewest_exact

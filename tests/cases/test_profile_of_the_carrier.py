@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 import assoc_hull as ah
 from assoc_hull.analysis.form.value import Value
-from assoc_hull.examples import carrier_form as form
+from assoc_hull.shipped import bulk_carrier_207k_form as form
 
 FP, DRAUGHT, STATION = form.LENGTH, form.DRAUGHT, form.LENGTH / 20.0
 BULB_LOW, BULB_HIGH = form.pieces(FP)[0]

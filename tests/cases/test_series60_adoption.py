@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.edit.keep import deviation
-from assoc_hull.examples.series60 import series60_adopted
-from assoc_hull.examples.series60_table import todd_table
-from assoc_hull.geometry.closest import closest
+from assoc_hull.edit.newline.curve_deviation import deviation
 from assoc_hull.geometry.curves import CurveData, SplineBatch
-from assoc_hull.geometry.fairness import inflections
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.fairness.inflections import inflections
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.hull import Hull
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.shipped.series60 import series60_adopted
+from assoc_hull.shipped.series60_table import todd_table
 
 CASES = pytest.mark.parametrize("cb", [0.60, 0.70], ids=["CB .60", "CB .70"])
 

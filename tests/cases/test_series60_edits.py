@@ -9,7 +9,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.normals import hull_normals
-from assoc_hull.model.handles import Point
+from assoc_hull.model.point import Point
 from tests.cases import places
 
 PLACES = 24

@@ -13,7 +13,7 @@ from assoc_hull.edit.normals import hull_normals
 from assoc_hull.edit.report import EditReport
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.model.address import address
-from assoc_hull.model.handles import Curve
+from assoc_hull.model.curve import Curve
 from tests.cases import places
 from tests.independent import relofted, snapshot
 

@@ -13,13 +13,13 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.blend import BLENDS, CUBIC, QUINTIC, Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.features_circle import Circle, redraw, touch
-from assoc_hull.variation.features_map import FeatureMap, acting
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.features.circle import Circle, redraw, touch
+from assoc_hull.variation.features.map import FeatureMap, acting
+from assoc_hull.variation.fields.blend import BLENDS, CUBIC, QUINTIC, Blend
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.space_map import VMap
 from tests.boss_map import boss_map
 
 SHAFT, BOSS, RADIUS = 5.0, 0.725, 1.0

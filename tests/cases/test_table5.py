@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from assoc_hull.analysis.form.catalogue import CATALOGUE
+from assoc_hull.analysis.form.entries.midship import radius_from_area
 from assoc_hull.analysis.form.evaluate import check_catalogue, evaluate
-from assoc_hull.analysis.form.midship import radius_from_area
 from assoc_hull.analysis.form.parameter import Parameter, parameter
 from assoc_hull.analysis.form.value import Value
 from tests.table5 import CLASSES, DIAMETER, INFERRED, PRINTED, Class

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.pending import Settings
+from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.geometry.crossing import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 from assoc_hull.model.copy import copy_of
-from assoc_hull.variation.apply import apply
+from assoc_hull.variation.carrying.apply import apply
 from tests.boss_map import boss_map
 from tests.taken_back import taken_back
 

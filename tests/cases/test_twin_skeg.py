@@ -10,10 +10,10 @@ import pytest
 from scipy.integrate import quad
 
 import assoc_hull as ah
-from assoc_hull.analysis.flotation import flotation
 from assoc_hull.analysis.form.value import Value
-from assoc_hull.analysis.section_areas import between_stations, section_areas
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.analysis.hydrostatics.section_areas import between_stations, section_areas
+from assoc_hull.geometry.floating.immersed import Planes
 from tests import twin_skeg as ship
 
 STATION = ship.LENGTH / 20.0

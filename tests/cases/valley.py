@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import assoc_hull as ah
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
 
 LENGTH, BREADTH, DEPTH = 80.0, 12.0, 8.0
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from assoc_hull.examples.versluis import AREAS, BREADTH, DRAUGHT, LPP, MOMENTS, X
+from assoc_hull.shipped.versluis_section_areas import AREAS, BREADTH, DRAUGHT, LPP, MOMENTS, X
 
 __all__ = ["AREAS", "BREADTH", "DRAUGHT", "LPP", "MOMENTS", "X"]

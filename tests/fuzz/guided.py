@@ -17,19 +17,19 @@ __all__ = ["READERS"]
 
 
 def _offsets(text: str) -> object:
-    from assoc_hull.io.offsets import read_offsets
+    from assoc_hull.io.offsets.read import read_offsets
 
     return read_offsets(text + "\n", length=60.0)
 
 
 def _lines(text: str) -> object:
-    from assoc_hull.io.digitised import read_lines
+    from assoc_hull.io.digitised.read import read_lines
 
     return read_lines(text + "\n")
 
 
 def _iges(text: str) -> object:
-    from assoc_hull.io.iges_read import surfaces_of_iges
+    from assoc_hull.io.iges.read import surfaces_of_iges
 
     return surfaces_of_iges(text, "file.igs")
 

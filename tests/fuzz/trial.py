@@ -18,7 +18,7 @@ import attrs
 from assoc_hull import cli
 from assoc_hull.cli.parser import make_parser
 from assoc_hull.errors import AssocHullError
-from assoc_hull.io.hull_file_open import open_hull_file
+from assoc_hull.io.hull_file.open import open_hull_file
 from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
 

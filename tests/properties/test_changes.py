@@ -8,8 +8,8 @@ import assoc_hull as ah
 from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model.change import TABLES, change_of, run_change
-from assoc_hull.model.definition import fingerprint
-from assoc_hull.model.prints import Printer, is_shape
+from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.fingerprint import Printer, is_shape
 from assoc_hull.model.state import HullState
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, tasks
 

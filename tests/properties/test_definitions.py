@@ -15,10 +15,10 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError
 from assoc_hull.model import regenerate
 from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition import definition
+from assoc_hull.model.definition.definition import definition
+from assoc_hull.model.definition.restore import from_definition
 from assoc_hull.model.forms.generate import generated_points
 from assoc_hull.model.generated import attached
-from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState
 from tests.formed import formed
 from tests.independent import closure, relofted, snapshot

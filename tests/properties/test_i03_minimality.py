@@ -10,10 +10,10 @@ import numpy as np
 from hypothesis import given, settings
 
 import assoc_hull as ah
-from assoc_hull.edit import work
+from assoc_hull.edit import update_passes as work
 from assoc_hull.edit.report import EditReport
-from assoc_hull.graph import run as engine
-from assoc_hull.graph.run import Pass
+from assoc_hull.graph import run_update as engine
+from assoc_hull.graph.run_update import Pass
 from tests.cases import places
 from tests.independent import closure, relofted, snapshot
 from tests.net_strategies import (

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.kinds import Role, Sort
 from tests.net_strategies import (
     SHAPES,
     STRUCTURE,

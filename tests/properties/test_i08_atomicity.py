@@ -26,7 +26,7 @@ from assoc_hull.graph.journal import Journal
 from assoc_hull.graph.node import Evaluation
 from assoc_hull.graph.table import ArrayColumn
 from assoc_hull.model import network
-from assoc_hull.model.family import State
+from assoc_hull.model.kinds import State
 from assoc_hull.model.network import HullNetwork
 from assoc_hull.model.state import HullState
 from tests.cases import places

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from assoc_hull.geometry.backend import backend, set_backend
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import CurveData, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.backend import backend, set_backend
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 
 FIELDS = ("knot", "xyz", "leave", "arrive")
 NORMALS = [(1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.48, 0.6, 0.64)]

@@ -11,8 +11,8 @@ import pytest
 SHUFFLES = """
 import random, sys
 from importlib import import_module
-import assoc_hull.edit.adopt as home
-from assoc_hull.model.definition import fingerprint
+import assoc_hull.edit.adoption.adopt as home
+from assoc_hull.model.definition.definition import fingerprint
 
 seed = int(sys.argv[1])
 plain = home.adopt
@@ -23,10 +23,10 @@ def shuffled(sources, particulars, associations, tolerances=None):
     chance.shuffle(associations)
     return plain(sources, particulars, associations, tolerances)
 
-for name in ("examples.wigley", "io.offset_net", "examples.bulk_carrier"):
+for name in ("shipped.wigley", "io.offsets.net", "shipped.bulk_carrier"):
     import_module(f"assoc_hull.{name}").adopt = shuffled
-wigley = import_module("assoc_hull.examples.wigley").wigley
-series60 = import_module("assoc_hull.examples.series60")
+wigley = import_module("assoc_hull.shipped.wigley").wigley
+series60 = import_module("assoc_hull.shipped.series60")
 makers = {
     "wigley": wigley,
     "series60-060": lambda: series60.series60_adopted(0.60)[0],
@@ -39,7 +39,7 @@ for name, make in makers.items():
         print(name, fingerprint(make()))
 chance = random.Random(seed)
 if seed % 2:
-    carrier = import_module("assoc_hull.examples.bulk_carrier").bulk_carrier_207k_adopted
+    carrier = import_module("assoc_hull.shipped.bulk_carrier").bulk_carrier_207k_adopted
     print("carrier", fingerprint(carrier()[0]))
 else:
     print("whole", fingerprint(series60.series60(0.70)))

@@ -17,18 +17,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assoc_hull.edit.document import Document
-from assoc_hull.edit.pending import Settings
+from assoc_hull.edit.pending_changes import Settings
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import RefusedEditError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.node import Readers
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.canonical import places, point_columns
-from assoc_hull.model.definition import definition, fingerprint
+from assoc_hull.model.definition.canonical_columns import places, point_columns
+from assoc_hull.model.definition.definition import definition, fingerprint
+from assoc_hull.model.definition.restore import from_definition
+from assoc_hull.model.definition.verify import verify
 from assoc_hull.model.network import HullNetwork
-from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState, curve_node, row_node
-from assoc_hull.model.verify import verify
 from tests.strategies import (
     Move,
     Net,
@@ -47,15 +47,15 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 # What another process does with definitions: make hulls of them, and name their content.
 FINGERPRINTS = """
 import json, sys
-from assoc_hull.model.canonical import places, point_columns
-from assoc_hull.model.definition import fingerprint
-from assoc_hull.model.restore import from_definition
+from assoc_hull.model.definition.canonical_columns import places, point_columns
+from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.restore import from_definition
 for line in sys.stdin:
     print(fingerprint(from_definition(json.loads(line))))
 """
 EDITED = """
-from assoc_hull.model.canonical import places, point_columns
-from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.definition.canonical_columns import places, point_columns
+from assoc_hull.model.definition.definition import fingerprint
 from tests.strategies import Move, PinnedEdit, apply_edit, make_document, wigley_sources
 document = make_document(wigley_sources(5, 3, 2))
 for which in range(0, 60, 7):

@@ -12,7 +12,7 @@ import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.family import Role, Sort
+from assoc_hull.model.kinds import Role, Sort
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import SHAPES, STRUCTURE, Task, carry_out, hulls, tasks
 

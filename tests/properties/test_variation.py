@@ -10,11 +10,11 @@ from hypothesis.strategies import SearchStrategy
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
-from assoc_hull.model.family import Sort
+from assoc_hull.model.kinds import Sort
 from assoc_hull.variation.ask import Stations
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.hat import hat
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.piecewise_linear import Chain
 from tests.independent import lost_meetings, trouble
 from tests.net_strategies import POOL, SHAPES, STRUCTURE, Task, carry_out, fresh, hulls, tasks
 

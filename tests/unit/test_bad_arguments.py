@@ -14,14 +14,17 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.parameters import DRAUGHT
+from assoc_hull.analysis.derivatives.parameters import DRAUGHT
+from assoc_hull.creation.classical.main_types import require_types
 from assoc_hull.creation.classical.middle_body import MiddleBody
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.creation.classical.prelikon_stations import Station
 from assoc_hull.creation.classical.seaking import Seaking
 from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.seaking_sections import MidshipSection
 from assoc_hull.creation.classical.sfolds import Sfolds
+from assoc_hull.creation.classical.sfolds_portion import Portion, require_apart, three_eighths
 from assoc_hull.edit.session import Edit
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
@@ -36,25 +39,22 @@ from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.frame_parabolas import run_bends
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.main_types import require_types
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.classical.portion import Portion, require_apart, three_eighths
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.io.cad.write import write_cad
 from assoc_hull.io.classical.read import holds_definition, read_definition
-from assoc_hull.io.closed_mesh_file import write_mesh
-from assoc_hull.io.hull_surface_file import write_surface
-from assoc_hull.io.iges_lines import write_iges_lines
-from assoc_hull.plot.hull_map import hull_map
-from assoc_hull.plot.surface_figure import surface_figure
+from assoc_hull.io.iges.lines import write_iges_lines
+from assoc_hull.io.mesh.closed_mesh_file import write_mesh
+from assoc_hull.io.surfaces.hull_surface_file import write_surface
+from assoc_hull.plot.plates.hull_map import hull_map
+from assoc_hull.plot.plates.lit_surface import surface_figure
 from assoc_hull.sources import Examples
 from assoc_hull.surface.cells.hull_mesh import closed_mesh
-from assoc_hull.surface.hull_plates.hull_plates import hull_plates
-from assoc_hull.surface.seams import Seams
+from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.surface.plates.seams import Seams
 from tests.cut_hulls import three_blocks
 from tests.formed import formed
 

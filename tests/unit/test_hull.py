@@ -9,9 +9,9 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.edit.session import Edit
 from assoc_hull.errors import BadInputError, ForeignPointError, UnknownNameError
-from assoc_hull.examples.wigley import half_breadth
 from assoc_hull.model.address import AddressBook
 from assoc_hull.model.state import HullState
+from assoc_hull.shipped.wigley import half_breadth
 
 POINT = "WL 2.5 x ST 7"
 

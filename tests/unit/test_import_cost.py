@@ -22,7 +22,14 @@ HEAVY = [
 ]
 
 
-LATE = ["edit.adopt", "edit.check_hull", "edit.explain", "edit.preview", "io", "plot"]
+LATE = [
+    "edit.adoption",
+    "edit.checks.hull",
+    "edit.explain.explain",
+    "edit.explain.preview",
+    "io",
+    "plot",
+]
 
 
 def modules_after(statement: str) -> set[str]:
@@ -58,7 +65,7 @@ def test_a_hull_loads_what_few_sessions_need_when_they_do(module: str, loaded: s
 
 def test_lofting_loads_geometry_only() -> None:
     """Whoever lofts and cuts curves does not wait for the modules of whole hulls."""
-    found = modules_after("from assoc_hull.geometry.spline import loft")
+    found = modules_after("from assoc_hull.geometry.splines.loft import loft")
     units = {name.split(".")[1] for name in found if name.startswith("assoc_hull.")}
     packages = {
         "examples",
@@ -85,6 +92,6 @@ def test_an_unknown_name_is_refused() -> None:
 
 def test_the_examples_stay_what_they_are() -> None:
     """Importing the modules behind them does not bind the name to the subpackage."""
-    script = "import assoc_hull.examples.wigley; print(assoc_hull.examples.wigley.__self__)"
+    script = "import assoc_hull.shipped.wigley; print(assoc_hull.shipped.wigley.__self__)"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert "Examples" in run.stdout

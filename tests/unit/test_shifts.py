@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.record import Hydrostatics
+from assoc_hull.analysis.hydrostatics.record import Hydrostatics
 from assoc_hull.errors import AssocHullError, BadInputError, OutOfRangeError
-from assoc_hull.geometry.evaluation import sample
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.shifts import Shifted
 from assoc_hull.variants import vary_by
-from assoc_hull.variation.fairness_of import compare_fairness, measure_fairness
-from assoc_hull.variation.swing import swung
+from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
+from assoc_hull.variation.shifts.swing_hull import swung
 from tests.conftest import Shipped
 
 

@@ -12,9 +12,9 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.hat import hat
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.piecewise_linear import Chain
 
 SCRIPT: dict[str, Any] = {
     "version": 1,

@@ -12,12 +12,12 @@ from typing import Any, NoReturn
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.derivatives.tangents import Tangents, carried
 from assoc_hull.analysis.form.largest_section import largest_section, parallel_body
 from assoc_hull.analysis.form.shape import STATIONS, Shape
 from assoc_hull.analysis.form.slices import slices
-from assoc_hull.analysis.tangents import Tangents, carried
-from assoc_hull.geometry.dual import real
-from assoc_hull.geometry.varied_slices import area_with_tangents, slice_with_tangents
+from assoc_hull.geometry.floating.varied_slices import area_with_tangents, slice_with_tangents
+from assoc_hull.geometry.numeric.dual import real
 
 __all__ = ["CarriedShape", "SearchedForError"]
 

@@ -6,14 +6,13 @@ one's own is handed to `form_parameters` and needs no change anywhere.
 
 from __future__ import annotations
 
-from assoc_hull.analysis.form import (
+from assoc_hull.analysis.form.entries import (
     after_section,
     bow,
     floating,
     fore_section,
     midship,
     particulars,
-    parts,
     proportions,
     resistance,
     skeg,
@@ -22,8 +21,11 @@ from assoc_hull.analysis.form import (
     waterline,
     waterplane_coefficients,
 )
+from assoc_hull.analysis.form.entries import (
+    ship_parts as parts,
+)
 from assoc_hull.analysis.form.evaluate import check_catalogue
-from assoc_hull.model.named import Named
+from assoc_hull.model.named_mapping import Named
 
 __all__ = ["CATALOGUE"]
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from assoc_hull.analysis.floating import require_numbers
-from assoc_hull.analysis.flotation import flotation
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.evaluate import check_catalogue, evaluate
 from assoc_hull.analysis.form.parameter import Parameter
 from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Value
-from assoc_hull.analysis.hydrostatic_header import SALT
-from assoc_hull.analysis.hydrostatics import position_of
-from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
+from assoc_hull.analysis.hydrostatics.floating import require_numbers
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT
+from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of, state_of
 from assoc_hull.arguments import shown
 from assoc_hull.errors import WrongTypeError
-from assoc_hull.model.named import Named
+from assoc_hull.model.named_mapping import Named
 
 __all__ = ["form_parameters", "shape_of"]
 

@@ -8,10 +8,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.geometry.cross_sections import areas_at
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.strip_spans import Spans
+from assoc_hull.geometry.floating.cross_sections import areas_at
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.strip_spans import Spans
 
 __all__ = ["EQUAL", "LargestSection", "largest_section", "parallel_body"]
 

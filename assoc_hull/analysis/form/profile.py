@@ -6,10 +6,10 @@ import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent
-from assoc_hull.geometry.beside import area_along, beside, runs
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.places import Places, across, turning_places
-from assoc_hull.geometry.segments import power
+from assoc_hull.geometry.integrals.beside import area_along, beside, runs
+from assoc_hull.geometry.splines.plane_places import Places, across, turning_places
+from assoc_hull.geometry.splines.segments import power
 
 __all__ = [
     "LEAST_BULB", "NO_PROFILE", "area_before_fp", "bulb_tip", "profile_at", "profile_curves",

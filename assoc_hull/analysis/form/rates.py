@@ -19,17 +19,17 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.floating import FloatingPosition
+from assoc_hull.analysis.derivatives.reused_layout import moved
+from assoc_hull.analysis.derivatives.tangents import Tangents, dots
 from assoc_hull.analysis.form.carried import CarriedShape, SearchedForError
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.evaluate import evaluate
 from assoc_hull.analysis.form.parameter import SHAPE, Parameter
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent, Warned
-from assoc_hull.analysis.moved import moved
-from assoc_hull.analysis.tangents import Tangents, dots
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.dual import Dual
+from assoc_hull.geometry.numeric.dual import Dual
 
 __all__ = ["FormRates", "form_rates"]
 

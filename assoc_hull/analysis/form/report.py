@@ -8,18 +8,18 @@ from typing import Any
 
 import attrs
 
-from assoc_hull.analysis.floating import FloatingPosition, planes_of
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.form_parameters import form_parameters, shape_of
 from assoc_hull.analysis.form.parameter import Parameter
 from assoc_hull.analysis.form.screw import Screw
 from assoc_hull.analysis.form.tables import GIVEN, TABLES, TITLES, by_table
 from assoc_hull.analysis.form.value import Value
-from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.arguments import all_of, choice, text
 from assoc_hull.errors import BadInputError
-from assoc_hull.model.definition import fingerprint
+from assoc_hull.model.definition.definition import fingerprint
 
 __all__ = ["FormReport", "Part", "Row", "form_report", "number_text"]
 

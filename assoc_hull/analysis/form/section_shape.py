@@ -7,14 +7,14 @@ from functools import cached_property
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.form.half_section import half_section
 from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent, Found
-from assoc_hull.analysis.half_section import half_section
-from assoc_hull.geometry.beside import area_along, beside, one_way
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.integrals import section_area
-from assoc_hull.geometry.places import across, turning_places
-from assoc_hull.geometry.segments import power
+from assoc_hull.geometry.integrals.area_moments import section_area
+from assoc_hull.geometry.integrals.beside import area_along, beside, one_way
+from assoc_hull.geometry.splines.plane_places import across, turning_places
+from assoc_hull.geometry.splines.segments import power
 
 __all__ = ["Section", "radius_of_three", "section_at"]
 

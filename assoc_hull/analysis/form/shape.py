@@ -12,13 +12,13 @@ from typing import TypeVar, cast
 
 import attrs
 
-from assoc_hull.analysis.compute import table_of
-from assoc_hull.analysis.floating import FloatingPosition, require_afloat
-from assoc_hull.analysis.flotation import Flotation
 from assoc_hull.analysis.form.screw import Screw
-from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.record import Hydrostatics
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.analysis.hydrostatics.compute import table_of
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, require_afloat
+from assoc_hull.analysis.hydrostatics.flotation import Flotation
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.record import Hydrostatics
+from assoc_hull.geometry.floating.immersed import Planes
 
 __all__ = ["Shape"]
 

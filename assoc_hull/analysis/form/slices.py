@@ -6,13 +6,16 @@ import attrs
 import numpy as np
 
 from assoc_hull.analysis.form.shape import Shape
-from assoc_hull.geometry.between_planes import Between, between
-from assoc_hull.geometry.cross_sections import cross_section
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersed_sections import sections_and_moments_below, sections_below
-from assoc_hull.geometry.immersion_roots import candidates, cuts, tilt
-from assoc_hull.geometry.immersion_tiles import from_curves, powers
-from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.floating.between_planes import Between, between
+from assoc_hull.geometry.floating.cross_sections import cross_section
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersed_sections import (
+    sections_and_moments_below,
+    sections_below,
+)
+from assoc_hull.geometry.floating.immersion_roots import candidates, cuts, tilt
+from assoc_hull.geometry.floating.tiles import from_curves, powers
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = ["Slices", "slices"]
 

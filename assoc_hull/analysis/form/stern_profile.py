@@ -11,10 +11,10 @@ from assoc_hull.analysis.form.shape import Shape
 from assoc_hull.analysis.form.value import Absent
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.analysis.net.sections import CENTRE
-from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.evaluation import sample
-from assoc_hull.geometry.places import turning_places
+from assoc_hull.geometry.numeric.circle_fit import fit_circle
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.plane_places import turning_places
 
 __all__ = [
     "Boss", "aft_end", "boss", "boss_curve", "bottom_at", "height_above", "leaves_boss", "transom",

@@ -6,9 +6,9 @@ import numpy as np
 
 from assoc_hull.analysis.net.cells import Layout
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersed_sections import sections_below
-from assoc_hull.geometry.isocurves import Strips
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersed_sections import sections_below
+from assoc_hull.geometry.surfaces.isocurves import Strips
 
 __all__ = ["areas_between", "reaches"]
 

@@ -9,18 +9,18 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.net.anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.analysis.net.gather import Net, Part, walk
 from assoc_hull.analysis.net.loops import Frame, Unbounded, frames
 from assoc_hull.analysis.net.parallel import parallel_slabs
 from assoc_hull.analysis.net.sections import CENTRE
 from assoc_hull.analysis.net.slabs import arcs, planes
-from assoc_hull.geometry.coons import Cells
+from assoc_hull.analysis.net.strip_anchors import Anchor, Spot, anchors, spans, steady
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.evaluation import evaluate
-from assoc_hull.geometry.paths import Bit, Paths, PathShapes, shapes
-from assoc_hull.geometry.polynomials import hermite
-from assoc_hull.geometry.tile_sums import nil
+from assoc_hull.geometry.numeric.generic_sums import nil
+from assoc_hull.geometry.numeric.polynomials import hermite
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.paths import Bit, Paths, PathShapes, shapes
+from assoc_hull.geometry.surfaces.coons import Cells
 
 __all__ = ["Layout", "blends", "lay_out"]
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.paths import Bit
-from assoc_hull.model.family import BoundaryKind, Role, Sort
+from assoc_hull.geometry.splines.paths import Bit
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
 from assoc_hull.model.state import HullState
 
 __all__ = ["Net", "Part", "gather", "walk"]

@@ -15,7 +15,7 @@ import numpy as np
 from assoc_hull.analysis.net.gather import Net, Part
 from assoc_hull.analysis.net.slabs import ON_PLANE, Arc
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.evaluation import evaluate
+from assoc_hull.geometry.splines.evaluation import evaluate
 
 __all__ = ["Frame", "Unbounded", "frames"]
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.integrals import section_area
+from assoc_hull.geometry.integrals.area_moments import section_area
 
 __all__ = ["parallel_slabs"]
 

@@ -7,11 +7,11 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.dual import real
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersed_sections import sections_below
-from assoc_hull.geometry.isocurves import IsoCurves
-from assoc_hull.geometry.segments import power
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersed_sections import sections_below
+from assoc_hull.geometry.numeric.dual import real
+from assoc_hull.geometry.splines.segments import power
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 
 __all__ = ["CENTRE", "Sections", "areas_of_ends", "flat_ends_below", "sections_of"]
 

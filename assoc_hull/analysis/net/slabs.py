@@ -7,10 +7,10 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net, Part
 from assoc_hull.geometry.curves import FloatArray, SplineBatch
-from assoc_hull.geometry.evaluation import evaluate
-from assoc_hull.geometry.polynomials import horner
-from assoc_hull.geometry.roots import unit_roots
-from assoc_hull.geometry.segments import bernstein, power
+from assoc_hull.geometry.numeric.polynomials import horner
+from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.geometry.splines.segments import bernstein, power
 
 __all__ = ["ON_PLANE", "Arc", "arcs", "planes"]
 

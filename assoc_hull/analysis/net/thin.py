@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.recipe import curve_data
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.lofting import curve_data
 from assoc_hull.model.state import HullState
 
 __all__ = ["every_other_line", "every_other_section", "thinned"]

@@ -8,14 +8,14 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.panels.arc_division import Divided, divide
 from assoc_hull.analysis.panels.bands import Band, Waterplane
 from assoc_hull.analysis.panels.caps import caps
-from assoc_hull.analysis.panels.division import Divided, divide
 from assoc_hull.analysis.panels.fill import between, grid_panels
 from assoc_hull.analysis.panels.levels import levels
 from assoc_hull.analysis.panels.sheets import Sheet, sheets
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.panel_mesh import welded
+from assoc_hull.geometry.surfaces.panel_mesh import welded
 
 __all__ = ["Axes", "Choices", "assemble", "axes_of"]
 

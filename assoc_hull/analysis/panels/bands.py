@@ -12,12 +12,12 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.flotation import Flotation
+from assoc_hull.analysis.hydrostatics.flotation import Flotation
 from assoc_hull.analysis.net.gather import Part
 from assoc_hull.analysis.net.loops import Frame
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.isocurves import IsoCurves, Strips
-from assoc_hull.geometry.wet_runs import WetRuns, wet_runs
+from assoc_hull.geometry.floating.wetted_curves import WetRuns, wet_runs
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves, Strips
 
 __all__ = ["Band", "Waterplane", "bands", "bands_of_strips"]
 

@@ -8,18 +8,22 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.floating import FloatingPosition, require_afloat, require_numbers
-from assoc_hull.analysis.flotation import Flotation, flotation
-from assoc_hull.analysis.hydrostatics import position_of
-from assoc_hull.analysis.measured_hull import HasState, header_of, state_of
+from assoc_hull.analysis.hydrostatics.floating import (
+    FloatingPosition,
+    require_afloat,
+    require_numbers,
+)
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
+from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, header_of, state_of
 from assoc_hull.analysis.panels.assemble import Axes, Choices, assemble, axes_of
 from assoc_hull.analysis.panels.bands import Band, Waterplane, bands
 from assoc_hull.analysis.panels.stations import columns_and_rows, extent, spaced
 from assoc_hull.arguments import choice, flag, integer, number, numbers, positive, shown
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.panel_mesh import PanelMesh, PanelOrigin
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh, PanelOrigin
 
 __all__ = ["Side", "Spacing", "panels"]
 

@@ -11,8 +11,8 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from assoc_hull.analysis.panels.arc_division import Arc, Divided
 from assoc_hull.analysis.panels.bands import Waterplane
-from assoc_hull.analysis.panels.division import Arc, Divided
 from assoc_hull.analysis.panels.fill import blended
 from assoc_hull.analysis.panels.sheets import Sheet
 from assoc_hull.geometry.curves import FloatArray

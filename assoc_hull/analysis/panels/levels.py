@@ -13,7 +13,7 @@ import numpy as np
 
 from assoc_hull.analysis.panels.bands import Band, Waterplane
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.wet_runs import WetRuns
+from assoc_hull.geometry.floating.wetted_curves import WetRuns
 
 __all__ = ["Levels", "levels"]
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from assoc_hull.analysis.panels.bands import Band, Waterplane
 from assoc_hull.analysis.panels.levels import Levels
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.equal_arcs import Chains
-from assoc_hull.geometry.wet_runs import WetRuns
+from assoc_hull.geometry.floating.wetted_curves import WetRuns
+from assoc_hull.geometry.splines.equal_arcs import Chains
 
 __all__ = ["Sheet", "sheets"]
 

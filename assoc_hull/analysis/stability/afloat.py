@@ -5,11 +5,11 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage, with_appendages
-from assoc_hull.analysis.bracketed import newton
-from assoc_hull.analysis.floating_body import Floats
+from assoc_hull.analysis.hydrostatics.appendage import Appendage, with_appendages
+from assoc_hull.analysis.hydrostatics.bracketed import newton
+from assoc_hull.analysis.hydrostatics.floating_body import Floats
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
 
 __all__ = ["EXACT", "Afloat", "sinkage"]
 

@@ -6,12 +6,12 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from assoc_hull.analysis.floating import rising
-from assoc_hull.analysis.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatics.floating import rising
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
 from assoc_hull.arguments import choice
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.floating.immersed import Planes
 
 __all__ = ["HEELS", "OnError", "checked_on_error", "heels_of", "require_sound"]
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import require_volume
-from assoc_hull.analysis.floating import (
+from assoc_hull.analysis.hydrostatics.appendage import require_volume
+from assoc_hull.analysis.hydrostatics.floating import (
     FloatingPosition,
     planes_of,
     require_afloat,
     require_numbers,
 )
-from assoc_hull.analysis.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
-from assoc_hull.analysis.hydrostatics import position_of
-from assoc_hull.analysis.loading import Load, immersion
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.hydrostatics import position_of
+from assoc_hull.analysis.hydrostatics.loading import Load, immersion
 from assoc_hull.analysis.stability.afloat import Afloat
 from assoc_hull.analysis.stability.levers import Case, TrimRule
 from assoc_hull.errors import BadInputError

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.analysis.floating import planes_of, rising
-from assoc_hull.analysis.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
+from assoc_hull.analysis.hydrostatics.appendage import Appendage
+from assoc_hull.analysis.hydrostatics.floating import planes_of, rising
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, body_of, header_of
 from assoc_hull.analysis.stability.asked import OnError, checked_on_error, heels_of, require_sound
 from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
 from assoc_hull.analysis.stability.heeled import heeled

@@ -12,15 +12,15 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.analysis.equilibrium import tons
-from assoc_hull.analysis.floating import FloatingPosition, planes_of
-from assoc_hull.analysis.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
+from assoc_hull.analysis.hydrostatics.appendage import Appendage
+from assoc_hull.analysis.hydrostatics.crossings import crossings
+from assoc_hull.analysis.hydrostatics.equilibrium import tons
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition, planes_of
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, body_of, header_of
 from assoc_hull.analysis.stability.asked import OnError, checked_on_error, require_sound
 from assoc_hull.analysis.stability.condition import Asked, Condition, case_of, condition_of
-from assoc_hull.analysis.stability.crossings import crossings
 from assoc_hull.analysis.stability.flooding import open_deck_limit
 from assoc_hull.analysis.stability.heeled import Heeled, heeled
 from assoc_hull.analysis.stability.levers import Case

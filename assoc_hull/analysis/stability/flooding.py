@@ -7,17 +7,17 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.floating import Limits
-from assoc_hull.analysis.floating_body import Floats
-from assoc_hull.analysis.freeboard import deck_edge_angle
+from assoc_hull.analysis.hydrostatics.crossings import crossings
+from assoc_hull.analysis.hydrostatics.floating import Limits
+from assoc_hull.analysis.hydrostatics.floating_body import Floats
+from assoc_hull.analysis.hydrostatics.freeboard import deck_edge_angle
 from assoc_hull.analysis.stability.condition import Condition
-from assoc_hull.analysis.stability.crossings import crossings
 from assoc_hull.analysis.stability.heeled import heeled
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
 from assoc_hull.analysis.stability.levers import Case
 from assoc_hull.arguments import checked, flag, place, text
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
 
 __all__ = ["Flooding", "FloodingPoint", "both_sides", "drowned_at", "open_deck_limit"]
 

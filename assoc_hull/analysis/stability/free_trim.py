@@ -16,9 +16,9 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.bracketed import newton
+from assoc_hull.analysis.hydrostatics.bracketed import newton
+from assoc_hull.analysis.hydrostatics.trim_lever import STEEPEST, trim_lever
 from assoc_hull.analysis.stability.afloat import EXACT, Afloat, sinkage
-from assoc_hull.analysis.trim_lever import STEEPEST, trim_lever
 from assoc_hull.geometry.curves import FloatArray, IntArray
 
 __all__ = ["Sought", "trimmed"]

@@ -15,7 +15,7 @@ from assoc_hull.analysis.stability.afloat import EXACT, sinkage
 from assoc_hull.analysis.stability.free_trim import Sought, trimmed
 from assoc_hull.analysis.stability.levers import Case, levers_of
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.immersed import Immersed
+from assoc_hull.geometry.floating.immersed import Immersed
 
 __all__ = ["FREE_MOST", "Heeled", "heeled"]
 

@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from assoc_hull.analysis.stability.crossings import crossings
+from assoc_hull.analysis.hydrostatics.crossings import crossings
 from assoc_hull.analysis.stability.heeled import Heeled, heeled
 from assoc_hull.analysis.stability.levers import Case
 from assoc_hull.geometry.curves import FloatArray, IntArray

@@ -13,10 +13,10 @@ from typing import Literal
 import attrs
 import numpy as np
 
+from assoc_hull.analysis.hydrostatics.trim_lever import trim_lever
 from assoc_hull.analysis.stability.afloat import Afloat
-from assoc_hull.analysis.trim_lever import trim_lever
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
 
 __all__ = ["Case", "TrimRule", "levers_of"]
 

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 
 import attrs
 
-from assoc_hull.analysis.hydrostatic_header import HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import HydrostaticHeader
 from assoc_hull.analysis.stability.condition import Condition
 from assoc_hull.analysis.stability.criteria import Criterion
 from assoc_hull.analysis.stability.flooding import Flooding
 from assoc_hull.analysis.stability.heeled import Heeled
 from assoc_hull.analysis.stability.lever_curve import LeverCurve
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.named import Named
+from assoc_hull.model.named_mapping import Named
 
 __all__ = ["Stability", "StabilityAngles"]
 

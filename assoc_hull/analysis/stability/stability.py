@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage
-from assoc_hull.analysis.equilibrium import tons
-from assoc_hull.analysis.floating import planes_of
-from assoc_hull.analysis.floating_body import FloatingBody
-from assoc_hull.analysis.hydrostatic_header import SALT, HydrostaticHeader
-from assoc_hull.analysis.measured_hull import HasState, body_of, header_of
+from assoc_hull.analysis.hydrostatics.appendage import Appendage
+from assoc_hull.analysis.hydrostatics.equilibrium import tons
+from assoc_hull.analysis.hydrostatics.floating import planes_of
+from assoc_hull.analysis.hydrostatics.floating_body import FloatingBody
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT, HydrostaticHeader
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, body_of, header_of
 from assoc_hull.analysis.stability.asked import (
     HEELS,
     OnError,

@@ -26,10 +26,10 @@ from assoc_hull.creation.classical.report import (
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import numbers
 from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.classical.conformal import ConformalSections, lewis_sections
+from assoc_hull.geometry.classical.conformal_sections import ConformalSections, lewis_sections
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Ends, HullState, Particulars
 
 __all__ = ["LewisHull"]

@@ -12,12 +12,12 @@ import attrs
 import numpy as np
 
 from assoc_hull.arguments import instance, positive
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.creation.classical.outline import Outline, circular, straight
 from assoc_hull.creation.classical.report import ClassicalReport, Figure, measure_net
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.classical.midship import Midship
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["MiddleBody", "midship_outline"]
@@ -29,7 +29,7 @@ def midship_outline(midship: Midship, depth: float) -> Outline:
     Examples
     --------
     >>> from assoc_hull.creation.classical.middle_body import midship_outline
-    >>> from assoc_hull.geometry.classical.midship import Midship
+    >>> from assoc_hull.creation.classical.midship import Midship
     >>> chine = midship_outline(Midship(16.0, 0.0, 0.0, 0.0), 10.0)
     >>> chine.points.tolist(), chine.kind.tolist()
     ([[0.0, 0.0], [16.0, 0.0], [16.0, 10.0]], [0, 2, 0])

@@ -25,8 +25,8 @@ from numpy.typing import ArrayLike, NDArray
 from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.checks import wrap
 from assoc_hull.geometry.curves import EndKind, FloatArray, PointKind, freeze
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import Ends
 
 __all__ = ["CLOSE", "Outline", "Piece", "circular", "smooth", "straight"]

@@ -25,8 +25,9 @@ from typing import Self
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.appendage import Appendage
+from assoc_hull.analysis.hydrostatics.appendage import Appendage
 from assoc_hull.arguments import all_of, instance
+from assoc_hull.creation.classical.main_types import require_types
 from assoc_hull.creation.classical.prelikon_lines import lies_on, lines_of
 from assoc_hull.creation.classical.prelikon_notes import asked_cuts, default_cuts, notes_of
 from assoc_hull.creation.classical.prelikon_profile import Profile, profile_of
@@ -45,9 +46,8 @@ from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck, require_apart
-from assoc_hull.geometry.classical.main_types import require_types
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["Prelikon"]

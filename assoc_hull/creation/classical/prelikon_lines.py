@@ -16,8 +16,8 @@ from assoc_hull.creation.classical.runs import kinds_along
 from assoc_hull.geometry.classical.deck_surface import Deck
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 
 __all__ = ["AFT", "FORE", "Lying", "deck_edge", "lies_on", "lines_of", "name_of"]
 

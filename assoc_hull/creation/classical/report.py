@@ -14,13 +14,13 @@ from typing import Any
 import attrs
 import numpy as np
 
-from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.hydrostatics.flotation import flotation
 from assoc_hull.arguments import instance, text
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.geometry.closest import closest
 from assoc_hull.geometry.curves import FloatArray, SplineBatch, freeze
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.integrals import line_integral
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.integrals.area_moments import line_integral
+from assoc_hull.geometry.splines.closest import closest
 from assoc_hull.model.state import HullState
 
 __all__ = [
@@ -176,7 +176,7 @@ def measure_net(state: HullState, height: float) -> Measured:
     Examples
     --------
     >>> from assoc_hull.creation.classical.report import measure_net
-    >>> from assoc_hull.examples.wigley import wigley
+    >>> from assoc_hull.shipped.wigley import wigley
     >>> found = measure_net(wigley(), 6.25)
     >>> round(found.volume), round(found.x, 6)
     (2777, 50.0)

@@ -38,7 +38,7 @@ from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["Seaking"]

@@ -18,8 +18,8 @@ from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.classical.waterline_piece import Level
 from assoc_hull.geometry.curves import FloatArray, PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 
 if TYPE_CHECKING:
     from assoc_hull.creation.classical.seaking import Seaking

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import instance
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.camber import KINDS
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.classical.choices import one_of
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["WHERE", "Attached", "DeckCamber", "Knuckle", "Parallel", "is_a"]

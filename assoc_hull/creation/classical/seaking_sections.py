@@ -3,7 +3,7 @@
 Examples
 --------
 >>> from assoc_hull.creation.classical.seaking_sections import MidshipSection
->>> from assoc_hull.geometry.classical.midship import Midship
+>>> from assoc_hull.creation.classical.midship import Midship
 >>> round(float(MidshipSection.make(50.0, Midship(16.0, 2.0, 0.3, 2.5), 14.0).area(9.0)), 7)
 281.2485565
 """
@@ -18,6 +18,7 @@ import numpy as np
 
 from assoc_hull.arguments import instance
 from assoc_hull.creation.classical.middle_body import midship_outline
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.creation.classical.outline import Outline, smooth, straight
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.arc_area import arc_area, arc_moment
@@ -26,7 +27,6 @@ from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.choices import height_of, one_of
 from assoc_hull.geometry.classical.deck_corner import DeckCorner, deck_corner, deck_pieces
 from assoc_hull.geometry.classical.frame import Frame
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.quadratics import Quadratics
 from assoc_hull.geometry.curves import FloatArray
 

@@ -7,7 +7,7 @@ Examples
 --------
 >>> from assoc_hull.creation.classical.sfolds import Sfolds
 >>> from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
->>> from assoc_hull.geometry.classical.portion import Portion
+>>> from assoc_hull.creation.classical.sfolds_portion import Portion
 >>> from assoc_hull.model.state import Particulars
 >>> section = OrdinateSection.make(
 ...     hb=0.9, sb=3, sw=2, hd=12.4, bd=15.2, cam=0.4, zb=[0, 0.02, 0.10, 0.31, 0.80],
@@ -32,11 +32,11 @@ from assoc_hull.creation.classical.report import ClassicalReport
 from assoc_hull.creation.classical.sfolds_cuts import default_cuts
 from assoc_hull.creation.classical.sfolds_lines import lines_of_portions
 from assoc_hull.creation.classical.sfolds_notes import notes_of
+from assoc_hull.creation.classical.sfolds_portion import Portion, require_apart
 from assoc_hull.creation.classical.sfolds_report import report_of
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import finite
-from assoc_hull.geometry.classical.portion import Portion, require_apart
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
 from assoc_hull.model.state import HullState, Particulars
 
 __all__ = ["CORNER", "Sfolds"]

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.portion import Portion
 
 __all__ = ["default_cuts"]
 

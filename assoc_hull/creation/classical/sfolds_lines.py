@@ -13,13 +13,13 @@ import attrs
 import numpy as np
 
 from assoc_hull.creation.classical.runs import kinds_along
+from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checks import figure
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.portion import Portion
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
-from assoc_hull.model.family import BoundaryKind
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.line_source import LineSource
 
 __all__ = [
     "AFT",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.classical.portion import Portion
 
 __all__ = ["notes_of"]
 

@@ -10,8 +10,8 @@ Examples
 >>> import numpy as np
 >>> from assoc_hull.geometry.classical.arc_fit import fit_arcs
 >>> from assoc_hull.geometry.curves import CurveData
->>> from assoc_hull.geometry.segments import power
->>> from assoc_hull.geometry.spline import loft
+>>> from assoc_hull.geometry.splines.segments import power
+>>> from assoc_hull.geometry.splines.loft import loft
 >>> x = np.linspace(0.0, 10.0, 6)
 >>> curve = loft(CurveData.single(np.stack([x, np.sin(0.5 * x), 0.0 * x], axis=1)))
 >>> fit = fit_arcs(power(curve)[:, :, :2], np.array([0, 5]), within=0.001)

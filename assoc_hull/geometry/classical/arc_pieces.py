@@ -10,8 +10,8 @@ Examples
 >>> import numpy as np
 >>> from assoc_hull.geometry.classical.arc_pieces import Pieces
 >>> from assoc_hull.geometry.curves import CurveData
->>> from assoc_hull.geometry.segments import power
->>> from assoc_hull.geometry.spline import loft
+>>> from assoc_hull.geometry.splines.segments import power
+>>> from assoc_hull.geometry.splines.loft import loft
 >>> bent = CurveData.single(np.array([[0.0, 0, 0], [1, 0, 0], [2, 1, 0]]), kind=[0, 2, 0])
 >>> cubic = power(loft(bent))[:, :, :2]
 >>> pieces = Pieces.of(cubic, np.array([0, 2]), flat=1e-6)
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.geometry.classical.checks import wrap
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.polynomials import differentiate
+from assoc_hull.geometry.numeric.polynomials import differentiate
 
 __all__ = ["CORNER", "Pieces"]
 

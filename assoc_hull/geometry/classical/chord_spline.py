@@ -41,12 +41,12 @@ from assoc_hull.geometry.classical.chord_spline_checks import (
     place_of,
 )
 from assoc_hull.geometry.classical.chord_spline_solve import Mode, slopes, solve_directions
-from assoc_hull.geometry.curvature import plane_curvature
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.evaluation import derivative, evaluate
-from assoc_hull.geometry.polynomials import differentiate, horner
-from assoc_hull.geometry.roots import unit_roots
-from assoc_hull.geometry.segments import power
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.numeric.roots import unit_roots
+from assoc_hull.geometry.splines.curvature import plane_curvature
+from assoc_hull.geometry.splines.evaluation import derivative, evaluate
+from assoc_hull.geometry.splines.segments import power
 
 __all__ = ["ChordSpline", "Meets", "chord_splines"]
 

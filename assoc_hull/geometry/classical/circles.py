@@ -22,10 +22,10 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.arguments import flag
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.circle import fit_circle
 from assoc_hull.geometry.classical.checked_input import bearable
 from assoc_hull.geometry.classical.checks import finite
 from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.numeric.circle_fit import fit_circle
 
 __all__ = [
     "TrueCircle",

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import number, numbers, together
 from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.classical.linear_fits import held_fit, linear_fit
+from assoc_hull.geometry.classical.linear_least_squares import held_fit, linear_fit
 from assoc_hull.geometry.classical.pieces import Piece
 from assoc_hull.geometry.curves import FloatArray
 

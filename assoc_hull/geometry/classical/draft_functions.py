@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import numbers, places, whole_number
 from assoc_hull.geometry.classical.checks import inside
-from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.linear_least_squares import linear_fit
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["DraftFunctions", "PolynomialHull", "fit_polynomial_hull"]

@@ -33,7 +33,7 @@ from assoc_hull.geometry.classical.checked_input import (
     whole_number,
 )
 from assoc_hull.geometry.classical.checks import figure
-from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.linear_least_squares import linear_fit
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["Quintic", "fit_quintic"]

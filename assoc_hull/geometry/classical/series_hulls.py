@@ -24,7 +24,7 @@ from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.checked_input import listed, numbers, together, whole_number
 from assoc_hull.geometry.classical.checks import called, figure, inside
 from assoc_hull.geometry.classical.choices import one_of
-from assoc_hull.geometry.classical.linear_fits import linear_fit
+from assoc_hull.geometry.classical.linear_least_squares import linear_fit
 from assoc_hull.geometry.curves import FloatArray, freeze
 
 __all__ = ["SeriesHull", "fit_series", "fit_series_hull", "series_columns"]

@@ -24,9 +24,9 @@ from collections.abc import Callable
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.patches.area_elements import added, on_lines
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.quadrature import gauss
 
 __all__ = ["along_lines", "over_boxes"]
 

@@ -19,11 +19,11 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.patches.area_direct import along_lines, over_boxes
 from assoc_hull.geometry.patches.area_elements import added, on_grid, swapped, taken
 from assoc_hull.geometry.patches.area_series import AreaSeries, area_series
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.quadrature import gauss
 
 __all__ = ["AreaGround"]
 

@@ -26,7 +26,7 @@ import numpy as np
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
 from assoc_hull.geometry.patches.knots import limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.triangles import Triangles, merge_vertices
+from assoc_hull.geometry.surfaces.triangles import Triangles, merge_vertices
 
 __all__ = ["Facets", "facets_of", "joined_facets", "kept_facets"]
 

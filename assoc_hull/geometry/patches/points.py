@@ -19,8 +19,8 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.numeric.tensor_bernstein import basis
 from assoc_hull.geometry.patches.patches import Patches
-from assoc_hull.geometry.tensor_bernstein import basis
 
 __all__ = ["normals", "points", "stretch"]
 

@@ -9,7 +9,7 @@ Examples
 >>> from assoc_hull.geometry.patches.facets import facets_of
 >>> from assoc_hull.geometry.patches.spline_surface import SplineSurface
 >>> from assoc_hull.geometry.patches.stitching import stitched
->>> from assoc_hull.geometry.triangles import boundary_edges
+>>> from assoc_hull.geometry.surfaces.triangles import boundary_edges
 >>> def plate(y, count):
 ...     net = np.zeros((count, 2, 3))
 ...     net[..., 0], net[..., 1] = np.mgrid[0:1:count * 1j, y:y + 1:2j]
@@ -26,8 +26,8 @@ import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.facets import Facets, kept_facets
-from assoc_hull.geometry.triangles import Triangles, weld_edges
-from assoc_hull.geometry.winding import against_neighbours, part_labels
+from assoc_hull.geometry.surfaces.triangles import Triangles, weld_edges
+from assoc_hull.geometry.surfaces.winding import against_neighbours, part_labels
 
 __all__ = ["outward_parts", "stitched"]
 

@@ -16,10 +16,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.numeric.quadrature import gauss
 from assoc_hull.geometry.patches.area_elements import on_grid
 from assoc_hull.geometry.patches.points import normals, points
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.geometry.quadrature import gauss
 from assoc_hull.io.cad.found import Found
 
 __all__ = ["area_of", "breadth_flux", "control_point_error", "faults_of", "require_written"]

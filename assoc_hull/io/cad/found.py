@@ -23,7 +23,7 @@ from assoc_hull.io.cad.free_edges import free_edges, lie_along
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
 from assoc_hull.io.cad.read import read_shape
 from assoc_hull.io.cad.step_text import step_unit
-from assoc_hull.io.iges_file import UNITS, IgesFile
+from assoc_hull.io.iges.file import UNITS, IgesFile
 
 __all__ = ["Found", "find_in", "shape_in", "told_unit"]
 

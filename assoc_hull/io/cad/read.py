@@ -33,9 +33,9 @@ from assoc_hull.geometry.curves import FloatArray, IntArray
 from assoc_hull.geometry.patches.facets import Facets, joined_facets
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.io.cad.faces import faces_in, spline_of
+from assoc_hull.io.cad.hull_faces import Faces
 from assoc_hull.io.cad.kernel import MILLIMETRES, quiet
-from assoc_hull.io.surface_faces import Faces
-from assoc_hull.io.surface_units import METRES, unit_note
+from assoc_hull.io.units import METRES, unit_note
 
 __all__ = ["read_faces", "read_shape"]
 

@@ -31,9 +31,9 @@ from assoc_hull.io.cad.found import find_in
 from assoc_hull.io.cad.iges_write import iges_bytes
 from assoc_hull.io.cad.kernel import quiet
 from assoc_hull.io.cad.step_write import step_bytes
-from assoc_hull.io.iges_read import surfaces_of_iges
-from assoc_hull.io.iges_write import iges_text
-from assoc_hull.io.whole_file import form_by_ending, write_whole
+from assoc_hull.io.iges.read import surfaces_of_iges
+from assoc_hull.io.iges.write import iges_text
+from assoc_hull.io.write_file import form_by_ending, write_whole
 
 __all__ = ["CAD_ENDINGS", "CAD_FORMS", "CAD_UNITS", "CadReport", "cad_bytes", "write_cad"]
 

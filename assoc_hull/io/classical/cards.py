@@ -25,7 +25,7 @@ import numpy as np
 from assoc_hull.arguments import shown
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.io.digitised_piece import read_number
+from assoc_hull.io.lines.digitised_piece import read_number
 
 __all__ = ["KINDS", "Card", "Cards", "Row", "kind_of", "read_cards"]
 

@@ -23,7 +23,7 @@ from assoc_hull.geometry.classical.arc_curve import ArcCurve
 from assoc_hull.geometry.classical.arc_section import round_corners, through_points
 from assoc_hull.io.classical.cards import Card, Row
 from assoc_hull.io.classical.prelikon_units import Units, placed
-from assoc_hull.io.digitised_piece import read_number
+from assoc_hull.io.lines.digitised_piece import read_number
 
 __all__ = ["read_boundary", "read_section"]
 

@@ -31,7 +31,7 @@ from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 from assoc_hull.io.classical.cards import Card, Cards
 from assoc_hull.io.classical.prelikon_units import Units, placed
-from assoc_hull.io.digitised_piece import read_number
+from assoc_hull.io.lines.digitised_piece import read_number
 
 __all__ = ["read_box", "read_curve", "read_decks", "read_house"]
 

@@ -34,9 +34,9 @@ from collections.abc import Mapping
 import attrs
 
 from assoc_hull.arguments import shown
+from assoc_hull.creation.classical.main_types import require_types
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.errors import BadInputError, GeometryError
-from assoc_hull.geometry.classical.main_types import require_types
 from assoc_hull.io.classical.cards import Cards
 from assoc_hull.io.classical.dimensions import DIMENSIONS, read_particulars
 from assoc_hull.io.classical.origin import read_origin

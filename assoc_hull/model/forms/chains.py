@@ -3,7 +3,7 @@
 Examples
 --------
 >>> from assoc_hull.model.forms.chains import chain_of
->>> from assoc_hull.model.forms.definition import FormDefinition
+>>> from assoc_hull.model.definition_part import FormDefinition
 >>> from assoc_hull.model.state import Particulars
 >>> areas = FormDefinition("areas", "sectional_area", "halves", values={
 ...     "full": 292.59, "run_start_angle_deg": 60.0, "run_start_curvature": -2.0,
@@ -23,10 +23,10 @@ from functools import lru_cache
 import numpy as np
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.geometry.form_chain import FormChain
-from assoc_hull.geometry.form_extremes import least_rate
-from assoc_hull.model.forms.course import course_vertices
-from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.geometry.form_curves.chain import FormChain
+from assoc_hull.geometry.form_curves.extremes import least_rate
+from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.model.forms.courses import course_vertices
 from assoc_hull.model.forms.halves import halves_vertices
 from assoc_hull.model.state import Particulars
 

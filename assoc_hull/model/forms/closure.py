@@ -15,7 +15,7 @@ S.Y. Kim, S.W. Kang, "Ship Lines Creation by B-Spline Form Parameter Method", Tr
 
 Examples
 --------
->>> from assoc_hull.model.forms.closure import close_sac
+>>> from assoc_hull.model.forms.closure_sums import close_sac
 >>> area, centroid = close_sac(
 ...     0.7536142725315, 2.9 / 90.0, run_end=-0.208, entrance_start=0.34, run_area=0.511,
 ...     run_centroid=-0.488,
@@ -34,9 +34,9 @@ import attrs
 
 from assoc_hull.arguments import instance, number, positive
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.geometry.form_curve import form_integrals
+from assoc_hull.geometry.form_curves.integrals import form_integrals
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.forms.closure_sums import close_sac, closing_area
-from assoc_hull.model.forms.definition import FormDefinition
 from assoc_hull.model.forms.halves import half_fault, half_number, half_vertices
 from assoc_hull.model.forms.reachable import reachable
 
@@ -141,7 +141,7 @@ def close_halves(
     Examples
     --------
     >>> from assoc_hull.model.forms.closure import close_halves, coefficients
-    >>> from assoc_hull.model.forms.definition import FormDefinition
+    >>> from assoc_hull.model.definition_part import FormDefinition
     >>> from assoc_hull.model.state import Particulars
     >>> ship = Particulars("ship", 100.0, 16.0, 9.0, 6.0)
     >>> areas = FormDefinition("areas", "sectional_area", "halves", {

@@ -4,7 +4,7 @@ Examples
 --------
 >>> import numpy as np
 >>> from assoc_hull.model.forms.composite import Composite
->>> from assoc_hull.model.forms.pieces import ArcPieces, SectionShape
+>>> from assoc_hull.model.forms.section_pieces import ArcPieces, SectionShape
 >>> bilge = ArcPieces(np.array([[0.0, 12.0]]), np.array([2.0]))
 >>> shape = SectionShape(np.array([90.0]), (bilge,))
 >>> whole = Composite.of(shape, "arc", [[(0, 0.0), (0, 2.0), (0, 4.0)]], None)
@@ -21,10 +21,10 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.forms.definition import Mark
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.definition_part import Mark
 from assoc_hull.model.forms.layout import ends_for, joints_of
-from assoc_hull.model.forms.pieces import Shape
+from assoc_hull.model.forms.section_pieces import Shape
 
 __all__ = ["Composite", "given_at"]
 

@@ -8,7 +8,7 @@ whose node a piece begins at: that of the side, of the height, or of both.
 Examples
 --------
 >>> from assoc_hull.model.forms.course_layout import course_layout
->>> from assoc_hull.model.forms.definition import FormDefinition
+>>> from assoc_hull.model.definition_part import FormDefinition
 >>> stem = FormDefinition(
 ...     "contour", "profile", "course", nodes=("A", "B", "C"), values={
 ...         "A_x": 0.0, "A_y": 0.0, "A_angle_deg": 0.0, "B_x": 170.0, "B_y": 0.0,
@@ -24,9 +24,9 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.form_chain import FormChain
-from assoc_hull.model.forms.course import corners_of
-from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.geometry.form_curves.chain import FormChain
+from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.model.forms.courses import corners_of
 from assoc_hull.model.forms.forms import Forms
 
 __all__ = ["CourseShape", "DeckShape", "course_layout", "course_shape", "deck_layout", "deck_shape"]

@@ -3,7 +3,7 @@
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.model.forms.definition import FormDefinition
+>>> from assoc_hull.model.definition_part import FormDefinition
 >>> from assoc_hull.model.forms.forms import Forms
 >>> from assoc_hull.model.state import Particulars
 >>> flare = FormDefinition(
@@ -27,11 +27,11 @@ from numpy.typing import ArrayLike
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_chain import FormChain
+from assoc_hull.geometry.form_curves.chain import FormChain
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.forms.chains import chain_of
-from assoc_hull.model.forms.definition import FormDefinition
-from assoc_hull.model.forms.uses import USES
 from assoc_hull.model.state import Particulars
+from assoc_hull.model.uses import USES
 
 __all__ = ["Forms"]
 

@@ -6,7 +6,7 @@ has the same bits alone and in any batch.
 
 Examples
 --------
->>> from assoc_hull.model.forms.definition import GeneratedCurve
+>>> from assoc_hull.model.definition_part import GeneratedCurve
 >>> from assoc_hull.model.forms.generate import reads
 >>> reads(GeneratedCurve("profile", 0, "profile", "form", (), ()))
 ('profile',)
@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.model.definition_part import GeneratedCurve, Mark
 from assoc_hull.model.forms.composite import Composite, given_at
 from assoc_hull.model.forms.course_layout import course_shape, deck_shape
-from assoc_hull.model.forms.definition import GeneratedCurve, Mark
 from assoc_hull.model.forms.forms import Forms
 from assoc_hull.model.forms.layout import COURSES, ends_for, layout_at
 from assoc_hull.model.forms.marks import finer, first_marks, near_enough
-from assoc_hull.model.forms.pieces import Shape
+from assoc_hull.model.forms.section_pieces import Shape
 from assoc_hull.model.forms.sections import parted, section_shape
 from assoc_hull.model.forms.waterline_flats import water_points
 from assoc_hull.model.state import Ends

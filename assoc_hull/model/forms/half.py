@@ -20,8 +20,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_coordinate, least_rate
+from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
+from assoc_hull.geometry.form_curves.extremes import least_coordinate, least_rate
 from assoc_hull.model.forms.reachable import reachable
 
 __all__ = ["Half", "fault_of", "vertices_of"]

@@ -6,7 +6,7 @@ graph in this frame. S.Y. Kim, S.W. Kang, Trans. SNAK 29(2), 1992.
 
 Examples
 --------
->>> from assoc_hull.model.forms.definition import FormDefinition
+>>> from assoc_hull.model.definition_part import FormDefinition
 >>> from assoc_hull.model.forms.halves import halves_vertices
 >>> areas = FormDefinition("areas", "sectional_area", "halves", values={
 ...     "full": 1.0, "run_start_angle_deg": 60.0, "run_start_curvature": -2.0, "run_end": -0.3,
@@ -28,8 +28,8 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_chain import straight_vertices
-from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.geometry.form_curves.chain import straight_vertices
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.forms.half import Half, fault_of, vertices_of
 from assoc_hull.model.forms.reachable import reachable
 

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.definition_part import Mark
 from assoc_hull.model.forms.composite import Composite
-from assoc_hull.model.forms.definition import Mark
-from assoc_hull.model.forms.pieces import Shape
+from assoc_hull.model.forms.section_pieces import Shape
 
 __all__ = ["AREA_WITHIN", "WITHIN", "finer", "first_marks", "near_enough"]
 

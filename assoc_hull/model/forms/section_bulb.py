@@ -14,7 +14,8 @@ least integral of the squared third derivative with the area. The treatment is o
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.form_curve import form_at, form_integrals
+>>> from assoc_hull.geometry.form_curves.curve import form_at
+>>> from assoc_hull.geometry.form_curves.integrals import form_integrals
 >>> from assoc_hull.model.forms.section_bulb import bulb_vertices
 >>> height, breadth = 9.0, 2.25
 >>> half = np.pi / 4.0 * height * breadth
@@ -33,10 +34,10 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_coordinate
+from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
+from assoc_hull.geometry.form_curves.extremes import least_coordinate
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.pieces import CurvePieces, Pieces, ends_of
+from assoc_hull.model.forms.section_pieces import CurvePieces, Pieces, ends_of
 from assoc_hull.model.forms.stand import Stand
 from assoc_hull.model.forms.underwater import chord_of
 

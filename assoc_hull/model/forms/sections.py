@@ -10,10 +10,10 @@ Examples
 from __future__ import annotations
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curve import FormEnd
+from assoc_hull.geometry.form_curves.curve import FormEnd
 from assoc_hull.model.forms.forms import Forms
-from assoc_hull.model.forms.pieces import Pieces, SectionShape
 from assoc_hull.model.forms.section_bulb import bulb_pieces
+from assoc_hull.model.forms.section_pieces import Pieces, SectionShape
 from assoc_hull.model.forms.stand import Stand
 from assoc_hull.model.forms.topside import topside_pieces
 from assoc_hull.model.forms.underwater import underwater_pieces

@@ -7,7 +7,7 @@ middle vertex is that of the least integral of the squared third derivative.
 Examples
 --------
 >>> import numpy as np
->>> from assoc_hull.geometry.form_curve import FormEnd
+>>> from assoc_hull.geometry.form_curves.curve import FormEnd
 >>> from assoc_hull.model.forms.topside import join_vertices
 >>> below = FormEnd.of(10.5, 8.0, np.radians(15.0), 0.01)
 >>> deck = FormEnd.of(15.0, 9.5, np.radians(10.0))
@@ -23,9 +23,9 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_curve import FormEnd, form_vertices
-from assoc_hull.geometry.form_extremes import least_coordinate
-from assoc_hull.model.forms.pieces import CurvePieces, Pieces, ends_of
+from assoc_hull.geometry.form_curves.curve import FormEnd, form_vertices
+from assoc_hull.geometry.form_curves.extremes import least_coordinate
+from assoc_hull.model.forms.section_pieces import CurvePieces, Pieces, ends_of
 from assoc_hull.model.forms.stand import Stand
 from assoc_hull.model.forms.underwater import chord_of
 

@@ -18,11 +18,12 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.geometry.form_chain import straight_vertices
-from assoc_hull.geometry.form_curve import FormEnd, end_vertices, form_vertices, middle_vertex
-from assoc_hull.geometry.form_extremes import least_coordinate
+from assoc_hull.geometry.form_curves.chain import straight_vertices
+from assoc_hull.geometry.form_curves.curve import FormEnd, end_vertices, form_vertices
+from assoc_hull.geometry.form_curves.extremes import least_coordinate
+from assoc_hull.geometry.form_curves.middle import middle_vertex
 from assoc_hull.model.forms.middle_body import bilge_area, bilge_radius_for
-from assoc_hull.model.forms.pieces import ArcPieces, CurvePieces, Pieces, ends_of
+from assoc_hull.model.forms.section_pieces import ArcPieces, CurvePieces, Pieces, ends_of
 from assoc_hull.model.forms.stand import Stand
 
 __all__ = ["RADIUS_SLACK", "chord_of", "level_pieces", "straight_pieces", "underwater_pieces"]

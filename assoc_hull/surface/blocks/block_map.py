@@ -15,7 +15,7 @@ import numpy as np
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.blocks.harmonic import laid_out
 from assoc_hull.surface.blocks.plan import BlockPlan
 from assoc_hull.surface.blocks.quad import SIDES, Quad

@@ -14,7 +14,7 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import CurveData, FloatArray, SplineBatch
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.loft import loft
 from assoc_hull.surface.blocks.cuts import EndCut
 from assoc_hull.surface.blocks.outline import course, turns
 from assoc_hull.surface.blocks.region import BRIDGE, Region

@@ -10,7 +10,7 @@ from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.geometry.fitting.folds import Elements
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.surface.blocks.fit_options import FitOptions
-from assoc_hull.surface.net_records import Border, Residuals
+from assoc_hull.surface.blocks.net_records import Border, Residuals
 
 __all__ = [
     "doubts_of_border", "doubts_of_fit", "doubts_of_half", "doubts_of_penalty",

@@ -18,8 +18,8 @@ from assoc_hull.geometry.fitting.samples import Samples
 from assoc_hull.geometry.fitting.strips import Strip, strip_of
 from assoc_hull.surface.blocks.block import Block, Stretch
 from assoc_hull.surface.blocks.fit_options import FitOptions, angle_limit
+from assoc_hull.surface.blocks.net_records import Border
 from assoc_hull.surface.blocks.spans import Breaks, breaks_of
-from assoc_hull.surface.net_records import Border
 
 __all__ = ["Made", "folded_places", "made_without_folds"]
 

@@ -22,9 +22,9 @@ from assoc_hull.surface.blocks.fit_block import Made, folded_places
 from assoc_hull.surface.blocks.fit_options import FitOptions
 from assoc_hull.surface.blocks.follow import Earlier, Followed, made_of
 from assoc_hull.surface.blocks.layout import lay_out
+from assoc_hull.surface.blocks.net_records import Residuals
+from assoc_hull.surface.blocks.net_surface import FittedBlock, NetSurface
 from assoc_hull.surface.blocks.residuals import Misses, misses_of, residuals_of
-from assoc_hull.surface.net_records import Residuals
-from assoc_hull.surface.net_surface import FittedBlock, NetSurface
 
 __all__ = ["earlier_of", "surface_of_net"]
 

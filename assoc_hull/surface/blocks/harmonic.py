@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.blocks.region import Region
 
 __all__ = ["edge_weights", "laid_out"]

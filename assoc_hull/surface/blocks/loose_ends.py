@@ -14,8 +14,8 @@ import numpy as np
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.fitting.samples import Samples
+from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.surface.blocks.block import Block
 from assoc_hull.surface.cells.net_graph import NetGraph
 

@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.blocks.region import Region
 
 __all__ = ["Bend", "Course", "bends_inward", "course", "turns"]

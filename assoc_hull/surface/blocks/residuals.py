@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.evaluation import evaluate
 from assoc_hull.geometry.fitting.foot_points import foot_points
 from assoc_hull.geometry.patches.knots import limits
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.surface.net_records import Residuals
+from assoc_hull.geometry.splines.evaluation import evaluate
+from assoc_hull.surface.blocks.net_records import Residuals
 
 __all__ = ["Misses", "misses_of", "residuals_of"]
 

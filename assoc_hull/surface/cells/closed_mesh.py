@@ -14,9 +14,9 @@ from assoc_hull.analysis.net.gather import Net
 from assoc_hull.arguments import flag, integer, positive
 from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.immersed import Planes
-from assoc_hull.geometry.immersed_triangles import immersed_triangles, make_body
-from assoc_hull.geometry.triangles import Triangles
+from assoc_hull.geometry.floating.immersed import Planes
+from assoc_hull.geometry.floating.immersed_triangles import immersed_triangles, make_body
+from assoc_hull.geometry.surfaces.triangles import Triangles
 from assoc_hull.surface.cells.closing import cover, mirrored
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells
 from assoc_hull.surface.cells.mesh_report import MeshReport, examined

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.cells.filling import FilledCells
 from assoc_hull.surface.cells.stops import united
 

@@ -6,8 +6,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
-from assoc_hull.geometry.evaluation import evaluate
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
+from assoc_hull.geometry.splines.evaluation import evaluate
 
 __all__ = ["Pieces", "measured_pieces"]
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.cells.faces import Cells, origins
 from assoc_hull.surface.cells.local_frames import LocalFrames, local_frames
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assoc_hull.analysis.measured_hull import HasState, state_of
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState, state_of
 from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.arguments import all_of
 from assoc_hull.errors import BadInputError, UnknownNameError

@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.cells.edge_points import Pieces
 
 __all__ = ["Lenses", "find_lenses"]

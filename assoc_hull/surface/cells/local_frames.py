@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, freeze
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 
 __all__ = ["LocalFrames", "local_frames"]
 

@@ -6,8 +6,8 @@ import attrs
 import numpy as np
 
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.triangles import Triangles
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
+from assoc_hull.geometry.surfaces.triangles import Triangles
 
 __all__ = ["MeshReport", "examined"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
 from assoc_hull.surface.cells.edge_points import Pieces, measured_pieces
 from assoc_hull.surface.cells.lenses import find_lenses
 from assoc_hull.surface.cells.normals import node_normals

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.closest import closest_each
 from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
-from assoc_hull.geometry.evaluation import evaluate
-from assoc_hull.geometry.vectors import dot
+from assoc_hull.geometry.numeric.vectors import dot
+from assoc_hull.geometry.splines.closest import closest_each
+from assoc_hull.geometry.splines.evaluation import evaluate
 from assoc_hull.surface.cells.unnoted import unnoted_crossings
 
 __all__ = ["RANK", "Stops", "find_stops", "united", "united_stops"]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assoc_hull.analysis.net.gather import Net
-from assoc_hull.geometry.closest import closest_each
-from assoc_hull.geometry.crossing import meet_planes
 from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+from assoc_hull.geometry.splines.closest import closest_each
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 
 __all__ = ["REACH", "Unnoted", "unnoted_crossings"]
 

@@ -9,7 +9,7 @@ from random import Random
 import attrs
 import numpy as np
 
-from assoc_hull.io.iges_write import iges_text
+from assoc_hull.io.iges.write import iges_text
 from tests import cad_hulls
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.meshes import CUTS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from assoc_hull.examples.classical_ships import SHIPS, classical_text
+from assoc_hull.shipped.classical_ships import SHIPS, classical_text
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_text
 

@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path
 from random import Random
 
-from assoc_hull.io.export import export
+from assoc_hull.io.export.write import export
 from assoc_hull.io.hull_json import read_hull_json
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.hulls import plain_text

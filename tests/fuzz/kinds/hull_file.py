@@ -15,10 +15,10 @@ from random import Random
 import numpy as np
 
 from assoc_hull.hull import Hull
-from assoc_hull.io.hull_file_steps import digest
-from assoc_hull.io.hull_file_tables import read_state
-from assoc_hull.io.packing import pack, unpack
-from assoc_hull.model.definition import fingerprint
+from assoc_hull.io.hull_file.packed_arrays import pack, unpack
+from assoc_hull.io.hull_file.steps import digest
+from assoc_hull.io.hull_file.tables import read_state
+from assoc_hull.model.definition.definition import fingerprint
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.text import change_bytes
 from tests.fuzz.values import change_value

@@ -7,8 +7,8 @@ import zlib
 from random import Random
 from typing import Any
 
-from assoc_hull.model.definition import fingerprint
-from assoc_hull.model.restore import from_definition
+from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.restore import from_definition
 from tests.fuzz.kind import TARGET, Kind
 from tests.fuzz.kinds.hulls import edited_text, plain_text
 from tests.fuzz.text import change_text

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
-from assoc_hull.io.control_nets import table_of_nets
-from assoc_hull.io.iges_write import iges_text
-from assoc_hull.io.surface_json import json_of_surfaces
+from assoc_hull.io.iges.write import iges_text
+from assoc_hull.io.surfaces.control_nets import table_of_nets
+from assoc_hull.io.surfaces.surface_json import json_of_surfaces
 from tests.curved_patches import patch
 from tests.fuzz.kind import Kind
 from tests.fuzz.text import change_text

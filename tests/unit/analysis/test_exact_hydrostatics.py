@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from assoc_hull.analysis.compute import table_of
-from assoc_hull.analysis.floating import FloatingPosition
-from assoc_hull.analysis.loading import Load, immersion
-from assoc_hull.geometry.immersion import prepare
+from assoc_hull.analysis.hydrostatics.compute import table_of
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.loading import Load, immersion
+from assoc_hull.geometry.floating.prepared_strips import prepare
 from tests.exact_hulls import ellipsoid, wigley
 from tests.floating_bodies import StripBody, head
 

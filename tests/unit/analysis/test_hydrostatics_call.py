@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.equilibrium import deck_edge_angle, freeboard
-from assoc_hull.analysis.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.equilibrium import deck_edge_angle, freeboard
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
 from tests.floating_bodies import Box
 
 TROUBLE = ("ST 7 is open by 0.31 m at (45.000, 2.100, 8.200) m", "ST 8 crosses itself")
@@ -28,7 +28,7 @@ def body(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
     """What is measured: the first of this list, a box."""
     bodies = [Box(breadth=10.0, depth=8.0, off=1e-6)]
     double: Any = SimpleNamespace(flotation=lambda state: bodies[0])
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
     return bodies
 
 

@@ -9,9 +9,8 @@ import assoc_hull as ah
 from assoc_hull.cli import look, main
 from assoc_hull.io.hull_json import dumps_hull_json
 from assoc_hull.model.state import HullState
+from tests.unit.cli.conftest import Json
 from tests.unit.edit.planted_defects import every_defect, planted, sound
-
-from .conftest import Json
 
 HELD = {
     "a failed curve",

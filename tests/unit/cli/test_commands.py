@@ -11,8 +11,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
-
-from .conftest import Json
+from tests.unit.cli.conftest import Json
 
 TABLE = """# station 0 = AP
 station,wl_0,wl_1,wl_2,wl_3,wl_4,wl_5,wl_6
@@ -136,8 +135,8 @@ def test_findings_and_differences_give_exit_1(
     hull: Path, facts: Json, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each comes with kind, object, place and amount, or key, field and amount."""
-    from assoc_hull.edit.finding import Finding
-    from assoc_hull.model.verify import Difference
+    from assoc_hull.edit.checks.finding import Finding
+    from assoc_hull.model.definition.verify import Difference
 
     gap = Finding("gap", "WL 1 x ST 2", (1.0, 2.0, 3.0), 0.004, "is wide")
     odd = Difference("sections:1/1", "spline.xyz", float("inf"))

@@ -10,7 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
-from assoc_hull.examples.plain_ship import plain_ship_design
+from assoc_hull.shipped.plain_ship import plain_ship_design
 from tests.unit.cli.conftest import Json
 
 

@@ -98,7 +98,7 @@ def test_an_export_that_fails_leaves_the_old_file(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("assoc_hull.io.whole_file.os.replace", full)
+    monkeypatch.setattr("assoc_hull.io.write_file.os.replace", full)
     assert main(["export", str(hull), "-o", str(out)]) == 2
     assert "No space left on device" in capsys.readouterr().err
     assert out.read_text() == "old"

@@ -12,10 +12,10 @@ from assoc_hull.cli.export import _ENDINGS, _FORMS, _SURFACES
 from assoc_hull.cli.surface import every_fourth
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.io.export import ENDINGS, FORMS, form_of
+from assoc_hull.io.export.write import ENDINGS, FORMS, form_of
 from assoc_hull.io.hull_schema import dumps_schema
-from assoc_hull.io.hull_surface_file import SURFACE_ENDINGS, SURFACE_FORMS
-from assoc_hull.io.net_surface_schema import net_surface_schema
+from assoc_hull.io.surfaces.hull_surface_file import SURFACE_ENDINGS, SURFACE_FORMS
+from assoc_hull.io.surfaces.net_surface_schema import net_surface_schema
 from assoc_hull.sources import examples
 from tests.unit.cli.conftest import Json
 

@@ -7,8 +7,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
-
-from .conftest import Json
+from tests.unit.cli.conftest import Json
 
 Edits = Callable[[object], Path]
 POINT = "WL 2.5 x ST 7"

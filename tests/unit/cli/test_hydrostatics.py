@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.analysis.record_fields import FIELDS
+from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
 from assoc_hull.cli import main
 from tests.floating_bodies import Box
 from tests.unit.cli.conftest import Json
@@ -19,7 +19,7 @@ from tests.unit.cli.conftest import Json
 def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
     """Measure a box of the hull's length and breadth instead, whose numbers are known."""
     double = SimpleNamespace(flotation=lambda state: Box(breadth=10.0, depth=8.0, off=1e-6))
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
 
 
 def test_one_position_is_told_with_the_names_of_the_record(hull: Path, facts: Json) -> None:
@@ -106,7 +106,7 @@ def test_doubts_are_told_where_they_are_to_be_reported(
     """In words and in the document, which has them of the table and of each record."""
     body = Box(breadth=10.0, depth=8.0, trouble=("ST 7 is open",))
     double = SimpleNamespace(flotation=lambda state: body)
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", double)
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", double)
     found = facts("hydrostatics", hull, "--on-error", "report")
     assert found["notes"] == found["rows"][0]["notes"] == ["ST 7 is open"]
     assert main(["hydrostatics", str(hull), "--on-error", "report"]) == 0

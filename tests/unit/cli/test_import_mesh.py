@@ -12,9 +12,9 @@ import assoc_hull as ah
 from assoc_hull.cli import main, output
 from assoc_hull.errors import BadInputError
 from assoc_hull.hull import Hull
-from assoc_hull.io.slice_read import read_slices
+from assoc_hull.io.slicing.read import read_slices
 from tests import meshes
-from tests.unit.io.test_mesh import torn
+from tests.unit.io.slicing.test_mesh import torn
 
 
 def test_a_mesh_is_imported_with_its_report(

@@ -11,8 +11,8 @@ import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.tables import TABLES
 from assoc_hull.cli import main, parameters
-from assoc_hull.io.form_schema import catalogue_schema, form_schema
-from assoc_hull.plot.form_files import ENDINGS
+from assoc_hull.io.tables.form_schema import catalogue_schema, form_schema
+from assoc_hull.plot.diagrams.form_files import ENDINGS
 from tests.unit.cli.conftest import Json
 
 

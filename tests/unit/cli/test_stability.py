@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-import assoc_hull.plot.hydrostatics  # noqa: F401  what it imports must not be a double
+import assoc_hull.plot.diagrams.hydrostatics  # noqa: F401  what it imports must not be a double
 from assoc_hull.cli import main
 from tests.floating_bodies import StripBody, box_body
 from tests.unit.cli.conftest import Json
@@ -22,7 +22,7 @@ HEELS = ["--heels", "0:40:10"]
 def double(monkeypatch: pytest.MonkeyPatch, body: StripBody) -> None:
     """Measure another body instead of the hull."""
     module = SimpleNamespace(flotation=lambda state: body)
-    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.flotation", module)
+    monkeypatch.setitem(sys.modules, "assoc_hull.analysis.hydrostatics.flotation", module)
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main
-from assoc_hull.variation.catalogue import NAMES
+from assoc_hull.variation.parameters.catalogue import NAMES
 from tests.unit.cli.conftest import Json
 
 

@@ -10,8 +10,7 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.cli import main, why
-
-from .conftest import Json
+from tests.unit.cli.conftest import Json
 
 POINT = "WL 2.5 x ST 7"
 Told = Callable[..., str]

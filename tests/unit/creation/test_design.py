@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from assoc_hull.creation.courses import course, design_waterline, sectional_area
 from assoc_hull.creation.design import Design
 from assoc_hull.creation.design_json import design_document, design_schema
+from assoc_hull.creation.form_definitions import course, design_waterline, sectional_area
 from assoc_hull.errors import (
     AssocHullError,
     BadInputError,

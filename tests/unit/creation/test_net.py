@@ -11,11 +11,11 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.creation.net import LINKS
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.examples.plain_ship import plain_ship_design
-from assoc_hull.geometry.crossing import meet_planes
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
 from assoc_hull.hull import Hull
-from assoc_hull.model.family import Role, Sort
 from assoc_hull.model.forms.closure import coefficients
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.shipped.plain_ship import plain_ship_design
 
 DESIGN = plain_ship_design()
 

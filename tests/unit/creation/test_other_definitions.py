@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.examples.plain_ship import plain_ship_design
-from assoc_hull.geometry.order import folds
+from assoc_hull.geometry.splines.curve_order import folds
 from assoc_hull.hull import Hull
+from assoc_hull.shipped.plain_ship import plain_ship_design
 from tests.conftest import Shipped
 
 

@@ -15,17 +15,17 @@ import pytest
 from numpy.typing import ArrayLike
 
 from assoc_hull.edit.document import Document
+from assoc_hull.edit.followup.births_and_deaths import unmeet
 from assoc_hull.edit.session import Edit
-from assoc_hull.edit.topology import unmeet
-from assoc_hull.examples.wigley import wigley
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import resolve
 from assoc_hull.model.change import shape_curves
-from assoc_hull.model.definition import definition, published
-from assoc_hull.model.family import Role, Sort, State
-from assoc_hull.model.make import Maker, PointSpec
-from assoc_hull.model.restore import from_definition
+from assoc_hull.model.definition.definition import definition, published
+from assoc_hull.model.definition.restore import from_definition
+from assoc_hull.model.kinds import Role, Sort, State
+from assoc_hull.model.make_objects import Maker, PointSpec
 from assoc_hull.model.state import Association, HullState
+from assoc_hull.shipped.wigley import wigley
 
 __all__ = ["DEFECTS", "POINT", "Defect", "every_defect", "planted", "sound"]
 

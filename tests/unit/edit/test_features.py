@@ -12,21 +12,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assoc_hull as ah
-from assoc_hull.edit.carry_features import carry_features
-from assoc_hull.edit.find_features import find_features
-from assoc_hull.edit.follow_features import followed
-from assoc_hull.edit.mapping import space_map
+from assoc_hull.edit.followup.feature_points import followed
+from assoc_hull.edit.followup.find_features import find_features
+from assoc_hull.edit.mapped_features import carry_features
+from assoc_hull.edit.recut.transform import transform
 from assoc_hull.edit.session import Edit
+from assoc_hull.edit.space_map import space_map
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.edit.transform import transform
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition import definition, fingerprint, published
-from assoc_hull.model.family import BoundaryKind, Sort
-from assoc_hull.model.feature_shape import ROUNDING, host_curve, line_numbers, places_off
-from assoc_hull.model.make import Maker, PointSpec
-from assoc_hull.model.restore import from_definition
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.restore import from_definition
+from assoc_hull.model.feature_geometry import ROUNDING, host_curve, line_numbers, places_off
+from assoc_hull.model.kinds import BoundaryKind, Sort
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.model.make_objects import Maker, PointSpec
 from tests.cases.test_box_with_bilges import round_box
 from tests.taken_back import taken_back
 

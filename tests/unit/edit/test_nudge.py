@@ -10,10 +10,10 @@ import assoc_hull as ah
 from assoc_hull.edit.nudge import Nudge, nudge, nudged
 from assoc_hull.edit.transaction import Transaction
 from assoc_hull.errors import BadInputError, RefusedEditError
-from assoc_hull.geometry.spline import sample
+from assoc_hull.geometry.splines.evaluation import sample
 from assoc_hull.model.copy import copy_of
-from assoc_hull.variation.carry_out import carry_out
-from assoc_hull.variation.hull_problem import HullProblem
+from assoc_hull.variation.aiming.hull_problem import HullProblem
+from assoc_hull.variation.carrying.carry_out import carry_out
 from tests.aims import FULLER, SHIFTED, problem, small
 
 

@@ -7,9 +7,9 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.normals import hull_normals
-from assoc_hull.examples.wigley import wigley
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.model.source import LineSource
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.shipped.wigley import wigley
 from tests.cases.valley import BREADTH, DEPTH, LENGTH, breadth_at, valley_hull
 
 STEP = 1e-6

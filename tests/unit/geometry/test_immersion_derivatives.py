@@ -10,10 +10,11 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from assoc_hull.geometry.curves import FloatArray, IntArray
-from assoc_hull.geometry.dual import Dual, as_array
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersion import immersed, prepare
-from assoc_hull.geometry.isocurves import IsoCurves
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.prepared_strips import prepare
+from assoc_hull.geometry.numeric.dual import Dual, as_array
+from assoc_hull.geometry.surfaces.isocurves import IsoCurves
 from tests.exact_hulls import FormStrips
 
 SUMS = [field.name for field in attrs.fields(Immersed) if field.name[:2] not in ("x_", "y_")]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.immersed import Immersed, Planes
-from assoc_hull.geometry.immersion import Prepared, immersed, prepare
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
 from tests.analytic_hulls import CASES, Case
 from tests.exact_hulls import box, ellipsoid, wigley
 

@@ -8,7 +8,7 @@ import networkx
 import pytest
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.graph.export import FORMATS, export
+from assoc_hull.graph.graph_text import FORMATS, export
 
 NAMES = {
     "quotes": "a \"b\" 'c'",

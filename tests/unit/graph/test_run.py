@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from assoc_hull.errors import AssocHullError, TooFewPointsError
 from assoc_hull.geometry.curves import IntArray
 from assoc_hull.graph.journal import Journal
+from assoc_hull.graph.levels import levels
 from assoc_hull.graph.node import Evaluation, Readers
-from assoc_hull.graph.rank import levels
-from assoc_hull.graph.run import Pass, Policy, run
+from assoc_hull.graph.run_update import Pass, Policy, run
 from assoc_hull.graph.table import Table
 
 Formulas = dict[int, tuple[int, ...]]

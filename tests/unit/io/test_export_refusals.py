@@ -11,15 +11,15 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.errors import AssocHullError, BadInputError, MissingExtraError
-from assoc_hull.examples.completion import net_from_table
 from assoc_hull.graph.journal import Journal
-from assoc_hull.io import offset_xlsx
-from assoc_hull.io.digitised import read_lines
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.export.gf import MOST, dumps_gf
 from assoc_hull.io.export_book import ExportBook
-from assoc_hull.io.gf import MOST, dumps_gf
-from assoc_hull.io.line_points import DrawnLine, lines_as_points
-from assoc_hull.io.offsets import read_offsets
-from assoc_hull.model.family import State
+from assoc_hull.io.lines.line_points import DrawnLine, lines_as_points
+from assoc_hull.io.offsets.completion import net_from_table
+from assoc_hull.io.offsets.read import read_offsets
+from assoc_hull.io.tables import offset_xlsx
+from assoc_hull.model.kinds import State
 from assoc_hull.model.state import HullState, Particulars
 from assoc_hull.sources import examples
 

@@ -11,8 +11,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.form.catalogue import CATALOGUE
 from assoc_hull.analysis.form.report import FormReport, Row, form_report, number_text
-from assoc_hull.io.form_table import COLUMNS, csv_text, xlsx_bytes
-from assoc_hull.io.form_text import catalogue_text, form_text
+from assoc_hull.io.tables.form_table import COLUMNS, csv_text, xlsx_bytes
+from assoc_hull.io.tables.form_text import catalogue_text, form_text
 from tests.form_entries import bare, doubted, passed_on
 
 

@@ -18,7 +18,7 @@ from assoc_hull.errors import (
     HullFileError,
     StaleHullError,
 )
-from assoc_hull.io.hull_file_place import is_open_here, log_of
+from assoc_hull.io.open_databases import is_open_here, log_of
 
 POINT = "WL 4.6875 x ST 3"
 

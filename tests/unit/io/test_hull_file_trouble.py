@@ -15,7 +15,7 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.cli import main
 from assoc_hull.errors import DamagedFileError, HullFileError
-from assoc_hull.io.hull_file_steps import digest
+from assoc_hull.io.hull_file.steps import digest
 
 POINT = "WL 4.6875 x ST 3"
 

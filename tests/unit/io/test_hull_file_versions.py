@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file_schema import MIGRATIONS, SCHEMA, migrate
+from assoc_hull.io.hull_file.schema import MIGRATIONS, SCHEMA, migrate
 
 OLD = Path(__file__).parent / "old_files"
 PRINT = "0e275868597c38061acf0b780531a5e89c848937aa4fbe74c37ae6cea4b779c1"

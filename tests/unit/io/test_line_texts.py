@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError
-from assoc_hull.io.digitised import read_lines
-from assoc_hull.io.whole_file import write_whole
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.write_file import write_whole
 
 HALF = "3\n0,0\n10,2\n12,20,0,0,DK"
 

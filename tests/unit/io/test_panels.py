@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from assoc_hull.analysis.panels.build import panels
-from assoc_hull.analysis.panels.quality import panel_report
+from assoc_hull.analysis.panels.mesh_quality import panel_report
 from assoc_hull.errors import AssocHullError, BadInputError
-from assoc_hull.geometry.panel_clip import below_water
-from assoc_hull.geometry.panel_mesh import PanelMesh
+from assoc_hull.geometry.surfaces.panel_clip import below_water
+from assoc_hull.geometry.surfaces.panel_mesh import PanelMesh
 from assoc_hull.hull import Hull
-from assoc_hull.io.panels_file import PANEL_FORMS, panel_bytes, read_panels, write_panels
+from assoc_hull.io.panels.files import PANEL_FORMS, panel_bytes, read_panels, write_panels
 from assoc_hull.sources import examples
 
 TEXT = ("nemoh", "wamit", "hams", "stl-text")

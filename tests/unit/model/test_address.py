@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import BadInputError, UnknownNameError
-from assoc_hull.examples.wigley import wigley
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.address import AddressBook, address, resolve
-from assoc_hull.model.family import Role, Sort
-from assoc_hull.model.make import CrossingSpec, Maker, PointSpec
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import CrossingSpec, Maker, PointSpec
 from assoc_hull.model.state import HullState
+from assoc_hull.shipped.wigley import wigley
 
 
 @pytest.fixture

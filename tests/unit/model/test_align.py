@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assoc_hull.model.align import align_curve, align_roots
+from assoc_hull.model.align_intersections import align_curve, align_roots
 from assoc_hull.model.state import Meets
 
 Roots = tuple[np.typing.NDArray[np.int8], np.typing.NDArray[np.float64]]

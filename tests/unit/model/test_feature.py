@@ -9,14 +9,14 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.edit.transaction import Transaction
-from assoc_hull.examples.wigley import wigley
 from assoc_hull.graph.journal import Journal
 from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition import definition, fingerprint
-from assoc_hull.model.feature import Feature
-from assoc_hull.model.make import Maker
-from assoc_hull.model.restore import from_definition
+from assoc_hull.model.definition.definition import definition, fingerprint
+from assoc_hull.model.definition.restore import from_definition
+from assoc_hull.model.features import Feature
+from assoc_hull.model.make_objects import Maker
 from assoc_hull.model.state import HullState
+from assoc_hull.shipped.wigley import wigley
 
 
 def small() -> HullState:

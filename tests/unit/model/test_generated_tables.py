@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.io.hull_file_sound import require_sound
+from assoc_hull.io.hull_file.check import require_sound
 from assoc_hull.io.hull_json import dumps_hull_json, read_hull_json
 from assoc_hull.model import index
 from assoc_hull.model.copy import copy_of
-from assoc_hull.model.definition import definition, fingerprint, published
-from assoc_hull.model.forms.definition import FormDefinition
+from assoc_hull.model.definition.definition import definition, fingerprint, published
+from assoc_hull.model.definition.restore import from_definition
+from assoc_hull.model.definition_part import FormDefinition
 from assoc_hull.model.generated import attached, attached_rows, generated_on
 from assoc_hull.model.regenerate import points_given
-from assoc_hull.model.restore import from_definition
 from assoc_hull.model.state import HullState, form_node, form_of
 from tests.formed import STATIONS, formed, formed_definitions
 

@@ -10,12 +10,12 @@ from numpy.testing import assert_allclose
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.hull import Hull
-from assoc_hull.plot.paper import PAPERS
-from assoc_hull.plot.variation import field_plan
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer, Rake
-from assoc_hull.variation.hat import hat
+from assoc_hull.plot.lines_plan.variation_fields import field_plan
+from assoc_hull.plot.sheet.paper import PAPERS
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.piecewise_linear import Chain
 
 Lines = Callable[[Figure, str], list[FloatArray]]
 Boxes = Callable[[Figure], dict[str, FloatArray]]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.plot.form_curve import form_curve_picture
+from assoc_hull.plot.diagrams.form_curve import form_curve_picture
 
 
 def test_a_picture_is_true() -> None:

@@ -7,9 +7,9 @@ import pytest
 
 import assoc_hull as ah
 from assoc_hull.study.design import OUTPUTS, Design
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
 
 
 def fuller() -> FieldLayer:

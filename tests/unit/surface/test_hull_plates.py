@@ -12,14 +12,14 @@ import assoc_hull as ah
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.plating import HullPlates as WritablePlates
-from assoc_hull.surface.hull_plates.doubt import Doubt
-from assoc_hull.surface.hull_plates.hull_plate import TOO_COARSE
-from assoc_hull.surface.hull_plates.hull_plate_table import HullPlates
-from assoc_hull.surface.hull_plates.hull_plates import hull_plates
-from assoc_hull.surface.hull_plates.hull_seams import HullSeams
-from assoc_hull.surface.hull_plates.judging import rung
-from assoc_hull.surface.hull_plates.other_fits import every_second_waterline
-from assoc_hull.surface.hull_plates.shell import Shell
+from assoc_hull.surface.plates.doubt import Doubt
+from assoc_hull.surface.plates.hull_plate import TOO_COARSE
+from assoc_hull.surface.plates.hull_plate_table import HullPlates
+from assoc_hull.surface.plates.hull_plates import hull_plates
+from assoc_hull.surface.plates.hull_seams import HullSeams
+from assoc_hull.surface.plates.judging import rung
+from assoc_hull.surface.plates.other_fits import every_second_waterline
+from assoc_hull.surface.plates.shell import Shell
 from tests.formula_sides import BOWL, HYPAR, Side
 
 X, Z = (-12.0, 12.0), (-5.0, 5.0)

@@ -22,8 +22,8 @@ from assoc_hull.errors import (
     WrongTypeError,
 )
 from assoc_hull.variants import Variation
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.raw import fields_from
+from assoc_hull.variation.fields.field_data import fields_from
+from assoc_hull.variation.fields.fields_layer import FieldLayer
 from tests.aims import FULLER, SHIFTED, problem, small
 
 HERE = np.array([0.2, 0.4, 0.3])

@@ -15,15 +15,15 @@ from assoc_hull.errors import (
     UnknownNameError,
     WrongTypeError,
 )
-from assoc_hull.variation.anchors import measure_all
 from assoc_hull.variation.ask import TOLERANCE
-from assoc_hull.variation.catalogue import NAMES
-from assoc_hull.variation.certify import certify
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.limits import hull_box, present
-from assoc_hull.variation.parent_of import parent_of
-from assoc_hull.variation.room import Room
+from assoc_hull.variation.carrying.room import Room
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.parameters.catalogue import NAMES
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.limits import hull_box, present
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.read_parent import parent_of
 
 Given = dict[str, Any]
 

@@ -9,20 +9,20 @@ from hypothesis import given, settings
 
 from assoc_hull.errors import WrongTypeError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.additive import AdditiveLayer
-from assoc_hull.variation.admissible import admissible
-from assoc_hull.variation.blend import BLENDS
-from assoc_hull.variation.certify import certify
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.corner import CornerLayer
-from assoc_hull.variation.field import Field, Piece, Region, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.fold_outside import fold_outside
-from assoc_hull.variation.hat import hat
-from assoc_hull.variation.image_box import image_box
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.shear import DeadriseLayer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.certificate.admissible_amplitudes import admissible
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.certificate.fold_outside import fold_outside
+from assoc_hull.variation.certificate.image_box import image_box
+from assoc_hull.variation.fields.additive import AdditiveLayer
+from assoc_hull.variation.fields.blend import BLENDS
+from assoc_hull.variation.fields.corner import CornerLayer
+from assoc_hull.variation.fields.field import Field, Piece, Region, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.shear import DeadriseLayer
+from assoc_hull.variation.fields.space_map import VMap
 from tests.variation_strategies import BEAM, DEPTH, LENGTH, layers, places
 
 BOX = np.array([[-8.0, -0.5 * BEAM, -2.0], [LENGTH + 8.0, 0.5 * BEAM, DEPTH]])

@@ -10,14 +10,14 @@ import pytest
 
 from assoc_hull.errors import BadInputError
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.bounds import bounds
-from assoc_hull.variation.catalogue import CATALOGUE
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.compose import compose, solve
-from assoc_hull.variation.field import Field, Piece, stack
-from assoc_hull.variation.layout import Layout
-from assoc_hull.variation.parent import Parent
-from assoc_hull.variation.share import Share
+from assoc_hull.variation.fields.field import Field, Piece, stack
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.parameters.bounds import bounds
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.compose_map import compose, solve
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.share import Share
 from tests.unit.variation.conftest import at
 
 LOCAL = {

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.blend import QUINTIC, Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.creases import creases
-from assoc_hull.variation.field import Axis, Field, Piece, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.layer import Layer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.blend import QUINTIC, Blend
+from assoc_hull.variation.fields.creases import creases
+from assoc_hull.variation.fields.field import Axis, Field, Piece, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.space_map import VMap
 from tests.variation_strategies import (
     blends,
     corner_layers,

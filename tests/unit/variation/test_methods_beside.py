@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from assoc_hull.hull import Hull
-from assoc_hull.variation.additive import AdditiveLayer
-from assoc_hull.variation.vmap import VMap
-from assoc_hull.variation.weights import FieldPlan
+from assoc_hull.variation.fields.additive import AdditiveLayer
+from assoc_hull.variation.fields.batch_displacements import FieldPlan
+from assoc_hull.variation.fields.space_map import VMap
 from benchmarks.ffd import SIDE, Lattice, LatticeLayer, LatticePlan
 from benchmarks.variation_methods import fared
 from benchmarks.variation_tasks import METHODS, Task, tasks

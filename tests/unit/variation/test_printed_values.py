@@ -7,12 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.blend import CUBIC, QUINTIC, Blend
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.corner import CornerLayer
-from assoc_hull.variation.field import Axis, Field, Piece, Tube, stack
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.vmap import VMap
+from assoc_hull.variation.fields.blend import CUBIC, QUINTIC, Blend
+from assoc_hull.variation.fields.corner import CornerLayer
+from assoc_hull.variation.fields.field import Axis, Field, Piece, Tube, stack
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.piecewise_linear import Chain
+from assoc_hull.variation.fields.space_map import VMap
 
 BOTH = [pytest.param(CUBIC, 0, id="cubic"), pytest.param(QUINTIC, 1, id="quintic")]
 PLATEAU = stack(["base", "h-r", "h+r", "T"], [0.0, 3.27, 4.73, 10.8])

@@ -10,12 +10,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 import assoc_hull as ah
-from assoc_hull.analysis.parameters import DRAUGHT, PointMove
+from assoc_hull.analysis.derivatives.parameters import DRAUGHT, PointMove
 from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
 from assoc_hull.hull import Hull
-from assoc_hull.variation.chain import Chain
-from assoc_hull.variation.fields_layer import FieldLayer
-from assoc_hull.variation.hat import hat
+from assoc_hull.variation.fields.fields_layer import FieldLayer
+from assoc_hull.variation.fields.hat import hat
+from assoc_hull.variation.fields.piecewise_linear import Chain
 from assoc_hull.variation.sensitivity_table import Sensitivities
 
 

@@ -12,15 +12,21 @@ from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 
 from assoc_hull.errors import BadInputError, OutOfRangeError
-from assoc_hull.examples.series60_table import todd_table
 from assoc_hull.geometry.curves import FloatArray
-from assoc_hull.variation.polyline import Polyline
-from assoc_hull.variation.shift_classic import half_bodies, lackenby_changes
-from assoc_hull.variation.shift_elements import Elements
-from assoc_hull.variation.shift_solve import Shift, closed_form
-from assoc_hull.variation.shift_sums import Sums
-from assoc_hull.variation.shift_tasks import Bodies, Whole
-from assoc_hull.variation.shift_terms import SHIFT_SHAPES, Fade, ShiftShape, ShiftTerms, Terminals
+from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.variation.fields.polyline import Polyline
+from assoc_hull.variation.shifts.closed_form import Shift, closed_form
+from assoc_hull.variation.shifts.elements import Elements
+from assoc_hull.variation.shifts.lackenby import half_bodies, lackenby_changes
+from assoc_hull.variation.shifts.shift_terms import (
+    SHIFT_SHAPES,
+    Fade,
+    ShiftShape,
+    ShiftTerms,
+    Terminals,
+)
+from assoc_hull.variation.shifts.sums import Sums
+from assoc_hull.variation.shifts.tasks import Bodies, Whole
 
 TABLE = todd_table(0.70)[0]
 L, T = TABLE.length, TABLE.draught or 0.0

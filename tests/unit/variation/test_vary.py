@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.edit.mapping import SpaceMap
+from assoc_hull.edit.space_map import SpaceMap
 from assoc_hull.geometry.curves import FloatArray
 from assoc_hull.variation.ask import Planes, Stations
-from assoc_hull.variation.drivers import keeps
+from assoc_hull.variation.carrying.drivers import keeps
 
 
 @pytest.fixture(scope="module")

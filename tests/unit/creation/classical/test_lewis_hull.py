@@ -10,13 +10,13 @@ import pytest
 from numpy.polynomial.polynomial import polyval
 
 import assoc_hull as ah
-from assoc_hull.analysis.area_curve import area_curve
-from assoc_hull.analysis.flotation import flotation
+from assoc_hull.analysis.hydrostatics.area_curve import area_curve
+from assoc_hull.analysis.hydrostatics.flotation import flotation
+from assoc_hull.creation.classical.classical_net import classical_net
 from assoc_hull.creation.classical.lewis_hull import LewisHull
-from assoc_hull.creation.classical.net import classical_net
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.form_polynomials import taylor_quintic
-from assoc_hull.geometry.immersed import Planes
+from assoc_hull.geometry.floating.immersed import Planes
 
 X = np.linspace(0.0, 120.0, 21)
 ALONG = 1.0 - np.abs(X / 60.0 - 1.0)

@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
+from assoc_hull.creation.classical.classical_net import classical_net
 from assoc_hull.creation.classical.middle_body import MiddleBody, midship_outline
-from assoc_hull.creation.classical.net import classical_net
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.creation.classical.outline import Outline, circular, smooth, straight
 from assoc_hull.creation.classical.report import Section, departures
 from assoc_hull.geometry.classical.arcs import Arcs
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.curves import PointKind
-from assoc_hull.geometry.evaluation import sample
-from assoc_hull.geometry.spline import loft
-from assoc_hull.model.source import curve_data
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.line_source import curve_data
 
 MIDSHIP = Midship(16.0, 2.0, 0.3, 2.5)
 VOLUME = 11249.94226

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.creation.classical.net import classical_net
+from assoc_hull.creation.classical.classical_net import classical_net
 from assoc_hull.creation.classical.prelikon import Prelikon
 from assoc_hull.creation.classical.prelikon_pieces import Joint, joints_of
 from assoc_hull.creation.classical.prelikon_stations import Station
 from assoc_hull.errors import AssocHullError, GeometryError
-from assoc_hull.examples.classical_ships import classical_ship
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
 from assoc_hull.geometry.classical.arc_boundary import ArcBoundary
 from assoc_hull.geometry.classical.arc_section import round_corners, through_points
@@ -23,6 +22,7 @@ from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
+from assoc_hull.shipped.classical_ships import classical_ship
 
 SIZES = ah.Particulars("Body", 40.0, 20.0, 9.0, 6.0, "closed")
 BILGE = round_corners([(0, 0), (10, 0), (10, 12)], radius=[2.0])

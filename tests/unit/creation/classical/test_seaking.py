@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 
 import assoc_hull as ah
-from assoc_hull.creation.classical.net import classical_net
+from assoc_hull.creation.classical.classical_net import classical_net
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.creation.classical.report import ClassicalReport
 from assoc_hull.creation.classical.seaking import Seaking
 from assoc_hull.creation.classical.seaking_parts import DeckCamber, Parallel
 from assoc_hull.creation.classical.seaking_sections import MidshipSection
 from assoc_hull.creation.classical.seaking_sums import breaks_of
 from assoc_hull.errors import GeometryError
-from assoc_hull.examples.classical_ships import classical_ship
 from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
-from assoc_hull.geometry.closest import closest
+from assoc_hull.geometry.splines.closest import closest
 from assoc_hull.model.state import Particulars
+from assoc_hull.shipped.classical_ships import classical_ship
 
 
 def body(**changed: object) -> Seaking:

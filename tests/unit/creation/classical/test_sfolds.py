@@ -12,10 +12,10 @@ import assoc_hull as ah
 from assoc_hull.creation.classical.runs import kinds_along
 from assoc_hull.creation.classical.sfolds import Sfolds
 from assoc_hull.creation.classical.sfolds_lines import frames_of, section_points
+from assoc_hull.creation.classical.sfolds_portion import Portion
 from assoc_hull.errors import GeometryError
-from assoc_hull.examples.classical_ships import classical_ship
 from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
-from assoc_hull.geometry.classical.portion import Portion
+from assoc_hull.shipped.classical_ships import classical_ship
 
 SECTION = OrdinateSection.make(
     hb=0.9, sb=3, sw=2, hd=12.4, bd=15.2, cam=0.4, zb=[0, 0.02, 0.10, 0.31, 0.80],

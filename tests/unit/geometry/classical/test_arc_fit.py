@@ -14,8 +14,8 @@ from assoc_hull.geometry.classical.arcs import Arcs
 from assoc_hull.geometry.classical.biarc_family import BiarcChords, shared
 from assoc_hull.geometry.classical.checks import wrap
 from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
-from assoc_hull.geometry.segments import power
-from assoc_hull.geometry.spline import loft
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import power
 
 WITHIN = 0.0005
 

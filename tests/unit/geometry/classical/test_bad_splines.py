@@ -19,7 +19,7 @@ from assoc_hull.geometry.classical.circles import (
 )
 from assoc_hull.geometry.classical.elastica import Elastica
 from assoc_hull.geometry.classical.elastica_fit import fit_elastica
-from assoc_hull.geometry.classical.truncated_power import (
+from assoc_hull.geometry.classical.truncated_power_spline import (
     TruncatedPower,
     power_columns,
     solved_directly,

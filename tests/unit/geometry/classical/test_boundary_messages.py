@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.camber import Camber
@@ -15,7 +16,6 @@ from assoc_hull.geometry.classical.frame import Frame
 from assoc_hull.geometry.classical.frame_parabolas import run_bends
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 
 AFT, FORWARD, TANGENT = [(0, 8), (10, 0)], [(120, 0), (130, 9)], [(10, 0), (120, 0)]

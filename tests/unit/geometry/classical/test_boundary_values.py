@@ -8,13 +8,13 @@ from typing import Literal
 import numpy as np
 import pytest
 
+from assoc_hull.creation.classical.midship import Midship
 from assoc_hull.geometry.classical.appendage import Appendage
 from assoc_hull.geometry.classical.camber import Camber
 from assoc_hull.geometry.classical.deck_corner import deck_corner
 from assoc_hull.geometry.classical.frame_parabolas import run_bends, tangent_jumps
 from assoc_hull.geometry.classical.keel_outline import KeelOutline
 from assoc_hull.geometry.classical.knuckle_codes import KnuckleLine
-from assoc_hull.geometry.classical.midship import Midship
 from assoc_hull.geometry.classical.parallel_waterline import ParallelWaterline
 from assoc_hull.geometry.classical.quadratics import Quadratics
 

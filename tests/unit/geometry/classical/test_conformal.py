@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.conformal import (
+from assoc_hull.geometry.classical.conformal_sections import (
     ConformalSections,
     fit_conformal,
     lewis_sections,

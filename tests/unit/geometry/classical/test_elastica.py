@@ -18,7 +18,7 @@ from assoc_hull.geometry.classical.elastica_solve import (
     fit_amplitudes,
     least_modulus,
 )
-from assoc_hull.geometry.quadrature import gauss
+from assoc_hull.geometry.numeric.quadrature import gauss
 
 
 def test_an_inflecting_segment_is_that_of_the_reference() -> None:

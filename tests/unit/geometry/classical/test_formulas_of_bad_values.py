@@ -16,7 +16,7 @@ from assoc_hull.geometry.classical.combined_waterline import (
     conic_notes,
     waterline,
 )
-from assoc_hull.geometry.classical.conformal import fit_conformal, lewis_sections
+from assoc_hull.geometry.classical.conformal_sections import fit_conformal, lewis_sections
 from assoc_hull.geometry.classical.cubic_conic import (
     cubic_conic,
     cubic_conic_coefficients,
@@ -30,8 +30,8 @@ from assoc_hull.geometry.classical.form_polynomials import (
     taylor_quintic,
 )
 from assoc_hull.geometry.classical.joined_pieces import circle_piece, joined_pieces
-from assoc_hull.geometry.classical.lackenby import lackenby_shift, one_minus_prismatic
-from assoc_hull.geometry.classical.linear_fits import (
+from assoc_hull.geometry.classical.lackenby_shift import lackenby_shift, one_minus_prismatic
+from assoc_hull.geometry.classical.linear_least_squares import (
     bounded_fit,
     held_fit,
     linear_fit,

@@ -12,7 +12,6 @@ from numpy.polynomial.polynomial import polyder, polyint, polyval
 from scipy.interpolate import BPoly
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.examples.wigley import half_breadth
 from assoc_hull.geometry.classical.draft_functions import DraftFunctions, fit_polynomial_hull
 from assoc_hull.geometry.classical.form_polynomials import (
     chapman,
@@ -20,8 +19,8 @@ from assoc_hull.geometry.classical.form_polynomials import (
     product_hull,
     taylor_quintic,
 )
-from assoc_hull.geometry.classical.lackenby import lackenby_shift, one_minus_prismatic
-from assoc_hull.geometry.classical.linear_fits import (
+from assoc_hull.geometry.classical.lackenby_shift import lackenby_shift, one_minus_prismatic
+from assoc_hull.geometry.classical.linear_least_squares import (
     bounded_fit,
     held_fit,
     linear_fit,
@@ -33,7 +32,8 @@ from assoc_hull.geometry.classical.series_hulls import (
     series_columns,
 )
 from assoc_hull.geometry.classical.smooth_offsets import smooth_offsets, smooth_table
-from assoc_hull.variation.shift_classic import HalfBody
+from assoc_hull.shipped.wigley import half_breadth
+from assoc_hull.variation.shifts.lackenby import HalfBody
 from tests.piece_values import PIECES
 
 X = np.linspace(-1.0, 1.0, 21)

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.ordinate_section import FORMS, OrdinateSection
+from assoc_hull.geometry.classical.ordinate_checks import FORMS
+from assoc_hull.geometry.classical.ordinate_section import OrdinateSection
 from assoc_hull.geometry.classical.paired_parabolas import PairedParabolas
 
 GIVEN: dict[str, Any] = {

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from assoc_hull.creation.classical.main_types import require_types
 from assoc_hull.errors import GeometryError
 from assoc_hull.geometry.classical.appendage_box import AppendageBox
 from assoc_hull.geometry.classical.arc_section import through_points
 from assoc_hull.geometry.classical.camber_kinds import CamberKind
 from assoc_hull.geometry.classical.deck_house import DeckHouse
 from assoc_hull.geometry.classical.deck_surface import Deck, require_apart
-from assoc_hull.geometry.classical.main_types import require_types
 from assoc_hull.geometry.classical.sheer import Sheer
 from assoc_hull.geometry.classical.space_curve import SpaceCurve
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import BSpline, CubicSpline
 
 from assoc_hull.errors import GeometryError
-from assoc_hull.geometry.classical.truncated_power import (
+from assoc_hull.geometry.classical.truncated_power_spline import (
     TruncatedPower,
     power_columns,
     solved_directly,

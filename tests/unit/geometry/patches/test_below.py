@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from assoc_hull.geometry.patches.below import below
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
+from assoc_hull.geometry.patches.volume_below import below
 
 LENGTH, BREADTH, DRAUGHT = 100.0, 10.0, 6.25
 # Bezier points of 1 - t**2 for t from -1 to 1, and of 1 - (1 - t)**2 for t from 0 to 1.

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from assoc_hull.geometry.patches.facets import Facets, facets_of, joined_facets
-from assoc_hull.geometry.patches.meeting import meet_plane, slopes
+from assoc_hull.geometry.patches.plane_intersection import meet_plane, slopes
 from assoc_hull.geometry.patches.spline_surface import SplineSurface
 from assoc_hull.geometry.patches.stitching import outward_parts, stitched
-from assoc_hull.geometry.triangles import boundary_edges
+from assoc_hull.geometry.surfaces.triangles import boundary_edges
 from tests import cad_hulls
-from tests.unit.io.test_surface_slices import wigley
+from tests.unit.io.slicing.test_surface_slices import wigley
 
 
 def test_slopes_are_those_of_the_surface() -> None:

@@ -8,7 +8,7 @@ import pytest
 from assoc_hull.creation.classical.seaking import Seaking
 from assoc_hull.errors import BadInputError, GeometryError
 from assoc_hull.io.classical.cards import read_cards
-from assoc_hull.io.classical.seaking_text import read_seaking
+from assoc_hull.io.classical.seaking import read_seaking
 
 TEXT = """SEAKING "Test ship"
 length 40

@@ -13,7 +13,7 @@ from assoc_hull.surface.blocks.doubts import (
     doubts_of_shape,
 )
 from assoc_hull.surface.blocks.fit_options import angle_limit, fit_options
-from assoc_hull.surface.net_records import Border, Residuals
+from assoc_hull.surface.blocks.net_records import Border, Residuals
 
 OPTIONS = fit_options(300.0)
 

@@ -9,8 +9,8 @@ import pytest
 import assoc_hull as ah
 from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.errors import BadInputError, OpenMeshError, OpenNetError, UnknownNameError
-from assoc_hull.examples.wigley import half_breadth
 from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.shipped.wigley import half_breadth
 from assoc_hull.surface.cells.closed_mesh import ClosedMesh, mesh_of_net
 from assoc_hull.surface.cells.faces import cells
 from assoc_hull.surface.cells.filling import FilledCells, fill_cells

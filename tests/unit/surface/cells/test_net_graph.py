@@ -10,7 +10,7 @@ import assoc_hull as ah
 from assoc_hull.analysis.net.gather import Net, gather
 from assoc_hull.errors import OpenNetError
 from assoc_hull.geometry.curves import SplineBatch
-from assoc_hull.geometry.length import arc_length
+from assoc_hull.geometry.splines.length import arc_length
 from assoc_hull.surface.cells.faces import Cells, cells
 from assoc_hull.surface.cells.net_graph import net_graph
 from assoc_hull.surface.cells.sound_cells import sound_cells

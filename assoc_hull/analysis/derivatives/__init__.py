@@ -1,0 +1,1 @@
+"""Derivatives of hydrostatics by position, points and deformations."""

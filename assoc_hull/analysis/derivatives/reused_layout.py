@@ -1,0 +1,178 @@
+"""A hull whose points have moved, put together as it was before: nothing is laid out anew.
+
+To lay out a surface (which lines bound which cell) takes far longer than to measure it. Where
+points only move, as from one trial of many to the next, the old layout serves again: the cells
+are put on the lines as they have become, with the rule by which derivatives are taken.
+
+What a full layout would decide otherwise stays as it was. Two knots across a strip that pass
+one another, for instance: the smooth pieces there differ from one another by the third power
+of how far they pass, which is less than rounding for moves of a trial.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.derivatives.curve_tangents import defining_rows
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
+from assoc_hull.analysis.net.gather import Net, Part, gather
+from assoc_hull.analysis.net.loops import Frame
+from assoc_hull.analysis.net.moved_layout import followed
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.segments import locate, segment_start
+from assoc_hull.geometry.surfaces.coons import CoonsStrips
+from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.state import HullState
+
+__all__ = ["flotation_like", "moved", "moved_to", "same_structure"]
+
+
+def moved(base: Flotation, data: CurveData, points: FloatArray) -> Flotation:
+    """Give a hull of other places of its points, by the layout that it had.
+
+    Parameters
+    ----------
+    base : Flotation
+        The hull as it was.
+    data : CurveData
+        Its curves, of points and directions that have moved; in the order of `base.net.curve`.
+    points : (n, 3), m
+        All points of its tables, where they are now.
+
+    Returns
+    -------
+    Flotation
+        Its tables are those of the hull as it was: what is measured is right, errors are not
+        to be estimated.
+
+    Raises
+    ------
+    CoincidentPointsError
+        Two points of a curve have come together.
+    """
+    batch = loft(data)
+    return _put(base, base.state, _net(base.net, batch), points)
+
+
+def moved_to(base: Flotation, state: HullState) -> Flotation | None:
+    """Give what `flotation` gives of tables, but by the layout of a hull of the same structure.
+
+    Parameters
+    ----------
+    base : Flotation
+        The hull as it was.
+    state : HullState
+        The tables now, of the same hull or of a copy.
+
+    Returns
+    -------
+    Flotation or None
+        None where lines or crossings have come, gone or changed their kind: what was laid out
+        says nothing of that hull.
+
+    Examples
+    --------
+    >>> import assoc_hull as ah
+    >>> from assoc_hull.analysis.hydrostatics.flotation import flotation
+    >>> from assoc_hull.analysis.derivatives.reused_layout import moved_to
+    >>> hull = ah.examples.wigley()
+    >>> before = flotation(hull.state)
+    >>> with hull.edit("fuller") as edit:
+    ...     edit.move("WL 2.5 x ST 7", y=3.3)
+    >>> moved_to(before, hull.state).layout.frames is before.layout.frames
+    False
+    """
+    net = gather(state)
+    kinds = curve_data(state, net.curve).kind
+    if not same_structure(base, state, net) or not np.array_equal(kinds, base.kinds):
+        return None
+    return _put(base, state, net, state.rows.xyz.data)
+
+
+def flotation_like(base: HullState, state: HullState) -> Flotation:
+    """Make what floats of a hull, by the layout of another one if their structure is the same.
+
+    Parameters
+    ----------
+    base : HullState
+        The hull that it comes from.
+    state : HullState
+        Its own tables, which keep nothing of this.
+
+    Raises
+    ------
+    BadInputError
+        As `flotation`.
+    """
+    return moved_to(flotation(base), state) or flotation(state)
+
+
+def same_structure(base: Flotation, state: HullState, net: Net) -> bool:
+    """Tell whether a net has the lines and crossings of a hull, in the same order."""
+    was = base.net
+    numbers = ("curve", "end", "flat", "knuckle", "centre", "watched", "row")
+    shaped = all(np.array_equal(getattr(net, name), getattr(was, name)) for name in numbers)
+    return (
+        shaped
+        and (net.name, net.family) == (was.name, was.family)
+        and np.array_equal(net.batch.start, was.batch.start)
+        and np.array_equal(net.meets, was.meets)
+        and np.array_equal(defining_rows(state, net.curve), defining_rows(base.state, was.curve))
+        and np.array_equal(_order(net.x), _order(was.x))
+        and state.particulars.deck == base.state.particulars.deck
+    )
+
+
+def _order(x: FloatArray) -> IntArray:
+    """Give which stand before which, and which at the same place."""
+    return np.unique(x, return_inverse=True)[1]
+
+
+def _put(base: Flotation, state: HullState, net: Net, points: FloatArray) -> Flotation:
+    cells = followed(base.layout, base.net, net.batch, points)
+    frames = _frames(base.layout.frames, base.net.batch, net.batch)
+    layout = attrs.evolve(base.layout, cells=cells, frames=frames)
+    return Flotation(state, net, layout, CoonsStrips.on(cells, net.batch), base.kinds)
+
+
+def _net(net: Net, batch: SplineBatch) -> Net:
+    """Give the lines as they have become; a section stands where its first point is."""
+    first = batch.start[:-1]
+    gone = batch.xyz[first, 0] - net.batch.xyz[first, 0]
+    place = _carried(net.batch, batch, net.meets.ravel(), net.place.ravel())
+    return attrs.evolve(net, batch=batch, x=net.x + gone, place=place.reshape(net.place.shape))
+
+
+def _carried(was: SplineBatch, now: SplineBatch, curve: IntArray, t: FloatArray) -> FloatArray:
+    """Give parameters at the same parts of the same segments."""
+    segment, u = locate(was, curve, t)
+    first = segment_start(was)[segment]
+    found: FloatArray = now.knot[first] * (1.0 - u) + now.knot[first + 1] * u
+    return found
+
+
+def _frames(frames: tuple[Frame, ...], was: SplineBatch, now: SplineBatch) -> tuple[Frame, ...]:
+    """Give strips whose sides run between the same places of the lines as they have become."""
+    parts = [part for each in frames for side in _sides(each) for part in side]
+    if not parts:
+        return frames
+    curve = np.array([part[0] for part in parts]).repeat(2)
+    t = np.array([part[1:] for part in parts]).ravel()
+    ends = iter(_carried(was, now, curve, t).reshape(-1, 2).tolist())
+    found = []
+    for each in frames:
+        aft, fore, keel, deck = (
+            tuple(_between(part[0], *next(ends)) for part in side) for side in _sides(each)
+        )
+        found.append(Frame(aft, fore, keel, deck, each.slab, each.plane))
+    return tuple(found)
+
+
+def _between(curve: int, low: float, high: float) -> Part:
+    return curve, low, high
+
+
+def _sides(frame: Frame) -> tuple[tuple[Part, ...], ...]:
+    return frame.aft, frame.fore, frame.keel, frame.deck

@@ -1,0 +1,106 @@
+"""A hull whose lines carry derivatives along, put together as it was without them.
+
+The layout is that of the hull as it stands: which lines bound which cell, what is decided. So
+the sums are differentiated, not the decisions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import attrs
+import numpy as np
+
+from assoc_hull.analysis.derivatives.curve_tangents import Moving, moving
+from assoc_hull.analysis.derivatives.parameters import Shape
+from assoc_hull.analysis.hydrostatics.floating_body import StationAreas
+from assoc_hull.analysis.hydrostatics.flotation import Flotation
+from assoc_hull.analysis.net.gather import Net
+from assoc_hull.analysis.net.moved_layout import followed
+from assoc_hull.analysis.net.sections import flat_ends_below, sections_of
+from assoc_hull.geometry.curves import FloatArray, SplineBatch
+from assoc_hull.geometry.floating.immersed import Immersed, Planes
+from assoc_hull.geometry.floating.immersed_sections import sections_below
+from assoc_hull.geometry.floating.immersion import immersed
+from assoc_hull.geometry.floating.prepared_strips import Prepared, prepare
+from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain
+from assoc_hull.geometry.surfaces.coons import CoonsStrips
+
+__all__ = ["Varied", "varied_by"]
+
+
+@attrs.frozen(eq=False)
+class Varied:
+    """The surface of a net whose splines are of any arithmetic; implements `Measurable`.
+
+    Attributes
+    ----------
+    base : Flotation
+        The hull in plain numbers, which gives the layout.
+    batch : SplineBatch
+        Its splines: with tangents, complex, or of points that have moved a little.
+    points : (n, 3), m
+        All points of its tables, in the same arithmetic.
+    moving : Moving or None
+        What the tangents come from, if these are such.
+    """
+
+    base: Flotation
+    batch: SplineBatch
+    points: FloatArray
+    moving: Moving | None = None
+
+    @cached_property
+    def net(self) -> Net:
+        """The lines."""
+        return attrs.evolve(self.base.net, batch=self.batch)
+
+    @cached_property
+    def prepared(self) -> Prepared:
+        """The surface with its integrals."""
+        cells = followed(self.base.layout, self.base.net, self.batch, self.points)
+        strips = CoonsStrips.on(cells, self.batch)
+        return prepare(strips, plain=None if is_plain(self.batch.xyz) else self.base.strips)
+
+    def measure(self, planes: Planes) -> Immersed:
+        """Give the integrals below each plane."""
+        return immersed(self.prepared, planes)
+
+    def stations(self, planes: Planes) -> StationAreas:
+        """Give the areas of the stations below each plane."""
+        found = sections_of(self.net, self.base.closed)
+        area = found.per_station(sections_below(found.curves, planes))
+        return StationAreas(self._places(found.x), area, found.names)
+
+    def _places(self, x: FloatArray) -> FloatArray:
+        """Give where the stations are: where the first points of their first pieces have gone."""
+        sections = self.base.sections
+        first = sections.curve[np.searchsorted(sections.station, np.arange(len(x)))]
+        row = self.batch.start[first]
+        was = self.base.net.batch.xyz[row, 0]
+        gone: FloatArray = x + (self.batch.xyz[row, 0] - was)
+        return gone
+
+    def transom(self, planes: Planes) -> FloatArray:
+        """Give the area of transom and other flat ends below each plane, (d,), m2."""
+        return flat_ends_below(self.net, self.base.closed, planes)
+
+
+def varied_by(base: Flotation, shapes: Sequence[Shape]) -> Varied:
+    """Give a hull whose lines carry tangents, one per parameter.
+
+    Parameters
+    ----------
+    base : Flotation
+        The hull.
+    shapes : sequence of Shape
+        The parameters.
+
+    Raises
+    ------
+    BadInputError
+        A curve of the hull has failed; a parameter that cannot be used.
+    """
+    found, batch = moving(base, shapes)
+    return Varied(base, batch, as_array(Dual(found.place, found.points)), found)

@@ -1,0 +1,1 @@
+"""Entries of the catalogue of form parameters, by subject."""

@@ -1,0 +1,1 @@
+"""A net made from given lines."""

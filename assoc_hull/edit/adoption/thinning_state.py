@@ -1,0 +1,244 @@
+"""The state of the thinning of a net: what lies on each curve, and what was chosen of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.edit.adoption.match_crossings import Contact, Meeting
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.kinds import Role
+from assoc_hull.model.line_source import LineSource
+from assoc_hull.model.state import HullState
+
+__all__ = [
+    "SAME", "Item", "Left", "Net", "PointItem", "Thinned", "Work", "add_point", "is_thinned",
+    "knots_of", "loft_orders", "thinned_at",
+]  # fmt: skip
+
+
+@attrs.frozen(eq=False)
+class Net:
+    """Given lines with their references and all that meets."""
+
+    state: HullState
+    sources: tuple[LineSource, ...]
+    reference: SplineBatch
+    contacts: tuple[Contact, ...]
+    meetings: tuple[Meeting, ...]
+
+
+@attrs.frozen(eq=False)
+class PointItem:
+    """A given point that defines its curve by itself."""
+
+    curve: int
+    xyz: FloatArray
+    placed: bool
+    kind: int
+    direction: FloatArray
+
+
+@attrs.frozen(eq=False)
+class Thinned:
+    """The outcome: roles in the order of contacts and meetings, points, and curve orders.
+
+    `order` lists, per curve, indices into contacts, then meetings, then points. `left` tells
+    the given points that a curve passes too far off and that could not be adopted.
+    """
+
+    contact_role: tuple[Role, ...]
+    meeting_role: tuple[Role, ...]
+    points: tuple[PointItem, ...]
+    order: tuple[tuple[int, ...], ...]
+    left: tuple[Left, ...]
+
+
+@attrs.frozen
+class Left:
+    """A given point left out: the curve passes it `away` (m), more than the line's tolerance.
+
+    It lies `beside` (m) a point the curve is made through, too close to adopt it; or, where
+    `bends`, a point there would give the curve an inflection that its line lacks.
+    """
+
+    curve: int
+    point: int
+    away: float
+    beside: float
+    bends: bool = False
+
+
+SAME = 1e-4
+"""Places closer than this (m) are one place of the net."""
+
+
+class Item(NamedTuple):
+    """Something on a curve: a contact, a meeting, or a given point; `number` counts them all."""
+
+    at: float
+    number: int
+    fixed: bool
+    angle_deg: float
+
+
+@attrs.define(eq=False)
+class Given:
+    """Contacts, then meetings, then points, by their numbers.
+
+    Attributes
+    ----------
+    xyz : (n, 3), m
+        Their places.
+    curve : (n,) int
+        The curve on which they have a kind of their own; on another one they are smooth.
+    kind : (n,) int8
+        Their `PointKind` on it.
+    direction : (n, 3)
+        Their direction on it.
+    """
+
+    xyz: FloatArray
+    curve: IntArray
+    kind: NDArray[np.int8]
+    direction: FloatArray
+
+    def add(self, point: PointItem) -> None:
+        """Append a point."""
+        self.xyz = np.concatenate([self.xyz, point.xyz[None]])
+        self.curve = np.append(self.curve, point.curve)
+        self.kind = np.append(self.kind, np.int8(point.kind))
+        self.direction = np.concatenate([self.direction, point.direction[None]])
+
+    def on(self, curve: IntArray, numbers: IntArray) -> tuple[NDArray[np.int8], FloatArray]:
+        """Give the kinds, (k,), and directions, (k, 3), that items have on a curve each."""
+        own = self.curve[numbers] == curve
+        kind = np.where(own, self.kind[numbers], np.int8(PointKind.SMOOTH))
+        return kind, np.where(own[:, None], self.direction[numbers], 0.0)
+
+
+@attrs.define(eq=False)
+class Work:
+    """What lies on each curve, what of it was chosen, and the points that were added.
+
+    Attributes
+    ----------
+    net : Net
+        What was given.
+    items : list of list of Item
+        By curve, in order along it.
+    chosen : list of set of int
+        By curve, the numbers of the crossings that define it.
+    points : list of PointItem
+        Points by themselves.
+    held : dict of int to list of int
+        By curve, the numbers through which it was last found to hold its line.
+    given : Given
+        All that has a number, as columns.
+    fixed_count : int
+        Number of contacts and meetings; points are counted after them.
+    """
+
+    net: Net
+    items: list[list[Item]]
+    chosen: list[set[int]]
+    points: list[PointItem]
+    held: dict[int, list[int]]
+    given: Given = attrs.field(init=False)
+    fixed_count: int = attrs.field(init=False)
+
+    def __attrs_post_init__(self) -> None:
+        self.given = _given(self.net)
+        self.fixed_count = len(self.net.contacts) + len(self.net.meetings)
+
+    def numbers(self, order: Sequence[Item]) -> IntArray:
+        """Give the numbers of items, (k,)."""
+        return np.array([item.number for item in order], np.int64)
+
+
+def _given(net: Net) -> Given:
+    """Put contacts and meetings into columns.
+
+    A contact has the kind that its plane curve was given there; all else, of the boundary too,
+    is smooth.
+    """
+    count = len(net.contacts) + len(net.meetings)
+    xyz = [each.xyz for each in net.contacts] + [each.spots[0] for each in net.meetings]
+    curve, kind = np.full(count, -1), np.full(count, PointKind.SMOOTH, np.int8)
+    direction = np.zeros((count, 3))
+    for i, each in enumerate(net.contacts):
+        source = net.sources[each.curve]
+        curve[i], kind[i] = each.curve, source.kind[each.point]
+        direction[i] = source.direction[each.point]
+    return Given(np.array(xyz).reshape(-1, 3), curve, kind, direction)
+
+
+def add_point(work: Work, curve: int, point: int) -> Item:
+    """Put a given point on its curve as a point by itself."""
+    source = work.net.sources[curve]
+    at = float(work.net.reference.knot[work.net.reference.start[curve] + point])
+    item = Item(at, work.fixed_count + len(work.points), True, 90.0)
+    added = PointItem(
+        curve,
+        source.points[point],
+        source.placed,
+        int(source.kind[point]),
+        source.direction[point],
+    )
+    work.points.append(added)
+    work.given.add(added)
+    work.items[curve].append(item)
+    work.items[curve].sort()
+    return item
+
+
+def loft_orders(work: Work, curves: Sequence[int], orders: Sequence[Sequence[Item]]) -> SplineBatch:
+    """Loft curves through the items that define them, one order to each curve named."""
+    net, sizes = work.net, [len(order) for order in orders]
+    start = np.zeros(len(orders) + 1, np.int64)
+    np.cumsum(sizes, out=start[1:])
+    numbers = work.numbers([item for order in orders for item in order])
+    kind, direction = work.given.on(np.repeat(np.asarray(curves, np.int64), sizes), numbers)
+    ends = [net.sources[curve].ends for curve in curves]
+    return loft(
+        CurveData(
+            start,
+            work.given.xyz[numbers],
+            kind,
+            direction,
+            np.array([each.kind for each in ends], np.int8),
+            np.array([each.vector for each in ends], np.float64),
+        ),
+        [net.state.curves.key.data[curve] for curve in curves],
+    )
+
+
+def knots_of(work: Work, curve: int) -> FloatArray:
+    """Give the parameters of the given points of a curve, m."""
+    reference = work.net.reference
+    return reference.knot[int(reference.start[curve]) : int(reference.start[curve + 1])]
+
+
+def is_thinned(work: Work, curve: int, item: Item) -> bool:
+    """Tell whether an item is a crossing left out for its spacing alone.
+
+    One that meets the other's plane at a small angle may define the curve under no rule: it
+    slides along the hull by metres where the hull moves by millimetres.
+    """
+    steep = item.angle_deg >= work.net.state.tolerances.transversal_deg
+    return steep and item.number < work.fixed_count and item.number not in work.chosen[curve]
+
+
+def thinned_at(work: Work, curve: int, point: int) -> int | None:
+    """Give the number of the crossing at a given point that does not define the curve."""
+    place = work.net.sources[curve].points[point]
+    for item in work.items[curve]:
+        near = is_thinned(work, curve, item)
+        if near and float(np.abs(work.given.xyz[item.number] - place).max()) < SAME:
+            return item.number
+    return None

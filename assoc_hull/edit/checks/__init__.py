@@ -1,0 +1,1 @@
+"""Findings on a hull: after an update, and of the whole."""

@@ -1,0 +1,174 @@
+"""The graph of a hull, and the parts of it that are asked for: around an object, by one edit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+from assoc_hull.arguments import choice, integer, shown
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.explain.explain import Thing
+from assoc_hull.edit.modifications.set_form import definition_meant
+from assoc_hull.errors import BadInputError, ForeignPointError, WrongTypeError
+from assoc_hull.graph import graph_filter as filters
+from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.model.handles import handle
+from assoc_hull.model.line import Line
+from assoc_hull.model.point import Crossing, Point
+from assoc_hull.model.state import HullState
+from assoc_hull.model.view import graph, point_id
+
+if TYPE_CHECKING:
+    import networkx
+
+__all__ = ["ONLY", "OnlyName", "changed_by", "graph_of"]
+
+OnlyName = Literal["two-way", "one-way", "latent", "changed"]
+ONLY: tuple[OnlyName, ...] = ("two-way", "one-way", "latent", "changed")
+
+
+def graph_of(
+    document: Document,
+    around: Thing | FormDefinition | str | None = None,
+    hops: tuple[int, int] = (1, 1),
+    only: OnlyName | None = None,
+    edit: int | None = None,
+) -> networkx.MultiDiGraph[str]:
+    """Give objects and links as a graph, see `assoc_hull.model.view.graph`, or a part of it.
+
+    Parameters
+    ----------
+    document : Document
+        The hull with its history.
+    around : object, definition, address, node or None
+        Only what lies within some hops of this object; of a line, of its curves too.
+    hops : (int, int)
+        Most hops against and along the links, counted in the whole graph.
+    only : {"two-way", "one-way", "latent", "changed"} or None
+        Links of this kind and what they join: curves (and groups) each of which generates,
+        or may generate, on the other; those of which only one does; curves that may come to
+        meet and do not; or what an edit changed.
+    edit : int or None
+        Only what this edit changed: 1 is the first, -1 the last. None with "changed" means
+        the last.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+        What passes every filter that was given.
+
+    Raises
+    ------
+    UnknownNameError, ForeignPointError, WrongTypeError, BadInputError
+        No such object, filter or edit.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.document import Document
+    >>> from assoc_hull.edit.explain.hull_graph import graph_of
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> sorted(graph_of(Document(wigley()), "WL 2.5 x ST 7", (0, 1)).nodes)[-1]
+    'waterlines:2.500000/1'
+    """
+    if only is not None:
+        choice(only, "only", ONLY, "in graph")
+    number = -1 if only == "changed" and edit is None else edit
+    changed = None if number is None else changed_by(document, number)
+    found = graph(document.state)
+    kept = set(found)
+    if around is not None:
+        kept &= filters.near(found, _nodes(document.state, around, found), *hops)
+    if changed is not None:
+        kept &= changed
+    if only in ("two-way", "one-way", "latent"):
+        found = _linked(found, only)
+    return filters.only(found, kept) if len(kept) < len(found) else found
+
+
+def _linked(found: networkx.MultiDiGraph[str], kind: OnlyName) -> networkx.MultiDiGraph[str]:
+    """Keep links of one kind, what they join, and for crossings both curves and friends."""
+
+    def chosen(data: Mapping[str, Any]) -> bool:
+        return data["kind"] == "touch latent" if kind == "latent" else data.get("way") == kind
+
+    def kept(data: Mapping[str, Any]) -> bool:
+        return "way" not in data or chosen(data)
+
+    nodes = set[str]()
+    for tail, head, data in found.edges(data=True):
+        if chosen(data):
+            nodes |= {tail, head}
+            if data["kind"] == "touch actual":
+                nodes.update(found.successors(head))
+    return filters.only(found, nodes, kept)
+
+
+def _nodes(
+    state: HullState, thing: Thing | FormDefinition | str, found: networkx.MultiDiGraph[str]
+) -> list[str]:
+    """Give the nodes of an object; a line lies no nearer to its curves than they themselves."""
+    if isinstance(thing, str) and thing in found and found.nodes[thing].get("kind") == "point":
+        return [thing]
+    definition = definition_meant(state, thing)
+    if definition is not None:
+        return [definition.key]
+    given = handle(state, thing) if isinstance(thing, str) else thing
+    if not isinstance(given, Thing):
+        what = f"the object is {shown(given)}"
+        raise WrongTypeError(what, "in graph", "give a handle or an address")
+    if given.tables is not state:
+        raise ForeignPointError(f"{type(given).__name__.lower()} {given.id!r}")
+    if isinstance(given, Crossing):
+        return [point_id(state, given.row, side) for side in (0, 1)]
+    if isinstance(given, Point):
+        return [point_id(state, given.row, given.side)]
+    return [given.id, *(each.id for each in (given.curves if isinstance(given, Line) else ()))]
+
+
+def changed_by(document: Document, number: int) -> frozenset[str]:
+    """Name what an edit changed, as nodes of the graphs of `assoc_hull.model.view`.
+
+    Parameters
+    ----------
+    document : Document
+        The hull with its history.
+    number : int
+        Number of the edit, from 1; -1 is the last one.
+
+    Returns
+    -------
+    frozenset of str
+        Keys of curves and definitions, and of points with and without the curve they lie on.
+
+    Raises
+    ------
+    BadInputError
+        No such edit.
+
+    Examples
+    --------
+    >>> from assoc_hull.edit.document import Document
+    >>> from assoc_hull.edit.explain.hull_graph import changed_by
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> changed_by(Document(wigley()), 1)
+    Traceback (most recent call last):
+    ...
+    assoc_hull.errors.BadInputError: edit 1 was asked, in a history of 0; make an edit first
+    """
+    count = len(document.history)
+    integer(number, "edit", "in graph", least=-(10**6))
+    if not (1 <= number <= count or -count <= number <= -1):
+        raise BadInputError(
+            f"edit {number} was asked", f"in a history of {count}",
+            f"give a number from 1 to {count}" if count else "make an edit first",
+        )  # fmt: skip
+    step = document.history[number - 1 if number > 0 else number]
+    state = document.state
+    curves = {str(state.curves.key.data[curve]) for curve in step.curves.tolist()}
+    curves |= {str(state.formed.definition.data[form].key) for form in step.forms.tolist()}
+    return frozenset(curves.union(*(_names(state, row) for row in step.rows.tolist())))
+
+
+def _names(state: HullState, row: int) -> set[str]:
+    sides = [side for side in (0, 1) if state.rows.curve.data[row, side] >= 0]
+    return {str(state.rows.key.data[row])} | {point_id(state, row, side) for side in sides}

@@ -1,0 +1,1 @@
+"""What an update does after each pass: crossings, gaps, features, generated curves."""

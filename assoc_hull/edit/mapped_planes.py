@@ -1,0 +1,246 @@
+"""Where the planes of lines come to under a mapping, and what a mapping may not do.
+
+The plane of a driver moves where the mapping sends it to a plane; a driver whose image
+lies in no plane becomes a space curve. The plane of a follower stays, or moves where the
+mapping sends most of it to a parallel plane, whichever is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.splines.evaluation import sample
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.state import HullState
+
+__all__ = [
+    "PLANE",
+    "Planes",
+    "carry_planes",
+    "flat_borders",
+    "heights",
+    "into_planes",
+    "most_in_one",
+]
+
+PLANE = 1e-9
+"""A place as near to a plane as this (m) lies in it."""
+
+_APART = 1e-6
+"""Parallel lines of one group lie farther apart than this (m)."""
+
+BoolArray = np.typing.NDArray[np.bool_]
+
+
+@attrs.frozen(eq=False)
+class Planes:
+    """The planes of all lines after a transformation.
+
+    Attributes
+    ----------
+    normal : (l, 3)
+        Unit normals; nil for space curves.
+    offset : (l,), m
+        Offsets; nan for space curves.
+    planar : (l,) bool
+        Whether a line lies in a plane.
+    bent : dict of int to float, m
+        Lines that come to lie in no plane any more, and how far their images leave one.
+    """
+
+    normal: FloatArray
+    offset: FloatArray
+    planar: BoolArray
+    bent: dict[int, float]
+
+
+def heights(xyz: FloatArray, normal: FloatArray) -> FloatArray:
+    """Give ``normal . P`` of places (n, 3), by one normal or one each, (n,), m."""
+    found: FloatArray = xyz[:, 0] * normal[..., 0] + xyz[:, 1] * normal[..., 1]
+    return found + xyz[:, 2] * normal[..., 2]
+
+
+def carry_planes(
+    state: HullState,
+    space: SpaceMap,
+    drivers: IntArray,
+    *,
+    follow: bool,
+    levels: Mapping[int, float] | None = None,
+) -> Planes:
+    """Find where the planes of all lines come to.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    space : SpaceMap
+        The mapping.
+    drivers : (d,) int
+        The driving lines.
+    follow : bool
+        Whether the planes of followers move where the mapping moves them.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
+
+    Raises
+    ------
+    BadInputError
+        The mapping moves the centre plane, or lines of a group through one another.
+    """
+    lines = state.lines
+    normal, offset = lines.normal.data.copy(), lines.offset.data.copy()
+    planar, bent = lines.planar.data.copy(), dict[int, float]()
+    drive, asked = set(drivers.tolist()), levels or {}
+    flat = [line for line in state.live("lines").tolist() if planar[line]]
+    apart = [line for line in flat if line in asked and line not in drive]
+    offset[apart] = [asked[line] for line in apart]
+    going = [line for line in flat if (follow or line in drive) and line not in apart]
+    for line, before, after in _samples(state, space, going):
+        level = np.sort(heights(after, normal[line]))
+        spread = float(level[-1] - level[0])
+        if spread <= PLANE:
+            offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
+        elif line in drive:
+            found = _oblique(state, space, line, before, after)
+            if found is None:
+                _refuse_centre(state, line, spread)
+                bent[line], planar[line] = spread, False
+                normal[line], offset[line] = 0.0, np.nan
+            else:
+                normal[line], offset[line] = found
+        elif most_in_one(level):
+            offset[line] = _centre_kept(state, line, float(level[len(level) // 2]))
+    planes = Planes(normal, offset, planar, bent)
+    _check_order(state, planes)
+    return planes
+
+
+def most_in_one(level: FloatArray) -> bool:
+    """Tell whether at least half of sorted heights (m) are one height."""
+    return bool((np.abs(level - level[len(level) // 2]) <= PLANE).mean() >= 0.5)
+
+
+def _samples(
+    state: HullState, space: SpaceMap, lines: Sequence[int]
+) -> Iterator[tuple[int, FloatArray, FloatArray]]:
+    """Give places along lines, and where a mapping, asked once for all, sends them."""
+    if not lines:
+        return
+    curves = [state.lines.curves.data[line] for line in lines]
+    splines = [state.spline(curve) for part in curves for curve in part]
+    start, before = sample(SplineBatch.join(splines), 4)
+    after = space.places(np.array(before))
+    cut = start[np.cumsum([0, *map(len, curves)])]
+    for line, begin, end in zip(lines, cut[:-1].tolist(), cut[1:].tolist(), strict=True):
+        yield line, before[begin:end], after[begin:end]
+
+
+def _is_centre(state: HullState, line: int) -> bool:
+    across = abs(float(state.lines.normal.data[line, 1])) == 1.0
+    return across and float(state.lines.offset.data[line]) == 0.0
+
+
+def _centre_kept(state: HullState, line: int, level: float) -> float:
+    """Give the new offset of a line; the centre plane stays to the bit."""
+    if not _is_centre(state, line):
+        return level
+    _refuse_centre(state, line, abs(level))
+    return 0.0
+
+
+def _refuse_centre(state: HullState, line: int, away: float) -> None:
+    if _is_centre(state, line) and away > PLANE:
+        raise BadInputError(
+            f"the mapping moves {state.lines.name.data[line]} {away:.3g} m out of the centre plane",
+            "in transform", "keep y = 0 where y = 0: only one side of a hull is stored",
+        )  # fmt: skip
+
+
+def _oblique(
+    state: HullState, space: SpaceMap, line: int, before: FloatArray, after: FloatArray
+) -> tuple[FloatArray, float] | None:
+    """Give the oblique plane a diagonal comes to lie in; None for other lines, or without one.
+
+    Sections, waterlines and buttocks have planes of one direction, and boundary curves
+    need none. Under a map with the Jacobian J a normal n goes to one along cof(J) n.
+    """
+    if state.family(line).axis is not None or state.lines.boundary.data[line] >= 0:
+        return None
+    slope = space.jacobians(before[:1])[0]
+    old = state.lines.normal.data[line]
+    cofactor = np.array([np.cross(slope[1], slope[2]), np.cross(slope[2], slope[0]),
+                         np.cross(slope[0], slope[1])])  # fmt: skip
+    new = (cofactor * old).sum(axis=1)
+    new = new / np.sqrt((new * new).sum())
+    level = np.sort(heights(after, new))
+    if float(level[-1] - level[0]) > PLANE:
+        return None
+    return new, float(level[len(level) // 2])
+
+
+def _check_order(state: HullState, planes: Planes) -> None:
+    """See that parallel lines of a group stay apart and in order."""
+    live = state.live("lines")
+    groups = state.lines.group.data
+    for group in np.unique(groups[live]).tolist():
+        mine = live[(groups[live] == group) & planes.planar[live]]
+        mine = mine[state.lines.boundary.data[mine] < 0]
+        normals = {tuple(row) for row in planes.normal[mine].tolist()}
+        for normal in sorted(normals):
+            some = mine[(planes.normal[mine] == normal).all(axis=1)]
+            some = some[np.argsort(state.lines.offset.data[some], kind="stable")]
+            step = np.diff(planes.offset[some])
+            if len(step) and step.min() <= _APART:
+                one, other = some[int(step.argmin()) : int(step.argmin()) + 2].tolist()
+                names = state.lines.name.data
+                raise BadInputError(
+                    f"{names[other]} comes to {float(planes.offset[other]):.4f} m and "
+                    f"{names[one]} to {float(planes.offset[one]):.4f} m", "in transform",
+                    "keep the order of the lines of a group, or name the whole group as driver",
+                )  # fmt: skip
+
+
+def into_planes(state: HullState, planes: Planes, rows: IntArray, xyz: FloatArray) -> FloatArray:
+    """Put points that lie in the planes of their lines up to rounding exactly into them.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    planes : Planes
+        The planes.
+    rows : (k,) int
+        The points.
+    xyz : (k, 3), m
+        Their places.
+    """
+    out = np.array(xyz)
+    curve = state.rows.curve.data[rows]
+    line = np.where(curve >= 0, state.curves.line.data[np.maximum(curve, 0)], -1)
+    held = (line >= 0) & planes.planar[line]
+    along = (np.abs(planes.normal[line]) == 1.0).any(axis=2)
+    for side in (0, 1):
+        tilted = np.flatnonzero(held[:, side] & ~along[:, side])
+        normal = planes.normal[line[tilted, side]]
+        off = heights(out[tilted], normal) - planes.offset[line[tilted, side]]
+        out[tilted] -= normal * off[:, None]
+    for side in (0, 1):
+        for axis in range(3):
+            exact = held[:, side] & (planes.normal[line[:, side], axis] == 1.0)
+            out[exact, axis] = planes.offset[line[exact, side]]
+    return out
+
+
+def flat_borders(state: HullState, planes: Planes) -> IntArray:
+    """Give the lines that border a flat and still lie in its plane."""
+    found: IntArray = np.flatnonzero(
+        state.lines.alive.data & (state.lines.boundary.data == BoundaryKind.FLAT) & planes.planar
+    )
+    return found

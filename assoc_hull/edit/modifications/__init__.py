@@ -1,0 +1,1 @@
+"""What a designer asks for: one module for each kind of modification."""

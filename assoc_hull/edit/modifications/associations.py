@@ -1,0 +1,126 @@
+"""Declaring and taking back associations between groups."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.arguments import flag, word
+from assoc_hull.edit.modifications.set_role import change_role
+from assoc_hull.edit.newline.plane_intersections import meet_groups, strike_planes
+from assoc_hull.edit.newline.remove_line import leave_behind
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.state import Association, HullState
+
+__all__ = ["associate", "dissociate"]
+
+
+def associate(edit: Transaction, a: str, b: str, *, two_way: bool = True) -> None:
+    """Declare that the lines of one group generate points on those of another.
+
+    A one-way association makes every crossing of the pair define `b` only, driven by `a`,
+    whatever the family ranks. Making one two-way again leaves the roles as they are: they
+    may then be renewed crossing by crossing.
+
+    Raises
+    ------
+    UnknownNameError
+        A group that does not exist.
+    BadInputError
+        A group with itself, or with the boundary curves: contacts are made with the lines.
+    RingError
+        When the edit ends, if driven links would run in a ring.
+    """
+    state = edit.state
+    _check_pair(edit, word(a, "group"), word(b, "group"))
+    flag(two_way, "two_way", "in associate")
+    known = any({link.a, link.b} == {a, b} for link in state.associations)
+    edit.maker.associate(Association(a, b, two_way))
+    edit.pending.structural = True
+    if not known:
+        meet_groups(edit, a, b)
+    if two_way:
+        return
+    for row in _crossings(state, a, b).tolist():
+        _turn(edit, row, a)
+
+
+def _check_pair(edit: Transaction, a: str, b: str) -> None:
+    """Refuse a group with itself, and to change what lines end on."""
+    names = edit.state.groups.name.data
+    if a == b:
+        raise BadInputError(f"the group {a!r} with itself", "in associate", "name two groups")
+    for name in (a, b):
+        if name in names and edit.state.groups.family.data[names.index(name)] == "boundary":
+            raise BadInputError(
+                f"lines are made to end and turn on the curves of {name!r}",
+                "in an association of a hull that has lines",
+                "declare it when the hull is made, and leave it",
+            )
+
+
+def _turn(edit: Transaction, row: int, giver: str) -> None:
+    """Let a crossing define the curve of the other group only."""
+    state = edit.state
+    names = [_group(state, curve) for curve in state.rows.curve.data[row].tolist()]
+    taker = 1 - names.index(giver)
+    role = Role(int(state.rows.role.data[row]))
+    defines = {
+        Role.SHARED: (True, True),
+        Role.DRIVES_A: (True, False),
+        Role.DRIVES_B: (False, True),
+    }
+    if not defines.get(role, (False, False))[taker]:
+        change_role(edit, row, Role.WATCHED)
+        return
+    change_role(edit, row, Role.DRIVES_B if taker else Role.DRIVES_A)
+
+
+def _group(state: HullState, curve: int) -> str:
+    return str(state.groups.name.data[int(state.lines.group.data[state.line_of(curve)])])
+
+
+def _crossings(state: HullState, a: str, b: str) -> IntArray:
+    table = state.rows
+    rows = np.flatnonzero(table.alive.data & (table.sort.data == Sort.CROSSING))
+    keep = [
+        {_group(state, curve) for curve in table.curve.data[row].tolist()} == {a, b}
+        for row in rows.tolist()
+    ]
+    found: IntArray = rows[np.array(keep, bool)]
+    return found
+
+
+def dissociate(edit: Transaction, a: str, b: str) -> None:
+    """Take an association back; its crossings stay behind as adopted points.
+
+    Raises
+    ------
+    BadInputError
+        The two groups are not associated, or one holds the boundary curves.
+    """
+    state = edit.state
+    _check_pair(edit, word(a, "group"), word(b, "group"))
+    left = tuple(link for link in state.associations if {link.a, link.b} != {a, b})
+    if len(left) == len(state.associations):
+        raise BadInputError(
+            f"{a!r} and {b!r} are not associated", "in dissociate", "check the names"
+        )
+    edit.pending.structural = True
+    rows = _crossings(state, a, b)
+    leave_behind(edit, rows, np.zeros(0, np.int64))
+    edit.maker.remove_rows(rows)
+    edit.journal.set(state.settings.associations, [0], [left])
+    for group, other in ((a, b), (b, a)):
+        _strike(edit, group, other)
+
+
+def _strike(edit: Transaction, group: str, other: str) -> None:
+    """Take the planes of one group out of the meetings of another's curves."""
+    state, names = edit.state, edit.state.groups.name.data
+    planes = np.flatnonzero(state.lines.group.data == names.index(other))
+    curves = state.live("curves")
+    owner = state.lines.group.data[state.curves.line.data[curves]]
+    strike_planes(edit, planes, curves[owner == names.index(group)])

@@ -1,0 +1,110 @@
+"""Giving lines, points and the hull other names; identities stay what they are."""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.arguments import shown, word
+from assoc_hull.edit.arguments import line_name
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError, NameTakenError
+from assoc_hull.model.address import Place
+from assoc_hull.model.state import HullState
+
+__all__ = ["rename", "rename_hull"]
+
+
+def rename(edit: Transaction, what: Place, name: object) -> None:
+    """Give a line or a point another name.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    what : Place
+        A line, its only curve, or a point: both friends of a crossing then have the name.
+    name : str
+        The name; nothing that could be read as an address.
+
+    Raises
+    ------
+    NameTakenError
+        Another line of the group, or another object, has that name.
+    BadInputError
+        It is no name; a group, or one of several curves of a line.
+    """
+    state = edit.state
+    if what.row >= 0:
+        _rename_point(edit, what.row, line_name(name))
+    elif what.line < 0:
+        raise BadInputError(
+            f"the group {state.groups.name.data[what.group]!r} keeps its name",
+            "in rename",
+            "associations and the keys of its lines are made of it; rename its lines",
+        )
+    elif what.curve >= 0 and len(state.lines.curves.data[what.line]) > 1:
+        title = state.lines.name.data[what.line]
+        remedy = f"a curve has the name of its line; rename {title!r}"
+        raise BadInputError(f"one of several curves of {title!r}", "in rename", remedy)
+    else:
+        _rename_line(edit, what.line, line_name(name))
+
+
+def _rename_line(edit: Transaction, line: int, name: str) -> None:
+    state = edit.state
+    group = state.lines.group.data[line]
+    others = {
+        state.lines.name.data[other]
+        for other in state.live("lines").tolist()
+        if state.lines.group.data[other] == group and other != line
+    }
+    if name in others | _fixed(state) | _labels(state, -1):
+        raise NameTakenError(f"line of {state.groups.name.data[int(group)]}", name)
+    _rename_features(edit, str(state.lines.key.data[line]), state.lines.name.data[line], name)
+    edit.journal.set(state.lines.name, [line], [name])
+
+
+def _rename_features(edit: Transaction, key: str, old: str, new: str) -> None:
+    """Let the features of a line that are named after it be so still."""
+    edit.maker.features(
+        attrs.evolve(each, name=new + each.name[len(old) :])
+        if key in each.lines and (each.name == old or each.name.startswith(f"{old} "))
+        else each
+        for each in edit.state.features
+    )
+
+
+def _rename_point(edit: Transaction, row: int, name: str) -> None:
+    state = edit.state
+    lines = {state.lines.name.data[line] for line in state.live("lines").tolist()}
+    if name in lines | _fixed(state) | _labels(state, row):
+        raise NameTakenError("line or point", name)
+    edit.journal.set(state.rows.label, [row], [name])
+
+
+def _fixed(state: HullState) -> set[str]:
+    """Give the names that no object can lay down."""
+    return set(state.groups.name.data) | set(state.lines.key.data)
+
+
+def _labels(state: HullState, but: int) -> set[str]:
+    """Give the names of points, without one."""
+    rows = state.live("rows").tolist()
+    return {state.rows.label.data[row] for row in rows if row != but} - {""}
+
+
+def rename_hull(edit: Transaction, name: object) -> None:
+    """Give the ship another name, in its particulars.
+
+    Raises
+    ------
+    BadInputError
+        It is no name.
+    """
+    given = word(name, "the name", "in rename")
+    if not given.strip() or not given.isprintable():
+        remedy = "give printable text in one line"
+        raise BadInputError(f"the name {shown(name)}", "in rename", remedy)
+    state = edit.state
+    new = attrs.evolve(state.particulars, name=given)
+    edit.journal.set(state.settings.particulars, [0], [new])

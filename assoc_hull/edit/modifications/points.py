@@ -1,0 +1,245 @@
+"""Pinned modifications: single points are moved, inserted, deleted, or change their kind.
+
+A pinned edit changes the two curves of a point and what these drive; all other points keep
+their values. It is right for millimetres: it is inherently a local bump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import place as one_place
+from assoc_hull.arguments import word
+from assoc_hull.edit.arguments import direction_in
+from assoc_hull.edit.followup.adopted_points import ride_links
+from assoc_hull.edit.followup.thread import interval_of
+from assoc_hull.edit.newline.line_planes import along_planes, into_planes
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import (
+    BadInputError,
+    CoincidentPointsError,
+    FreedomError,
+    PointRoleError,
+    TooFewPointsError,
+)
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.model.address import address
+from assoc_hull.model.gaps import tangents
+from assoc_hull.model.generated import attached
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.links import free_axes
+from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.state import HullState
+
+__all__ = ["delete", "insert", "move", "pin", "set_kind", "unpin"]
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+_BY_DEFINITION = "set the definitions its driver is made of (edit.set_form)"
+_WAYS_OUT = "move the driver, pull it (edit.pull), or make it shared (edit.set_role)"
+
+
+def move(edit: Transaction, row: int, to: Mapping[str, float]) -> None:
+    """Move a point along its freedom.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    row : int
+        A shared crossing, a placed or an adopted point. An adopted one becomes placed.
+    to : mapping of str to float, m
+        New coordinates: exactly those in which the point is free.
+
+    Raises
+    ------
+    PointRoleError
+        The point is driven or watched; the message names its driver.
+    FreedomError
+        Other coordinates were given than those it is free in.
+    BadInputError
+        A number that is not finite.
+    """
+    state = edit.state
+    _refuse_computed(state, row)
+    free = free_axes(state, row)
+    if set(to) != set(free):
+        raise FreedomError(address(state, row), tuple(to), free)
+    curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+    lines, what = [state.line_of(curve) for curve in curves], f"move of {address(state, row)}"
+    given = {_AXES[axis]: value for axis, value in to.items()}
+    place = along_planes(state, lines, state.rows.xyz.data[row], given)
+    edit.write(np.array([row]), into_planes(state, lines, place, f"in a {what}")[None], what)
+    edit.pending.moved_curves |= set(curves)
+    if state.rows.sort.data[row] == Sort.ADOPTED:
+        pin(edit, row)
+
+
+def _refuse_computed(state: HullState, row: int) -> None:
+    if state.rows.sort.data[row] != Sort.CROSSING:
+        return
+    role = Role(int(state.rows.role.data[row]))
+    if role is Role.SHARED:
+        return
+    driver = int(state.rows.driver.data[row])
+    title = None if driver < 0 else str(state.lines.name.data[state.line_of(driver)])
+    kind = "watched" if role is Role.WATCHED else "driven"
+    ways = _WAYS_OUT if driver not in attached(state) else f"{_BY_DEFINITION}, or {_WAYS_OUT}"
+    raise PointRoleError(address(state, row), kind, title, ways)
+
+
+def insert(edit: Transaction, curve: int, place: ArrayLike) -> int:
+    """Insert a placed point into a curve, between the two points it lies between.
+
+    Returns
+    -------
+    int
+        The new point.
+
+    Raises
+    ------
+    BadInputError
+        A place that is not three finite numbers, or lies off the curve's plane.
+    CoincidentPointsError
+        Another point of the curve lies there.
+    """
+    state = edit.state
+    name = str(state.lines.name.data[state.line_of(curve)])
+    given = one_place(place, f"the place of a point of {name}")
+    xyz = into_planes(state, [state.line_of(curve)], given, "in insert")
+    rows: IntArray = state.curves.rows.data[curve]
+    away = np.sqrt(((state.rows.xyz.data[rows] - xyz) ** 2).sum(axis=1))
+    if away.min() < state.tolerances.coincident:
+        x, y, z = xyz.tolist()
+        raise CoincidentPointsError(name, (x, y, z), float(away.min()), state.tolerances.coincident)
+    row = int(edit.maker.points([PointSpec(curve, xyz, Sort.PLACED)])[0])
+    index = interval_of(state.rows.xyz.data[rows], xyz)
+    edit.maker.define(curve, np.insert(rows, index, row))
+    edit.pending.by_hand.add((row, curve))
+    _changed(edit, curve)
+    return row
+
+
+def _changed(edit: Transaction, curve: int) -> None:
+    """Note that other points define a curve now."""
+    edit.pending.structural = True
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)
+
+
+def delete(edit: Transaction, row: int) -> None:
+    """Delete a placed or adopted point.
+
+    Raises
+    ------
+    PointRoleError
+        The point is a crossing, which goes with its line or its association only, or an end.
+    TooFewPointsError
+        The curve would be left with fewer than two points.
+    """
+    state = edit.state
+    if state.rows.sort.data[row] == Sort.CROSSING:
+        raise PointRoleError(
+            address(state, row), "a crossing", None, "remove the line, or the association"
+        )
+    curve = int(state.rows.curve.data[row, 0])
+    rows: IntArray = state.curves.rows.data[curve]
+    if len(rows) < 3:
+        raise TooFewPointsError(str(state.lines.name.data[state.line_of(curve)]), len(rows) - 1)
+    if row in rows[[0, -1]]:
+        raise PointRoleError(
+            address(state, row), "an end of its curve", None, "move it, or remove the line"
+        )
+    edit.maker.define(curve, rows[rows != row])
+    edit.maker.remove_rows([row])
+    edit.pending.values.pop(row, None)
+    edit.pending.by_hand.add((row, curve))
+    _changed(edit, curve)
+
+
+def set_kind(
+    edit: Transaction, row: int, side: int, kind: str, direction: ArrayLike | None = None
+) -> None:
+    """Make a point smooth, tangent or a knuckle on one of its curves, unless it is so already.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    row, side : int
+        The point, and whether the curve is its a (0) or b (1).
+    kind : {"smooth", "tangent", "knuckle"}
+        How the curve is to pass.
+    direction : (3,) or None
+        Direction at a tangent point, along the sense of the curve; as it is now if None.
+
+    Raises
+    ------
+    BadInputError
+        An unknown kind, a direction of no length, or a point that does not define the curve.
+    """
+    state = edit.state
+    curve = int(state.rows.curve.data[row, side])
+    where = f"at {address(state, row)}"
+    if word(kind, "kind") not in {each.name.lower() for each in PointKind}:
+        raise BadInputError(f"the kind {kind!r}", where, "use smooth, tangent or knuckle")
+    rows: IntArray = state.curves.rows.data[curve]
+    if row not in rows.tolist():
+        raise BadInputError("the point does not define the curve", where, "set its role first")
+    given = np.zeros(3)
+    old = PointKind(int(state.rows.kind.data[row, side]))
+    if kind == "tangent":
+        if direction is None and old is PointKind.TANGENT:
+            direction = state.rows.direction.data[row, side]
+        elif direction is None:
+            direction = _direction(state, curve, state.rows.xyz.data[row])
+        given = direction_in(state, curve, direction, "direction")
+    if old is PointKind[kind.upper()] and (given == state.rows.direction.data[row, side]).all():
+        return
+    kinds, directions = state.rows.kind.data[row].copy(), state.rows.direction.data[row].copy()
+    kinds[side], directions[side] = PointKind[kind.upper()], given
+    edit.journal.put(state.rows.kind, [row], kinds[None])
+    edit.journal.put(state.rows.direction, [row], directions[None])
+    edit.pending.by_hand.add((row, curve))
+    edit.pending.curves.add(curve)
+    edit.pending.moved_curves.add(curve)
+
+
+def _direction(state: HullState, curve: int, place: FloatArray) -> FloatArray:
+    """Give the direction of a curve at a place on it; a new point may not be in it yet."""
+    spline = state.spline(curve)
+    at = np.flatnonzero((spline.xyz == place).all(axis=1))
+    if len(at):
+        return np.array(spline.leave[at[0]])
+    found: FloatArray = tangents(state, np.array([curve]), closest(spline, 0, place[None])[0])[0]
+    return found
+
+
+def pin(edit: Transaction, row: int) -> None:
+    """Make an adopted point a placed one: no update moves it any more."""
+    _resort(edit, row, Sort.ADOPTED, Sort.PLACED)
+
+
+def unpin(edit: Transaction, row: int) -> None:
+    """Make a placed point an adopted one: it belongs to the shape and goes with fields."""
+    edit.refuse_moved(np.array([row]))
+    _resort(edit, row, Sort.PLACED, Sort.ADOPTED)
+
+
+def _resort(edit: Transaction, row: int, old: Sort, new: Sort) -> None:
+    state = edit.state
+    if state.rows.sort.data[row] != old:
+        sort = Sort(int(state.rows.sort.data[row])).name.lower()
+        raise PointRoleError(
+            address(state, row),
+            f"a {sort} point",
+            None,
+            f"only {old.name.lower()} points can change",
+        )
+    edit.journal.put(state.rows.sort, [row], int(new))
+    edit.journal.put(state.rows.anchor, [row], -1)
+    edit.pending.structural = True
+    ride_links(state, state.rows.curve.data[row, :1], edit.journal)

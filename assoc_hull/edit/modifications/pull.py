@@ -1,0 +1,111 @@
+"""The soft pull: one point is drawn along the hull's normal, its surroundings follow.
+
+A driven crossing goes where its driver goes, and a driver is often made through no point near
+by: the field then moved the neighbours of the crossing and hardly the crossing. So the driver is
+given an adopted point at the place that is pulled, and what the point lacks after a sub-step is
+made good by the next ones.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.arguments import pair
+from assoc_hull.edit.field import FieldContext, context, flat_distance, row_spacing
+from assoc_hull.edit.followup.thread import thread
+from assoc_hull.edit.pull_field import Pull
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import PointRoleError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.address import address
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import PointSpec
+
+__all__ = ["pull"]
+
+_NEAR = 0.15
+"""A curve with a point as near as this (m) is given no other to be pulled at."""
+
+
+def pull(
+    edit: Transaction,
+    row: int,
+    amount: float,
+    radius: tuple[float, float] | None = None,
+    *,
+    across_flats: bool = False,
+) -> None:
+    """Ask for a soft pull.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    row : int
+        The point; it may also be a driven or watched one.
+    amount : float, m
+        Along the outward normal.
+    radius : (float, float) or None, m
+        Along the length and the girth; three spacings of the points there if None.
+    across_flats : bool
+        Whether the field may move flats.
+
+    Raises
+    ------
+    BadInputError
+        A radius that is not positive, an amount that is not finite.
+    PointRoleError
+        The point lies on a flat, or on the profile.
+    """
+    state = edit.state
+    place = state.rows.xyz.data[row].copy()
+    if radius is None:
+        reach = (3.0 * row_spacing(state, place), 3.0 * row_spacing(state, place))
+    else:
+        reach = pair(radius, "radius", positive=True)
+    ground = context(state, across_flats=across_flats)
+    border = _border_distance(ground, row)
+    if border is None:
+        raise PointRoleError(
+            state.rows.key.data[row],
+            "on a flat or on the profile, or its normal is not known",
+            None,
+            "move the border curve, or pull with across_flats=True",
+        )
+    if amount == 0.0:
+        return
+    fade, normal = min(reach[1], border), ground.normal[row].copy()
+    edit.pending.fields.append(Pull(row, place, amount, normal, reach, fade, across_flats))
+    _hold(edit, row)
+
+
+def _hold(edit: Transaction, row: int) -> None:
+    """Give the curves that carry a driven or watched crossing a point of their own there."""
+    state = edit.state
+    if state.rows.sort.data[row] != Sort.CROSSING:
+        return
+    for side, curve in enumerate(state.rows.curve.data[row].tolist()):
+        carries = state.rows.role.data[row] == Role.WATCHED or state.rows.driver.data[row] == curve
+        place = state.rows.spot.data[row, side].copy()
+        rows: IntArray = state.curves.rows.data[curve]
+        step = state.rows.xyz.data[rows] - place
+        if not carries or float(np.sqrt((step * step).sum(axis=1)).min()) < _NEAR:
+            continue
+        point = int(edit.maker.points([PointSpec(curve, place, Sort.ADOPTED)])[0])
+        thread(edit.maker, curve, point)
+        edit.pending.structural = True
+        edit.pending.curves.add(curve)
+        edit.pending.notes.append(
+            f"{address(state, row)}: {address(state, point)} was adopted, to be pulled there"
+        )
+
+
+def _border_distance(ground: FieldContext, row: int) -> float | None:
+    """Give the distance of a point from the next flat; None if it cannot be pulled."""
+    if not (ground.normal[row] != 0.0).any():
+        return None
+    state = ground.state
+    computed = state.rows.driver.data[row] >= 0 or np.isfinite(state.rows.gap.data[row])
+    if not computed and not (ground.free == row).any():
+        return None
+    return float(flat_distance(state, state.rows.xyz.data[[row]])[0])

@@ -1,0 +1,384 @@
+"""Re-shaping a curve: it takes the designer's new shape, the hull around it follows.
+
+The designer gives points the curve is to pass. Between them, and out to the ends of the
+span, their displacements are blended smoothly (quintic, curvature-continuous) and added to
+the present shape, so what the curve had of detail it keeps. The curve's own shared points
+take the exact meeting of this new shape with the partner planes.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from assoc_hull.arguments import pair, places
+from assoc_hull.edit.field import bell, flat_distance, on_flat, on_profile, row_spacing
+from assoc_hull.edit.followup.thread import interval_of
+from assoc_hull.edit.modifications.points import pin
+from assoc_hull.edit.modifications.reshape_field import Reshape
+from assoc_hull.edit.newline.line_planes import into_planes
+from assoc_hull.edit.normals import hull_normals
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.lofting import curve_data
+from assoc_hull.model.make_objects import PointSpec
+from assoc_hull.model.state import HullState
+
+__all__ = ["reshape"]
+
+_NEAR = 0.5
+"""A point of the new shape as near as this (m) to a crossing, in its plane, is that crossing."""
+
+_CROWDED = 0.2
+"""Old points as near as this (m) to a given one do not shape the designer's curve."""
+
+Fade = Literal["auto"] | tuple[float, float] | None
+
+
+@attrs.frozen(eq=False)
+class _Design:
+    """A curve's displacement: given points, their parameters, and how they blend.
+
+    Attributes
+    ----------
+    at : (k,), m
+        Parameters on the old curve, ascending; the ends of the stretch stand first and last.
+    shift : (k, 3), m
+        Displacements there.
+    shape : (g, 3), m
+        The designer's points, in order along the curve.
+    shape_at : (g,), m
+        Their parameters.
+    """
+
+    at: FloatArray
+    shift: FloatArray
+    shape: FloatArray
+    shape_at: FloatArray
+
+    def at_parameters(self, parameters: FloatArray) -> FloatArray:
+        """Blend the displacements, (k, 3), m; nil outside the stretch."""
+        index = np.clip(np.searchsorted(self.at, parameters, side="right") - 1, 0, len(self.at) - 2)
+        low, high = self.at[index], self.at[index + 1]
+        part = (parameters - low) / np.where(high > low, high - low, 1.0)
+        fade = bell(part)[:, None]
+        value = self.shift[index] * fade + self.shift[index + 1] * (1.0 - fade)
+        inside = (parameters >= self.at[0]) & (parameters <= self.at[-1])
+        return np.where(inside[:, None], value, 0.0)
+
+
+def reshape(
+    edit: Transaction,
+    curve: int,
+    points: ArrayLike,
+    span: tuple[float, float],
+    fade: Fade = "auto",
+    *,
+    across_flats: bool = False,
+) -> list[int]:
+    """Ask for a curve to take a new shape.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit.
+    curve : int
+        The curve.
+    points : (k, 3), m
+        Points of the new shape, in the curve's plane. One that lies in the plane of a
+        shared crossing gives that crossing its value; the others become placed points.
+    span : (float, float), m
+        Where the curve may change: x for waterlines, buttocks and boundary curves, z for
+        sections.
+    fade : "auto", (r_x, r_g) in m, or None
+        How the change fades; None, the strict form: only this curve's own points move. No
+        gap is mended in such an edit: those over their limit refuse it, or are kept as
+        defects with ``gaps="report"``.
+    across_flats : bool
+        Whether the edit may move flats.
+
+    Returns
+    -------
+    list of int
+        The placed points that were made.
+
+    Raises
+    ------
+    BadInputError
+        Points off the curve's plane or outside the span, an empty span, radii not above 0;
+        or points of the curve came or went in the same edit.
+    """
+    state = edit.state
+    section = state.family(state.line_of(curve)).axis == 0
+    axis = 2 if section else 0
+    span = pair(span, "span", positive=False)
+    shape = _checked(state, curve, points, span, axis)
+    radius = _radius(state, fade, shape)
+    old = state.spline(curve)
+    if not np.array_equal(old.xyz, state.rows.xyz.data[state.curves.rows.data[curve]]):
+        where = f"in reshape of {state.lines.name.data[state.line_of(curve)]}"
+        raise BadInputError("its points have changed in this edit", where, "use two edits")
+    design = _design(old, shape, span, axis, _free_ends(state, curve))
+    flat = flat_distance(state, old.xyz)
+    moved = _displaced(old, design, np.full(len(flat), np.inf) if across_flats else flat)
+    moved[[0, -1]] = _slide(state, curve, old, moved[[0, -1]])
+    new = _designed(state, curve, old, design, moved)
+    rows = _own_rows(state, curve, old, design, across_flats=across_flats)
+    goals = _goals(state, curve, rows, old.xyz + moved, new)
+    start = state.rows.xyz.data[rows].copy()
+    normals = hull_normals(state)[state.curves.rows.data[curve]]
+    made = _place(edit, curve, design.shape, rows, goals)
+    edit.pending.fields.append(
+        Reshape(
+            curve, old, new, normals, rows, goals, start, radius, section,
+            (float(design.at[0]), float(design.at[-1])), flat, across_flats,
+        )
+    )  # fmt: skip
+    edit.pending.moved_curves.add(curve)
+    return made
+
+
+def _checked(
+    state: HullState, curve: int, points: ArrayLike, span: tuple[float, float], axis: int
+) -> FloatArray:
+    """Check the points against the span and the plane of the curve."""
+    name = state.lines.name.data[state.line_of(curve)]
+    shape = places(points, f"the new shape of {name}")
+    off = (shape[:, axis] <= span[0]) | (shape[:, axis] >= span[1])
+    if off.any():
+        raise BadInputError(
+            f"the point {shape[off][0].tolist()} lies outside the span {span}",
+            f"in reshape of {name}",
+            "widen the span or leave the point out",
+        )
+    return into_planes(state, [state.line_of(curve)], shape, f"in reshape of {name}")
+
+
+def _free_ends(state: HullState, curve: int) -> tuple[bool, bool]:
+    """Tell whether each end may move: it does not if it lies on the profile."""
+    rows: IntArray = state.curves.rows.data[curve]
+    fixed = on_profile(state)[rows[[0, -1]]]
+    return not fixed[0], not fixed[1]
+
+
+def _slide(state: HullState, curve: int, old: SplineBatch, moved: FloatArray) -> FloatArray:
+    """Let displaced ends slide along the curve into the plane of their boundary curve."""
+    rows: IntArray = state.curves.rows.data[curve][[0, -1]]
+    slopes = np.array([old.leave[0], old.arrive[-1]])
+    out = moved.copy()
+    for i, row in enumerate(rows.tolist()):
+        other = state.line_of(int(state.rows.curve.data[row, 0]))
+        if not state.rows.contact.data[row] or not state.lines.planar.data[other]:
+            continue
+        normal = state.lines.normal.data[other]
+        along = float(slopes[i] @ normal)
+        if abs(along) > 0.1 * float(np.sqrt((slopes[i] * slopes[i]).sum())):
+            out[i] = moved[i] - slopes[i] * (float(moved[i] @ normal) / along)
+    return out
+
+
+def _design(
+    old: SplineBatch,
+    shape: FloatArray,
+    span: tuple[float, float],
+    axis: int,
+    free: tuple[bool, bool],
+) -> _Design:
+    """Find the stretch of the old curve, and how far each given point lies from it.
+
+    Where the span reaches past a free end, the blend does too, and that end moves along.
+    """
+    at, foot, _ = closest(old, 0, shape)
+    order = np.argsort(at, kind="stable")
+    at, foot, shape = at[order], foot[order], shape[order]
+    met = meet_planes(old, np.eye(3)[axis], np.array(span))
+    before, after = met.t[met.t < at[0]], met.t[met.t > at[-1]]
+    reach = [float(np.abs(np.array(span) - end).min()) for end in old.xyz[[0, -1], axis]]
+    low = float(before.max()) if len(before) else float(old.knot[0]) - free[0] * reach[0]
+    high = float(after.min()) if len(after) else float(old.knot[-1]) + free[1] * reach[1]
+    first, last = int(at[0] > low), int(at[-1] < high)
+    nil = np.zeros((1, 3))
+    return _Design(
+        np.concatenate([np.full(first, low), at, np.full(last, high)]),
+        np.concatenate([nil[:first], shape - foot, nil[:last]]),
+        shape,
+        at,
+    )
+
+
+def _displaced(old: SplineBatch, design: _Design, flat: FloatArray) -> FloatArray:
+    """Give the displacement of the old curve's points; it fades towards flats."""
+    moved = design.at_parameters(old.knot)
+    reference = float(np.interp(design.shape_at, old.knot, flat).min())
+    if np.isfinite(reference) and reference > 0.0:
+        moved = moved * (1.0 - bell(flat / reference))[:, None]
+    return moved
+
+
+def _designed(
+    state: HullState, curve: int, old: SplineBatch, design: _Design, moved: FloatArray
+) -> SplineBatch:
+    """Loft the designer's curve: the old points displaced, and the given points."""
+    data = curve_data(state, np.array([curve]))
+    apart = np.abs(old.knot[:, None] - design.shape_at[None, :]).min(axis=1)
+    free = data.kind == PointKind.SMOOTH
+    inner = (old.knot > old.knot[0]) & (old.knot < old.knot[-1])
+    replaced = apart < np.where(free & inner, _CROWDED, 1e-9)
+    keep = ~replaced
+    order = np.argsort(np.concatenate([old.knot[keep], design.shape_at]), kind="stable")
+    given = len(design.shape)
+    return loft(
+        CurveData(
+            np.array([0, len(order)]),
+            np.concatenate([(old.xyz + moved)[keep], design.shape])[order],
+            np.concatenate([data.kind[keep], np.zeros(given, np.int8)])[order],
+            np.concatenate([data.direction[keep], np.zeros((given, 3))])[order],
+            data.end_kind.copy(),
+            data.end_vector.copy(),
+        ),
+        [f"the new shape of {state.curves.key.data[curve]}"],
+    )
+
+
+def _own_rows(
+    state: HullState, curve: int, old: SplineBatch, design: _Design, *, across_flats: bool
+) -> IntArray:
+    """Give the curve's own points that take the new shape: shared and adopted ones."""
+    rows: IntArray = state.curves.rows.data[curve]
+    inside = (old.knot >= design.at[0]) & (old.knot <= design.at[-1])
+    shared = state.rows.role.data[rows] == Role.SHARED
+    sort = state.rows.sort.data[rows]
+    mine = inside & ((sort == Sort.ADOPTED) | ((sort == Sort.CROSSING) & shared))
+    mine &= ~on_profile(state)[rows]
+    if not across_flats:
+        mine &= ~on_flat(state)[rows]
+    chosen: IntArray = rows[mine]
+    return chosen
+
+
+def _goals(
+    state: HullState, curve: int, rows: IntArray, displaced: FloatArray, new: SplineBatch
+) -> FloatArray:
+    """Give where own points go: crossings to the new shape's meeting with their plane."""
+    order: IntArray = state.curves.rows.data[curve]
+    index = {row: i for i, row in enumerate(order.tolist())}
+    goals = np.array([displaced[index[row]] for row in rows.tolist()]).reshape(-1, 3)
+    for i, row in enumerate(rows.tolist()):
+        if state.rows.sort.data[row] == Sort.CROSSING:
+            goals[i] = _meeting(state, curve, row, goals[i], new)
+    line = state.line_of(curve)
+    if state.lines.planar.data[line]:
+        goals[:, state.lines.normal.data[line] == 1.0] = state.lines.offset.data[line]
+    return goals
+
+
+def _meeting(
+    state: HullState, curve: int, row: int, place: FloatArray, new: SplineBatch
+) -> FloatArray:
+    """Give the meeting of the new shape with the other line's plane that is nearest."""
+    pair = state.rows.curve.data[row]
+    other = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
+    if not state.lines.planar.data[other]:
+        return place
+    normal, offset = state.lines.normal.data[other].copy(), state.lines.offset.data[[other]].copy()
+    met = meet_planes(new, normal, offset)
+    ends = new.xyz[[0, -1]]
+    found = np.concatenate([met.xyz, ends[np.abs(ends @ normal - offset) < 1e-9]])
+    out = place.copy()
+    if len(found):
+        step = found - place
+        out = found[int(np.argmin((step * step).sum(axis=1)))].copy()
+    out[normal == 1.0] = offset
+    return out
+
+
+def _radius(state: HullState, fade: Fade, shape: FloatArray) -> tuple[float, float] | None:
+    if fade is None:
+        return None
+    if isinstance(fade, str) and fade == "auto":
+        middle = shape[len(shape) // 2]
+        girth = 3.0 * row_spacing(state, middle)
+        return 3.0 * _station_spacing(state), girth
+    return pair(fade, "fade", positive=True)
+
+
+def _station_spacing(state: HullState) -> float:
+    lines = state.live("lines")
+    across = lines[state.lines.planar.data[lines] & (state.lines.normal.data[lines, 0] == 1.0)]
+    offsets = np.sort(state.lines.offset.data[across])
+    return (
+        float(np.median(np.diff(offsets))) if len(offsets) > 1 else state.particulars.length / 20.0
+    )
+
+
+def _place(
+    edit: Transaction, curve: int, shape: FloatArray, rows: IntArray, goals: FloatArray
+) -> list[int]:
+    """Make placed points of the designer's points that no crossing holds.
+
+    An adopted point near by takes the place, and is placed from then on; `goals` is
+    changed accordingly.
+    """
+    state = edit.state
+    made: list[int] = []
+    for point in shape:
+        held = len(goals) and float(np.abs(goals - point).max(axis=1).min()) < 1e-9
+        if held or _at_crossing(state, curve, point):
+            continue
+        near = _adopted_near(state, rows, goals, point)
+        if near is not None:
+            goals[near] = point
+            pin(edit, int(rows[near]))
+            continue
+        row = int(edit.maker.points([PointSpec(curve, point, Sort.PLACED)])[0])
+        order: IntArray = state.curves.rows.data[curve]
+        index = interval_of(state.rows.xyz.data[order], point)
+        edit.maker.define(curve, np.insert(order, index, row))
+        edit.pending.structural = True
+        edit.pending.curves.add(curve)
+        made.append(row)
+    return made
+
+
+def _adopted_near(
+    state: HullState, rows: IntArray, goals: FloatArray, point: FloatArray
+) -> int | None:
+    """Give the index of the nearest adopted point, if it is near enough."""
+    mine = np.flatnonzero(state.rows.sort.data[rows] == Sort.ADOPTED)
+    if not len(mine):
+        return None
+    step = goals[mine] - point
+    away = np.sqrt((step * step).sum(axis=1))
+    best = int(away.argmin())
+    return int(mine[best]) if away[best] < _NEAR else None
+
+
+def _at_crossing(state: HullState, curve: int, point: FloatArray) -> bool:
+    """Tell whether a point lies where a crossing is that the curve does not define.
+
+    Such a crossing comes along with its driver, which the field moves.
+    """
+    table = state.rows
+    rows = np.flatnonzero(
+        table.alive.data
+        & (table.curve.data == curve).any(axis=1)
+        & (table.sort.data == Sort.CROSSING)
+    )
+    near = rows[np.abs(table.xyz.data[rows] - point).max(axis=1) < _NEAR]
+    for row in near.tolist():
+        pair = table.curve.data[row]
+        line = state.line_of(int(pair[0] if pair[1] == curve else pair[1]))
+        if not state.lines.planar.data[line]:
+            continue
+        away = float(state.lines.normal.data[line] @ point) - float(state.lines.offset.data[line])
+        if abs(away) < 1e-9:
+            return True
+    return False

@@ -1,0 +1,71 @@
+"""What an edit of several passes changed in the end: a point may go away and come back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.network import bits_differ
+from assoc_hull.model.state import HullState, curve_node, row_node
+
+__all__ = ["net_change"]
+
+
+def net_change(
+    state: HullState,
+    journal: Journal,
+    before: dict[int, SplineBatch],
+    nodes: IntArray,
+    moved: FloatArray,
+) -> tuple[IntArray, FloatArray]:
+    """Keep the nodes that differ by a bit from what they were before the edit.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables after the edit.
+    journal : Journal
+        All writes of the edit.
+    before : dict of int to SplineBatch
+        The splines of the curves before the edit; a new curve has none.
+    nodes, moved : (k,) int, (k,) float
+        Nodes that changed in any pass, and by how much; a node may stand more than once.
+
+    Returns
+    -------
+    nodes, moved : (n,) int, (n,) float, m
+        Each node once, points first; nan where the edit itself set the point. Points that
+        the edit made are left out, and watched ones, which have no value.
+    """
+    odd = (nodes & 1).astype(bool)
+    rows, away = _points(state, journal)
+    away[~np.isin(row_node(rows), nodes)] = np.nan
+    curves = [
+        curve
+        for curve in np.unique(nodes[odd] >> 1).tolist()
+        if curve not in before or not _same(before[curve], state.spline(curve))
+    ]
+    widest = np.array([np.max(moved[nodes == 2 * curve + 1]) for curve in curves], np.float64)
+    numbers = np.array(curves, np.int64)
+    return np.concatenate([row_node(rows), curve_node(numbers)]), np.concatenate([away, widest])
+
+
+def _points(state: HullState, journal: Journal) -> tuple[IntArray, FloatArray]:
+    """Give the points that lie elsewhere than before, and how far."""
+    table = state.rows
+    rows, old = journal.before(table.xyz)
+    marked, was_alive = journal.before(table.alive)
+    watched = (table.sort.data[rows] == Sort.CROSSING) & (table.role.data[rows] == Role.WATCHED)
+    differs = table.alive.data[rows] & ~watched & bits_differ(old, table.xyz.data[rows])
+    differs &= ~np.isin(rows, marked[~was_alive.astype(bool)])
+    step = table.xyz.data[rows[differs]] - old[differs]
+    return rows[differs], np.sqrt((step * step).sum(axis=1))
+
+
+def _same(one: SplineBatch, other: SplineBatch) -> bool:
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name))
+        for name in ("knot", "xyz", "leave", "arrive")
+    )

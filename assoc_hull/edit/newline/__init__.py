@@ -1,0 +1,1 @@
+"""A line cut from those that are there: added, shifted, removed."""

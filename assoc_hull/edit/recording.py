@@ -1,0 +1,148 @@
+"""Writing down what an edit was asked for, as data that can be asked for again.
+
+Handles are written as addresses, as they were when the call was made.
+
+Examples
+--------
+>>> from assoc_hull.edit.recording import said
+>>> from assoc_hull.shipped.wigley import wigley
+>>> from assoc_hull.model.handles import handle
+>>> said(handle(wigley(), "ST 7 x WL 2.5"))
+'ST 7 x WL 2.5'
+"""
+
+from __future__ import annotations
+
+import contextlib
+import inspect
+from collections.abc import Callable, Iterator, Sequence
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, Protocol, Self, TypeVar
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.pending_changes import Settings
+from assoc_hull.errors import AssocHullError
+from assoc_hull.graph.run_update import Policy
+from assoc_hull.model.address import AddressBook, address
+from assoc_hull.model.curve import Curve
+from assoc_hull.model.definition_part import FormDefinition
+from assoc_hull.model.line import Group, Line
+from assoc_hull.model.point import Crossing, Point
+
+__all__ = ["ANY_FUNCTION", "Recording", "Script", "recorded", "said"]
+
+ANY_FUNCTION = "<a function>"
+"""Stands where a function was given: nothing tells it, so the edit cannot be repeated."""
+
+_DEEPEST = 8
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@attrs.frozen
+class Script:
+    """What an edit was asked for.
+
+    Attributes
+    ----------
+    edits : tuple of dict
+        Each ``{"op": "move", "point": "WL 0.5 x ST 7", "y": 3.21}``: a method of
+        `assoc_hull.edit.session.Edit` and its arguments by name.
+    policy, gaps : str
+        How it was to be carried out, as `assoc_hull.hull.Hull.edit` takes it.
+    """
+
+    edits: tuple[dict[str, Any], ...] = ()
+    policy: str = Policy.ALL_OR_NOTHING.value
+    gaps: str = "refuse"
+
+    @classmethod
+    def of(cls, edits: Sequence[dict[str, Any]], settings: Settings) -> Self:
+        """Put a script together."""
+        gaps = "refuse" if settings.refuse_gaps else "report"
+        return cls(tuple(edits), settings.policy.value, gaps)
+
+    @property
+    def repeatable(self) -> bool:
+        """Whether the edit can be asked for again: something tells all that was asked for."""
+        return bool(self.edits) and ANY_FUNCTION not in _all_values(self.edits)
+
+
+def _all_values(value: object) -> Iterator[object]:
+    """Give every value in nested lists and dicts."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list | tuple):
+        for each in value:
+            yield from _all_values(each)
+    else:
+        yield value
+
+
+class Recording(Protocol):
+    """An edit that keeps what it was asked for."""
+
+    def _note(self, change: dict[str, Any]) -> None:
+        """Keep a modification."""
+
+
+R = TypeVar("R", bound=Recording)
+
+
+def recorded(method: Callable[Concatenate[R, P], T]) -> Callable[Concatenate[R, P], T]:
+    """Let a method of an edit keep each call that it accepted."""
+    takes = inspect.signature(method)
+    names = list(takes.parameters)[1:]
+
+    @wraps(method)
+    def asked(self: R, /, *args: P.args, **named: P.kwargs) -> T:
+        given = {**dict(zip(names, args, strict=False)), **named}
+        change = {name: said(value) for name, value in given.items()}
+        found = method(self, *args, **named)
+        self._note({"op": method.__name__, **change})
+        return found
+
+    return asked
+
+
+def said(value: object, depth: int = 0) -> Any:
+    """Give a value as JSON can say it, and as the same argument accepts it."""
+    if depth > _DEEPEST:
+        return ANY_FUNCTION  # no argument is nested so deeply: it will be refused
+    if isinstance(value, Point):
+        return address(value.tables, value.number, value.side) if value.alive else value.id
+    if isinstance(value, Crossing):
+        return address(value.tables, value.number) if value.alive else value.id
+    if isinstance(value, FormDefinition):
+        return value.use
+    if isinstance(value, Group | Line | Curve):
+        return _named(value)
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [said(each, depth + 1) for each in value]
+    if getattr(value, "document", None) is not None:
+        return None  # the hull itself
+    if isinstance(value, str | int | float | bool | None):
+        return value
+    return ANY_FUNCTION
+
+
+def _named(thing: Group | Line | Curve) -> str:
+    """Give the name of a line or curve if it leads back, else its key."""
+    if isinstance(thing, Group) or not thing.alive:
+        return thing.id
+    book = AddressBook(thing.tables)
+    curve = isinstance(thing, Curve)
+    name = book.curve_name(thing.number) if curve else book.line_name(thing.number)
+    with contextlib.suppress(AssocHullError):
+        found = book.resolve(name)
+        numbers = (
+            {found.line, *thing.tables.lines.curves.data[found.line]} if curve else {found.line}
+        )
+        if thing.number in numbers:
+            return name
+    return thing.id

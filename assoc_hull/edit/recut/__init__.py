@@ -1,0 +1,1 @@
+"""Drivers carried by a mapping of space, and followers cut again."""

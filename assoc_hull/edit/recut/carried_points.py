@@ -1,0 +1,356 @@
+"""What a transformation knows of each point on its way: where the mapping sends it, where it goes.
+
+A point whose image lies in the planes of its lines goes there. A crossing of a driver with
+a follower whose plane the image has left *slides*: it goes where the image of the driver
+meets that plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.followup.tangencies import Touch
+from assoc_hull.edit.mapped_planes import PLANE, Planes, flat_borders, heights, into_planes
+from assoc_hull.edit.newline.kept_runs import Stays
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import CurveData, EndKind, FloatArray, IntArray
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.graph.journal import Journal
+from assoc_hull.model.kinds import Sort
+from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.state import Ends, HullState
+
+__all__ = ["Carried", "Through", "carry_directions", "carry_ends", "carry_points", "through"]
+
+BoolArray = np.typing.NDArray[np.bool_]
+
+
+@attrs.define(eq=False)
+class Through:
+    """The points a curve is to be made through, in order.
+
+    Attributes
+    ----------
+    row : list of int
+        The points; -1 for a new adopted one.
+    place : list of (3,), m
+        Where they go.
+    at : list of float, m
+        For drivers, parameters on the curve before the mapping.
+    """
+
+    row: list[int]
+    place: list[FloatArray]
+    at: list[float]
+
+
+@attrs.define(eq=False)
+class Carried:
+    """A transformation under way; the tables hold the places of before.
+
+    Attributes
+    ----------
+    maker : Maker
+        Writes structure.
+    space : SpaceMap
+        The mapping.
+    planes : Planes
+        Where the planes of the lines come to.
+    driver : (l,) bool
+        Which lines drive.
+    image : (r, 3), m
+        Where the mapping sends each point.
+    value : (r, 3), m
+        Where each point goes.
+    direct : (r,) bool
+        Whether its image lies in the planes of its lines.
+    still : (r,) bool
+        Whether the mapping leaves it and all around it where it is, to the last bit.
+    known : (r,) bool
+        Whether `value` is final.
+    slid : (r,) bool
+        Whether a crossing was found where an image or a follower meets a plane.
+    made : dict of int to Through
+        Curves whose points are chosen.
+    gone : set of int
+        Points that have no place any more.
+    watched : set of int
+        Crossings of drivers with followers that come to pass them within the tolerance only.
+    come : list of (int, (3,) array)
+        Followers with places at which a driver has come to meet their planes.
+    contacts : list of (int, int)
+        Followers with new crossings with boundary curves.
+    anew : dict of int to dict of (int, int) to int
+        Followers that come to end elsewhere on boundary curves: they are cut wholly anew.
+        Crossings with drivers by the driver and the meeting, counted along it.
+    stays : dict of int to Stays
+        What of followers that are cut wholly anew stays as it was, nevertheless.
+    held : set of int
+        All points that stay so.
+    touches : dict of (int, int) to Touch
+        Where planes are tangent to features, by the curve of the feature and the line.
+    fine : dict of int to float, m
+        Drivers that are features, and how far they may leave their exact shape.
+    driven : set of int
+        Crossings that a driver has come to drive, as they slid onto another of its points.
+    doubt : dict of int to float, m
+        Own points of followers that slip over the hull, and how uncertain it is where to.
+    ends : dict of (int, int) to (int, int)
+        Meetings of drivers with followers, by the driver and the number of the root, at which a
+        piece comes to begin (0) or end (1).
+    new_ends : dict of (int, int) to int
+        The crossings there, by the piece and its side.
+    extra : dict of int to list of (float, int)
+        Points that come to define a driver, with their parameters on it before the mapping.
+    """
+
+    maker: Maker
+    space: SpaceMap
+    planes: Planes
+    driver: BoolArray
+    image: FloatArray
+    value: FloatArray
+    direct: BoolArray
+    still: BoolArray
+    known: BoolArray
+    slid: BoolArray
+    made: dict[int, Through] = attrs.field(factory=dict)
+    gone: set[int] = attrs.field(factory=set)
+    watched: set[int] = attrs.field(factory=set)
+    come: list[tuple[int, FloatArray]] = attrs.field(factory=list)
+    contacts: list[tuple[int, int]] = attrs.field(factory=list)
+    anew: dict[int, dict[tuple[int, int], int]] = attrs.field(factory=dict)
+    stays: dict[int, Stays] = attrs.field(factory=dict)
+    held: set[int] = attrs.field(factory=set)
+    touches: dict[tuple[int, int], Touch] = attrs.field(factory=dict)
+    fine: dict[int, float] = attrs.field(factory=dict)
+    driven: set[int] = attrs.field(factory=set)
+    kept: set[int] = attrs.field(factory=set)
+    doubt: dict[int, float] = attrs.field(factory=dict)
+    ends: dict[tuple[int, int], tuple[int, int]] = attrs.field(factory=dict)
+    new_ends: dict[tuple[int, int], int] = attrs.field(factory=dict)
+    extra: dict[int, list[tuple[float, int]]] = attrs.field(factory=dict)
+
+    @property
+    def state(self) -> HullState:
+        """The tables."""
+        return self.maker.state
+
+    def add(self, place: FloatArray) -> None:
+        """Take in one more point, which has just been made, at its final place."""
+        self.image = np.concatenate([self.image, place[None]])
+        self.value = np.concatenate([self.value, place[None]])
+        self.direct, self.known = np.append(self.direct, True), np.append(self.known, True)
+        self.slid, self.still = np.append(self.slid, True), np.append(self.still, False)
+
+    def piece(self, line: int, place: FloatArray) -> int:
+        """Give the curve of a line whose carried points come nearest to a place."""
+        curves = self.state.lines.curves.data[line]
+        away = [
+            float(((self.image[self.state.curves.rows.data[curve]] - place) ** 2).sum(1).min())
+            for curve in curves
+        ]
+        return int(curves[int(np.argmin(away))])
+
+    def end(self, curve: int, side: int) -> int:
+        """Give the point at which a curve comes to begin (0) or end (1)."""
+        rows: IntArray = self.state.curves.rows.data[curve]
+        return self.new_ends.get((curve, side), int(rows[-side]))
+
+    def drives(self, curve: int) -> bool:
+        """Tell whether a curve belongs to a driving line."""
+        return bool(self.driver[self.state.line_of(curve)])
+
+    def apart(self, row: int) -> bool:
+        """Tell whether a point lies on a follower that is cut wholly anew, and does not stay."""
+        if row in self.held:
+            return False
+        curves = self.state.rows.curve.data[row].tolist()
+        return any(self.state.line_of(curve) in self.anew for curve in curves if curve >= 0)
+
+    def touched(self, line: int) -> tuple[Touch, ...]:
+        """Give the touches of a line, by curve."""
+        found = sorted(key for key in self.touches if key[1] == line)
+        return tuple(self.touches[key] for key in found)
+
+    def other(self, row: int, curve: int) -> int:
+        """Give the curve on the other side of a crossing, -1 if there is none."""
+        one, two = self.state.rows.curve.data[row].tolist()
+        return int(two if one == curve else one)
+
+
+def carry_points(maker: Maker, space: SpaceMap, planes: Planes, driver: BoolArray) -> Carried:
+    """Map all points, and see which come to lie in the planes of their lines.
+
+    Raises
+    ------
+    BadInputError
+        The mapping turns the hull inside out somewhere.
+    """
+    state = maker.state
+    live = state.live("rows")
+    image = state.rows.xyz.data.copy()
+    image[live] = space.places(state.rows.xyz.data[live])
+    slope = space.jacobians(state.rows.xyz.data[live])
+    _refuse_folds(state, live, slope)
+    still = np.zeros(state.rows.count, bool)
+    still[live] = (slope == np.eye(3)).all(axis=(1, 2)) & (
+        image[live] == state.rows.xyz.data[live]
+    ).all(axis=1)
+    table = state.rows
+    line = np.where(table.curve.data >= 0, state.curves.line.data[table.curve.data], -1)
+    direct = np.ones(table.count, bool)
+    drives = np.ones(table.count, bool)
+    for side in (0, 1):
+        held = (line[:, side] >= 0) & planes.planar[line[:, side]]
+        off = heights(image, planes.normal[line[:, side]]) - planes.offset[line[:, side]]
+        direct &= ~held | (np.abs(off) <= PLANE)
+        drives &= (line[:, side] < 0) | driver[line[:, side]]
+    value = image.copy()
+    value[live] = np.where(
+        direct[live][:, None], into_planes(state, planes, live, image[live]), image[live]
+    )
+    crossing = table.sort.data == Sort.CROSSING
+    known = np.where(crossing, direct, drives & direct)
+    return Carried(
+        maker, space, planes, driver, image, value, direct, still, known,
+        np.zeros(table.count, bool),
+    )  # fmt: skip
+
+
+def _refuse_folds(state: HullState, live: IntArray, j: FloatArray) -> None:
+    """See that the mapping keeps right- and left-handed apart at every point."""
+    volume = (
+        j[:, 0, 0] * (j[:, 1, 1] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 1])
+        - j[:, 0, 1] * (j[:, 1, 0] * j[:, 2, 2] - j[:, 1, 2] * j[:, 2, 0])
+        + j[:, 0, 2] * (j[:, 1, 0] * j[:, 2, 1] - j[:, 1, 1] * j[:, 2, 0])
+    )
+    worst = int(volume.argmin())
+    if not volume[worst] > 0.0:
+        x, y, z = state.rows.xyz.data[live[worst]].tolist()
+        raise BadInputError(
+            f"the mapping folds: its Jacobian determinant is {volume[worst]:.3g}",
+            f"at ({x:.3f}, {y:.3f}, {z:.3f}) m in transform", "make it smaller or smoother",
+        )  # fmt: skip
+
+
+def through(
+    work: Carried, curves: Sequence[int], parts: Sequence[Through] | None = None
+) -> CurveData:
+    """Give what the chosen points make of curves, for lofting beside the tables.
+
+    Parameters
+    ----------
+    work : Carried
+        The transformation.
+    curves : sequence of int
+        The curves; one may come again with other points.
+    parts : sequence of Through or None
+        Their points; None for those that are chosen.
+    """
+    state = work.state
+    parts = [work.made[curve] for curve in curves] if parts is None else parts
+    start = np.zeros(len(parts) + 1, np.int64)
+    np.cumsum([len(part.row) for part in parts], out=start[1:])
+    row = np.array([each for part in parts for each in part.row], np.int64)
+    owner = np.repeat(np.array(curves, np.int64), np.diff(start))
+    side = (state.rows.curve.data[row, 0] != owner).astype(np.int64)
+    kind = np.where(row >= 0, state.rows.kind.data[row, side], 0).astype(np.int8)
+    direction = np.where((row >= 0)[:, None], state.rows.direction.data[row, side], 0.0)
+    ends = [state.curves.ends.data[curve] for curve in curves]
+    return CurveData(
+        start,
+        np.array([place for part in parts for place in part.place]),
+        kind,
+        direction,
+        np.array([end.kind for end in ends], np.int8),
+        np.array([end.vector for end in ends], np.float64),
+    )
+
+
+def _lay(vectors: FloatArray, normal: FloatArray) -> FloatArray:
+    """Lay vectors (k, 3) into the planes with normals (k, 3); nil normals leave them."""
+    size = np.sqrt((vectors * vectors).sum(axis=1))
+    flat = vectors - normal * (vectors * normal).sum(axis=1)[:, None]
+    flat = np.where(np.abs(normal) == 1.0, 0.0, flat)
+    length = np.sqrt((flat * flat).sum(axis=1))
+    laid: FloatArray = flat * (size / np.where(length > 0.0, length, 1.0))[:, None]
+    return laid
+
+
+def _turned(slope: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Turn vectors with the mapping; their lengths stay, and so do bits where it is still."""
+    new = (slope * vectors[:, None, :]).sum(axis=2)
+    still = (slope == np.eye(3)).all(axis=(1, 2))
+    old = np.sqrt((vectors * vectors).sum(axis=1))
+    size = np.sqrt((new * new).sum(axis=1))
+    new = new * (old / np.where(size > 0.0, size, 1.0))[:, None]
+    return np.where(still[:, None], vectors, new)
+
+
+def carry_directions(work: Carried, journal: Journal) -> set[int]:
+    """Turn the given directions of points with the mapping; give the curves they change.
+
+    A direction stays in the plane of its curve, and in the flat it borders.
+    """
+    state, table = work.state, work.state.rows
+    flats, changed = flat_borders(state, work.planes), set[int]()
+    for side in (0, 1):
+        given = table.alive.data & (table.direction.data[:, side] != 0.0).any(axis=1)
+        rows = np.flatnonzero(given)
+        if not len(rows):
+            continue
+        curve = table.curve.data[rows]
+        old = table.direction.data[rows, side]
+        new = _turned(work.space.jacobians(table.xyz.data[rows]), old)
+        moved = (new != old).any(axis=1)
+        line = np.where(curve >= 0, state.curves.line.data[curve], -1)
+        normal = np.where((line >= 0)[:, :, None], work.planes.normal[line], 0.0)
+        border = np.where(np.isin(line[:, 1 - side], flats)[:, None], normal[:, 1 - side], 0.0)
+        new = _lay(_lay(new, normal[:, side]), border)
+        both = table.direction.data[rows[moved]].copy()
+        both[:, side] = new[moved]
+        journal.put(table.direction, rows[moved], both)
+        changed |= set(curve[moved, side].tolist())
+    return changed - {-1}
+
+
+def carry_ends(work: Carried, journal: Journal) -> set[int]:
+    """Turn and bend the end conditions of curves with the mapping; give those that change."""
+    state, changed, ends = work.state, set[int](), work.state.curves.ends.data
+    bound = [curve for curve in state.live("curves").tolist() if any(ends[curve].kind)]
+    places = [state.spline(curve).xyz[[0, -1]] for curve in bound]
+    slopes = work.space.jacobians(np.concatenate([np.zeros((0, 3)), *places])).reshape(-1, 2, 3, 3)
+    for curve, slope in zip(bound, slopes, strict=True):
+        old: Ends = ends[curve]
+        new = tuple(_end(work, curve, at, slope[[at]]) for at in (0, 1))
+        if new != old.vector:
+            journal.set(state.curves.ends, [curve], [Ends(old.kind, (new[0], new[1]))])
+            changed.add(curve)
+    return changed
+
+
+def _end(work: Carried, curve: int, at: int, slope: FloatArray) -> tuple[float, float, float]:
+    """Give the vector of one end condition under the mapping, of the slope (1, 3, 3) there."""
+    ends: Ends = work.state.curves.ends.data[curve]
+    if ends.kind[at] == EndKind.FREE or (slope[0] == np.eye(3)).all():
+        return ends.vector[at]
+    spline = work.state.spline(curve)
+    knot = 0 if at == 0 else -1
+    place, vector = spline.xyz[[knot]], np.array([ends.vector[at]])
+    if ends.kind[at] == EndKind.TANGENT:
+        new = _turned(slope, vector)
+    else:
+        tangent = derivative(spline, np.zeros(1, np.int64), spline.knot[[knot]])
+        tangent = tangent / np.sqrt((tangent * tangent).sum())
+        stretch = (slope * tangent[:, None, :]).sum(axis=2)
+        new = (slope * vector[:, None, :]).sum(axis=2) + work.space.bends(place, tangent)
+        new = new / (stretch * stretch).sum()
+    normal = work.planes.normal[[work.state.line_of(curve)]]
+    flat = new - normal * (new * normal).sum()
+    x, y, z = np.where(np.abs(normal) == 1.0, 0.0, flat)[0].tolist()
+    return (x, y, z)

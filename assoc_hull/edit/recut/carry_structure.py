@@ -1,0 +1,127 @@
+"""A mapping carries a net point by point: its structure stays as it is.
+
+Every point goes to its image, or slides back into the planes of its lines over the image of the
+hull (`assoc_hull.edit.recut.slide_into_planes`); then all lines are lofted again. No point comes
+or goes, so lines
+leave their exact images between their points as they will, and a hull so carried is a smooth
+function of the mapping. `assoc_hull.edit.recut.transform` holds lines to their images and cuts
+others anew instead.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.mapped_features import CarriedFeatures
+from assoc_hull.edit.mapped_planes import Planes
+from assoc_hull.edit.recut.carried_points import Carried, carry_directions, carry_ends, carry_points
+from assoc_hull.edit.recut.slide_into_planes import slide_over
+from assoc_hull.edit.recut.transform import carry_meetings, move_planes, refuse_others
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.model.features import Feature
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.state import HullState, Particulars
+
+__all__ = ["NetMap", "carry_net"]
+
+
+@attrs.frozen(eq=False)
+class NetMap:
+    """A mapping, and what it does with all that a net has beside points.
+
+    Attributes
+    ----------
+    space : SpaceMap
+        The mapping.
+    drivers : (d,) int
+        Lines whose planes go along with the mapping, boundary curves among them.
+    planes : Planes
+        Where the planes of all lines go.
+    features : tuple of Feature
+        With the numbers that they get.
+    particulars : Particulars
+        Those of the hull afterwards.
+    within : float, m
+        How far points of features may come to lie off them; farther, and a feature dissolves.
+    """
+
+    space: SpaceMap
+    drivers: IntArray
+    planes: Planes
+    features: tuple[Feature, ...]
+    particulars: Particulars
+    within: float = 2e-3
+
+
+def carry_net(edit: Transaction, by: NetMap) -> Carried:
+    """Carry a net within an edit that holds nothing else.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit: one undo step, refused as a whole.
+    by : NetMap
+        The mapping.
+
+    Returns
+    -------
+    Carried
+        Where the points go; those that are computed from curves follow when the edit ends.
+
+    Raises
+    ------
+    BadInputError
+        The mapping bends a line that it was to keep plane, or takes a point where its lines do
+        not go; something else is in the edit.
+    """
+    state, pending, maker = edit.state, edit.pending, edit.maker
+    refuse_others(edit)
+    _refuse_bent(state, by.planes)
+    pending.alone = pending.structural = True
+    drives = np.zeros(state.lines.count, bool)
+    drives[by.drivers] = True
+    work = carry_points(maker, by.space, by.planes, drives)
+    slide_over(work)
+    carry_directions(work, edit.journal)
+    carry_ends(work, edit.journal)
+    carry_meetings(edit, by.space)
+    move_planes(maker, by.planes)
+    if by.particulars != state.particulars:
+        edit.journal.set(state.settings.particulars, [0], [by.particulars])
+    rows = _given(state)
+    edit.write(rows, work.value[rows], "carrying a net")
+    pending.features = _features(work, by)
+    adopted = state.live("rows")
+    pending.held |= set(adopted[state.rows.sort.data[adopted] == Sort.ADOPTED].tolist())
+    curves = set(state.live("curves").tolist())
+    pending.curves |= curves
+    pending.relink |= curves
+    return work
+
+
+def _given(state: HullState) -> IntArray:
+    """Give the points whose places are given: not computed from a curve, and not only watched."""
+    table, live = state.rows, state.live("rows")
+    watched = (table.sort.data[live] == Sort.CROSSING) & (table.role.data[live] == Role.WATCHED)
+    rows: IntArray = live[(table.driver.data[live] < 0) & ~watched]
+    return rows
+
+
+def _features(work: Carried, by: NetMap) -> CarriedFeatures:
+    """Let features keep their points, as long as these lie on them."""
+    rows = {row for each in by.features for row in each.points}
+    places = {row: work.image[row] for row in sorted(rows)}
+    return CarriedFeatures(by.features, frozenset(), by.within, places)
+
+
+def _refuse_bent(state: HullState, planes: Planes) -> None:
+    for line, away in sorted(planes.bent.items()):
+        if state.lines.boundary.data[line] < 0:
+            raise BadInputError(
+                f"{state.lines.name.data[line]} leaves its plane by {away:.3g} m",
+                "in carrying a net point by point", "let it follow instead of driving",
+            )  # fmt: skip

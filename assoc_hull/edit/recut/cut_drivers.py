@@ -1,0 +1,309 @@
+"""Drivers under a mapping: their exact images are cut with the planes of the followers.
+
+A driver is made through the images of its own points and through the places where its
+image meets the planes of the followers. Where the spline through these leaves the image by
+more than the tolerance, adopted points hold it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.edit.followup.tangencies import touch_rows
+from assoc_hull.edit.mapped_planes import PLANE, into_planes
+from assoc_hull.edit.recut.carried_points import Carried, Through, through
+from assoc_hull.edit.recut.changed_ends import ends_change, pairs_of, recognise
+from assoc_hull.edit.recut.driver_image import Image, Roots, misfit
+from assoc_hull.edit.recut.find_kept_runs import find_stays
+from assoc_hull.edit.recut.new_boundary_ends import hand_over
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.model.address import address
+from assoc_hull.model.index import Index
+from assoc_hull.model.kinds import BoundaryKind, Role, Sort
+from assoc_hull.model.make_objects import CrossingSpec
+from assoc_hull.model.state import HullState, Meets
+
+__all__ = ["cut_drivers", "hold_images"]
+
+_ROUNDS = 8
+_LEAST = 0.1
+"""Least interval (m) that is given a point: at keel and stem parents turn as sharply."""
+
+_LEAST_FINE = 0.01
+"""The same of a feature, of which it is known how it is to turn."""
+
+_NEAR = 0.15
+"""An adopted point as near as this (m) to a crossing that slid adds nothing."""
+
+
+def cut_drivers(work: Carried, index: Index) -> Image:
+    """Find where drivers cross followers, and in what order their points now come.
+
+    Raises
+    ------
+    BadInputError
+        A line would end elsewhere on the boundary curves than it does.
+    """
+    state = work.state
+    mine = [curve for curve in state.live("curves").tolist() if work.drives(curve)]
+    curves = np.array(sorted(mine, key=lambda c: str(state.curves.key.data[c])), np.int64)
+    batch = SplineBatch.join([state.spline(c) for c in curves.tolist()])
+    image = Image.of(work.space, batch, tuple(curves.tolist()))
+    slid: dict[int, float] = {}
+    for line in _followers(work):
+        some = _partners(work, index, line, curves)
+        if len(some):
+            _cut_with(work, image, curves, some, line, slid)
+    find_stays(work)
+    for local, curve in enumerate(curves.tolist()):
+        knots = image.batch.knot[image.batch.start[local] : image.batch.start[local + 1]]
+        _order(work, curve, knots, slid)
+    return image
+
+
+def _followers(work: Carried) -> list[int]:
+    """Give the planar lines that follow, by key."""
+    state = work.state
+    live = state.live("lines")
+    chosen = live[~work.driver[live] & work.planes.planar[live]]
+    return sorted(chosen.tolist(), key=lambda line: str(state.lines.key.data[line]))
+
+
+def _partners(work: Carried, index: Index, line: int, curves: IntArray) -> IntArray:
+    """Give the places in `curves` of those that are cut with the plane of a line."""
+    groups = [
+        group
+        for group, planes in index.partners.items()
+        if any((each.lines == line).any() for each in planes)
+    ]
+    owner = work.state.lines.group.data[work.state.curves.line.data[curves]]
+    return np.flatnonzero(np.isin(owner, groups))
+
+
+def _cut_with(
+    work: Carried, image: Image, curves: IntArray, some: IntArray, line: int,
+    slid: dict[int, float],
+) -> None:  # fmt: skip
+    """Cut the images with the plane of one follower, where that is not as it was."""
+    planes, table = work.planes, work.state.lines
+    normal, offset = planes.normal[line], float(planes.offset[line])
+    new = image.changed(normal, float(table.offset.data[line]), offset, PLANE)
+    needed = [
+        local for local in some.tolist()
+        if new[local] or _off(work, curves[local], line)
+        or (int(curves[local]), line) in work.touches
+    ]  # fmt: skip
+    if not needed:
+        return
+    roots = image.meet(normal, offset)
+    other = any(ends_change(work, int(curves[local]), line, local, roots) for local in needed)
+    if other and not hand_over(work, curves, some, line, roots):
+        work.anew[line] = {}
+        for local in some.tolist():
+            recognise(work, int(curves[local]), line, local, roots)
+        return
+    for local in needed:
+        _match(work, int(curves[local]), line, local, roots, slid)
+
+
+def _off(work: Carried, curve: int, line: int) -> bool:
+    """Tell whether a crossing of a curve with a line has left its plane."""
+    meets: Meets = work.state.curves.meets.data[int(curve)]
+    rows = meets.row[(meets.line == line) & (meets.row >= 0)]
+    return not bool(work.direct[rows].all())
+
+
+def _match(
+    work: Carried, curve: int, line: int, local: int, roots: Roots, slid: dict[int, float]
+) -> None:
+    """Say which crossing each meeting of one image with one plane is."""
+    meets: Meets = work.state.curves.meets.data[curve]
+    old, new, pairs = pairs_of(work, curve, line, local, roots)
+    if (curve, line) in work.touches:
+        for row in touch_rows(work.state, curve, line):
+            work.value[row] = work.touches[curve, line].xyz
+            work.known[row] = work.slid[row] = True
+    for one, other in pairs:
+        row = int(meets.row[old[one]])
+        if row >= 0 and not work.direct[row]:
+            place = roots.xyz[[new[other]]]
+            work.value[row] = into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.known[row] = work.slid[row] = True
+            slid[row] = float(roots.t[new[other]])
+    lost = np.setdiff1d(np.arange(len(old)), [one for one, _ in pairs])
+    work.gone |= set(meets.row[old[lost]].tolist()) - {-1}
+    for other in np.setdiff1d(np.arange(len(new)), [other for _, other in pairs]).tolist():
+        _win(work, curve, line, roots, int(new[other]))
+
+
+def _win(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+    """Note a place at which a driver has come to meet a follower's plane.
+
+    At the border of a flat and at a knuckle line the follower gets a contact.
+    """
+    if work.state.lines.boundary.data[work.state.line_of(curve)] < 0:
+        work.come.append((line, roots.xyz[at]))
+    else:
+        _touch(work, curve, line, roots, at)
+
+
+def _touch(work: Carried, curve: int, line: int, roots: Roots, at: int) -> None:
+    """Make a contact of a follower with a boundary curve that has come to it."""
+    state, xyz = work.state, roots.xyz[at]
+    border = state.line_of(curve)
+    kind = PointKind.KNUCKLE
+    end = work.ends.get((curve, at))
+    if state.lines.boundary.data[border] == BoundaryKind.END:
+        kind = PointKind.SMOOTH
+    elif state.lines.boundary.data[border] == BoundaryKind.FLAT:
+        kind = PointKind.TANGENT if work.planes.planar[border] else PointKind.SMOOTH
+    sign = int(roots.sign[at])
+    piece = work.piece(line, xyz) if end is None else end[0]
+    spec = CrossingSpec(curve, piece, xyz, Role.DRIVES_B, sign, None, contact=True, kind_b=kind)
+    row = int(work.maker.crossings([spec])[0])
+    work.add(into_planes(state, work.planes, np.array([row]), xyz[None])[0])
+    work.contacts.append((line, row))
+    if end is not None:
+        work.new_ends[end] = row
+    meets: Meets = state.curves.meets.data[curve]
+    before = np.flatnonzero(meets.line == line)
+    where = int(before[0]) if len(before) else len(meets.line)
+    where += int((meets.parameter[before] < roots.t[at]).sum())
+    work.maker.journal.set(
+        state.curves.meets, [curve],
+        [Meets(
+            np.insert(meets.line, where, line), np.insert(meets.sign, where, roots.sign[at]),
+            np.insert(meets.row, where, row), np.insert(meets.parameter, where, roots.t[at]),
+            np.insert(meets.xyz, where, xyz, axis=0),
+        )],
+    )  # fmt: skip
+
+
+def _order(work: Carried, curve: int, knots: FloatArray, slid: dict[int, float]) -> None:
+    """Put the points of a driver in the order in which its image passes them."""
+    state = work.state
+    more = work.extra.get(curve, [])
+    rows = np.append(state.curves.rows.data[curve], [row for _, row in more]).astype(np.int64)
+    knots = np.append(knots, [t for t, _ in more])
+    apart = {row for row in rows.tolist() if work.apart(row)}
+    for row in rows[~work.known[rows]].tolist():
+        if row not in work.gone and row not in apart:
+            _settle(work, curve, row)
+    kept = [
+        (slid.get(row, t), i, row)
+        for i, (row, t) in enumerate(zip(rows.tolist(), knots.tolist(), strict=True))
+        if row not in work.gone and row not in apart
+    ]
+    kept.sort()
+    order = [row for _, _, row in kept]
+    drop = _crowded(state, work, order) if any(row in slid for row in order) else set[int]()
+    work.gone |= drop
+    kept = [each for each in kept if each[2] not in drop]
+    if any(row in slid for row in order):
+        held = _doubled(work, curve, [row for _, _, row in kept], slid)
+        kept = [each for each in kept if each[2] not in held]
+    work.made[curve] = Through(
+        [row for _, _, row in kept],
+        [work.value[row].copy() for _, _, row in kept],
+        [t for t, _, _ in kept],
+    )
+
+
+def _settle(work: Carried, curve: int, row: int) -> None:
+    """Give a point of a driver that nothing has placed yet the place of its image.
+
+    A crossing that is computed from a follower starts there too.
+    """
+    table = work.state.rows
+    if table.contact.data[row] and not work.direct[row]:
+        raise BadInputError(
+            f"{address(work.state, row)}: the boundary leaves the plane of the line, and never "
+            "met it in one place", "in transform",
+            "remove the line before, or let the planes of followers follow",
+        )  # fmt: skip
+    if table.driver.data[row] >= 0 or work.other(row, curve) < 0:
+        work.known[row] = True
+    else:
+        work.gone.add(row)
+
+
+def _doubled(work: Carried, curve: int, order: list[int], slid: dict[int, float]) -> set[int]:
+    """Let a driver drive crossings that slid onto another of its points, instead of passing it.
+
+    Two points of a curve cannot lie at one place. The follower is made through the crossing as
+    before, which is now computed from the driver.
+    """
+    table, place = work.state.rows, work.value[order]
+    step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
+    found: set[int] = set()
+    for i in np.flatnonzero(step < work.state.tolerances.coincident).tolist():
+        for row in (order[i], order[i + 1]):
+            first, other = table.curve.data[row].tolist()
+            beside = order[i + 1] if row == order[i] else order[i]
+            free = not table.contact.data[row] or table.sort.data[beside] == Sort.ADOPTED
+            if row in slid and first == curve and other >= 0 and free:
+                found.add(row)
+                break
+    if found:
+        rows = np.array(sorted(found), np.int64)
+        work.maker.roles(rows, np.full(len(rows), int(Role.DRIVES_B)))
+        work.driven |= found
+    return found
+
+
+def _crowded(state: HullState, work: Carried, order: list[int]) -> set[int]:
+    """Give the smooth adopted points that a crossing has slid beside."""
+    place = work.value[order]
+    step = np.sqrt((np.diff(place, axis=0) ** 2).sum(axis=1))
+    found: set[int] = set()
+    for i in np.flatnonzero(step < _NEAR).tolist():
+        for one, other in ((order[i], order[i + 1]), (order[i + 1], order[i])):
+            adopted = state.rows.sort.data[one] == Sort.ADOPTED
+            if adopted and not state.rows.kind.data[one, 0] and work.slid[other]:
+                found.add(one)
+    return found
+
+
+def hold_images(work: Carried, image: Image, tolerance: float) -> int:
+    """Give drivers adopted points until they stay within the tolerance of their images.
+
+    Returns
+    -------
+    int
+        How many points were added.
+    """
+    keys = work.state.curves.key.data
+    curves = sorted((c for c in work.made if work.drives(c)), key=lambda curve: str(keys[curve]))
+    added = 0
+    limit = np.array([work.fine.get(curve, tolerance) for curve in curves])
+    least = np.array([_LEAST_FINE if curve in work.fine else _LEAST for curve in curves])
+    for _ in range(_ROUNDS):
+        batch = loft(through(work, curves), [str(keys[curve]) for curve in curves])
+        at = np.concatenate([np.array(work.made[curve].at) for curve in curves])
+        away, middle = misfit(image, np.arange(len(curves)), batch, at)
+        count = np.diff(batch.start) - 1
+        owner = np.repeat(np.arange(len(curves)), count)
+        chord = np.delete(np.diff(batch.knot), batch.start[1:-1] - 1)
+        wide = np.flatnonzero((away > limit[owner]) & (chord > least[owner]))
+        if not len(wide):
+            break
+        places = image.at(owner[wide], middle[wide])
+        segment = wide - np.concatenate([[0], np.cumsum(count)])[owner[wide]]
+        for i in range(len(wide) - 1, -1, -1):
+            part, before = work.made[curves[owner[wide[i]]]], int(segment[i]) + 1
+            part.row.insert(before, -1)
+            part.place.insert(before, _in_plane(work, curves[owner[wide[i]]], places[i]))
+            part.at.insert(before, float(middle[wide[i]]))
+            added += 1
+    return added
+
+
+def _in_plane(work: Carried, curve: int, place: FloatArray) -> FloatArray:
+    """Put a new point of a curve exactly into the curve's plane."""
+    line, out = work.state.line_of(curve), place.copy()
+    if work.planes.planar[line]:
+        exact = work.planes.normal[line] == 1.0
+        out[exact] = work.planes.offset[line]
+    return out

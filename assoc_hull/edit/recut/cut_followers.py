@@ -1,0 +1,341 @@
+"""Followers of a transformation: cut again from the drivers, then from one another by rank.
+
+A follower is made through its crossings with drivers and with the followers cut before it.
+Where its plane is kept by the mapping, its own points are carried as they are. Where not,
+another part of the hull comes to lie in the plane: placed points are brought there along
+the hull, adopted ones that held the old shape go, and new ones hold the new shape where a
+line that is cut before passes without defining.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from assoc_hull.edit.followup.thread import detour
+from assoc_hull.edit.mapped_planes import into_planes
+from assoc_hull.edit.recut.carried_points import Carried, Through, through
+from assoc_hull.edit.recut.choose_points import (
+    choose,
+    free_points,
+    insert,
+    into_own_plane,
+    loose_points,
+    round_turns,
+    slip_along,
+    tie,
+    tie_own,
+)
+from assoc_hull.edit.recut.fairest_choice import Option
+from assoc_hull.edit.recut.projected_image import gaps_across
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.geometry.splines.evaluation import derivative
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.model.align_intersections import align_roots
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.state import Meets
+
+__all__ = ["cut_followers"]
+
+_NEAR = 0.15
+"""No point is added as near as this (m) to another one."""
+
+_ROUNDS = 6
+
+
+def cut_followers(work: Carried) -> None:
+    """Find where all followers pass.
+
+    Raises
+    ------
+    BadInputError
+        A follower is cut from nothing.
+    """
+    state = work.state
+    curves = [
+        curve for curve in state.live("curves").tolist()
+        if not work.drives(curve) and state.line_of(curve) not in work.anew
+    ]  # fmt: skip
+    for row in state.live("rows").tolist():
+        if work.anew and work.apart(row):
+            work.known[row] = False
+    for curve in sorted(curves, key=state.rank):
+        _check_cut(work, curve)
+        _carry_own(work, curve)
+        _give(work, curve)
+    for curve in curves:
+        work.made[curve] = _points(work, curve)
+
+
+def _crossings(work: Carried, curve: int) -> list[int]:
+    """Give the crossings that define a curve and are still there."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    mine = rows[work.state.rows.sort.data[rows] == Sort.CROSSING]
+    return [row for row in mine.tolist() if row not in work.gone and not work.apart(row)]
+
+
+def _check_cut(work: Carried, curve: int) -> None:
+    """See that a follower is defined by a driver, or by a follower cut before it."""
+    state = work.state
+    boundary = state.lines.boundary.data >= 0
+    inner = [
+        row for row in _crossings(work, curve)
+        if not boundary[state.line_of(work.other(row, curve))]
+    ]  # fmt: skip
+    given = [row for row in inner if _before(work, row, curve)]
+    own = len(state.curves.rows.data[curve]) - len(inner)
+    if (inner and not given) or own + len(given) < 2:
+        name = state.lines.name.data[state.line_of(curve)]
+        raise BadInputError(
+            f"{name} follows, but no driver defines it", "in transform",
+            f"name {name} or its group as a driver too, or another group that crosses it; or "
+            "change one end of the ship after the other",
+        )  # fmt: skip
+
+
+def _before(work: Carried, row: int, curve: int) -> bool:
+    """Tell whether the other curve of a crossing is cut before a follower."""
+    other = work.other(row, curve)
+    return work.drives(other) or work.state.rank(other) < work.state.rank(curve)
+
+
+def _carry_own(work: Carried, curve: int) -> None:
+    """Give the own points of a follower whose plane is kept the places of their images."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    mine = rows[work.state.rows.sort.data[rows] != Sort.CROSSING]
+    if not _slides(work, curve):
+        work.known[mine] = True
+        return
+    _carry_free_ends(work, rows)
+    slip_along(work, curve)
+
+
+def _carry_free_ends(work: Carried, rows: IntArray) -> None:
+    """Carry ends that lie on no boundary curve: they go along with the crossing beside them."""
+    for order in (rows, rows[::-1]):
+        end = int(order[0])
+        if work.state.rows.sort.data[end] == Sort.CROSSING:
+            continue
+        beside = order[(work.state.rows.sort.data[order] == Sort.CROSSING) & work.known[order]]
+        slip = work.value[beside[0]] - work.image[beside[0]] if len(beside) else np.zeros(3)
+        place = (work.image[end] + slip)[None]
+        work.value[end] = into_planes(work.state, work.planes, np.array([end]), place)[0]
+        work.known[end] = True
+
+
+def _slides(work: Carried, curve: int) -> bool:
+    """Tell whether another part of the hull comes to lie in the plane of a follower."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    own = work.state.rows.sort.data[rows] != Sort.CROSSING
+    new = any(curve in work.state.rows.curve.data[row] for _, row in work.contacts)
+    return new or bool(work.slid[rows].any() or (~work.direct[rows[own]]).any())
+
+
+def _points(work: Carried, curve: int) -> Through:
+    """Put the points of a follower that are known into order.
+
+    Where crossings slid, those of one family and the ends keep their order, and the others
+    are put between them by the least detour.
+    """
+    state = work.state
+    order = _ordered(work, curve)
+    if not _slides(work, curve):
+        return Through(order, [work.value[row].copy() for row in order], [])
+    work.watched -= set(order)
+    loose = loose_points(work, curve, order)
+    order = [row for row in order if row not in set(loose)]
+    new = [row for _, row in work.contacts if curve in state.rows.curve.data[row]]
+    new = [row for row in new if row not in work.new_ends.values()]
+    base = _base(work, curve, order)
+    found = Through(base, [work.value[row].copy() for row in base], [])
+    for row in [*new, *(each for each in order if each not in set(base))]:
+        insert(found, row, work.value[row])
+    for place in _coming(work, curve):
+        insert(found, -1, into_own_plane(work, curve, place), least=_NEAR)
+    for row in new:
+        _direct(work, curve, found, row)
+    own = [row for row in loose if state.rows.sort.data[row] == Sort.ADOPTED]
+    ties = [row for row in loose if row not in set(own)]
+    tie(work, curve, found, ties)
+    options = _hold(work, curve, found)
+    tie_own(work, curve, found, own)
+    options += free_points(work, own, [*ties, *_smooth(work, curve, found, ties)])
+    choose(work, curve, found, options)
+    round_turns(work, curve, found)
+    return found
+
+
+def _smooth(work: Carried, curve: int, found: Through, ties: list[int]) -> list[int]:
+    """Give the crossings with drivers, where these slid, that need not define a follower."""
+    table = work.state.rows
+    return [
+        row for row in found.row[1:-1]
+        if row >= 0 and row not in ties and work.slid[row] and work.other(row, curve) >= 0
+        and work.drives(work.other(row, curve)) and not table.contact.data[row]
+        and table.role.data[row] == Role.SHARED
+    ]  # fmt: skip
+
+
+def _hold(work: Carried, curve: int, found: Through) -> list[Option]:
+    """Hold a follower where lines cut before it pass its plane without defining it.
+
+    Give the places at which they do, as it passed them before.
+    """
+    rows = _passed(work, curve)
+    if not len(rows):
+        return []
+    limit = 0.5 * work.state.tolerances.adoption
+    places = np.zeros((0, 3))
+    for _ in range(_ROUNDS):
+        work.made[curve] = found
+        spline = loft(through(work, [curve]))
+        if not len(places):
+            places = _as_before(work, curve, rows, spline)
+        at, _, away = closest(spline, 0, places)
+        segment = np.searchsorted(spline.knot, at, side="right")
+        wide = np.flatnonzero(away > limit * _share(work, curve, rows, spline, at))
+        wide = wide[np.argsort(-away[wide], kind="stable")]
+        first = np.unique(segment[wide], return_index=True)[1]
+        added = [insert(found, -1, places[i], least=_NEAR) for i in wide[np.sort(first)].tolist()]
+        if not any(added):
+            break
+    share = _share(work, curve, rows, spline, at)
+    return [
+        Option(-1, place, 2.0 * limit * part) for place, part in zip(places, share, strict=True)
+    ]
+
+
+def _as_before(work: Carried, curve: int, rows: IntArray, spline: SplineBatch) -> FloatArray:
+    """Give the places of lines that pass a follower, less the gaps at which they did before."""
+    at, _, _ = closest(spline, 0, work.value[rows])
+    slope = derivative(spline, np.zeros(len(at), np.int64), at)
+    left = np.cross(work.planes.normal[work.state.line_of(curve)], slope)
+    left = left / np.sqrt((left * left).sum(axis=1))[:, None]
+    places = work.value[rows] - gaps_across(work, curve, rows, left)[:, None] * left
+    return np.array([into_own_plane(work, curve, place) for place in places])
+
+
+def _share(
+    work: Carried, curve: int, rows: IntArray, spline: SplineBatch, at: FloatArray
+) -> FloatArray:
+    """Give how much less than usual a follower may pass off places that it drives, (k,).
+
+    Where it runs along the plane of the line there, a little off is far along that line.
+    """
+    state = work.state
+    share = np.ones(len(rows))
+    for i in np.flatnonzero(state.rows.driver.data[rows] == curve).tolist():
+        slope = derivative(spline, np.zeros(1, np.int64), at[[i]])[0]
+        normal = work.planes.normal[state.line_of(work.other(int(rows[i]), curve))]
+        sine = abs(float((slope * normal).sum())) / float(np.sqrt((slope * slope).sum()))
+        share[i] = min(1.0, sine)
+    return share
+
+
+def _passed(work: Carried, curve: int) -> IntArray:
+    """Give the crossings at which lines cut before a follower pass its plane unheard."""
+    table, meets = work.state.rows, work.state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    rows = rows[work.known[rows] & ~(table.reader.data[rows] == curve).any(axis=1)]
+    kept = [
+        row
+        for row in rows.tolist()
+        if row not in work.gone and (row in work.kept or _before(work, row, curve))
+    ]
+    return np.array(kept, np.int64)
+
+
+def _direct(work: Carried, curve: int, found: Through, row: int) -> None:
+    """Give a new contact with the border of a flat its direction: along the flat."""
+    table = work.state.rows
+    if table.kind.data[row, 1] != PointKind.TANGENT:
+        return
+    flat, own = (work.planes.normal[work.state.line_of(c)] for c in table.curve.data[row].tolist())
+    along = np.cross(flat, own)
+    at = found.row.index(row)
+    chord = found.place[min(at + 1, len(found.place) - 1)] - found.place[max(at - 1, 0)]
+    along = along if float((along * chord).sum()) >= 0.0 else -along
+    work.maker.journal.put(table.direction, [row], [[np.zeros(3), along]])
+
+
+def _coming(work: Carried, curve: int) -> list[FloatArray]:
+    """Give the places at which drivers have come to meet the plane of a follower's piece."""
+    line = work.state.line_of(curve)
+    places = [place for other, place in work.come if other == line]
+    if len(work.state.lines.curves.data[line]) == 1:
+        return places
+    return [place for place in places if _piece(work, line, place) == curve]
+
+
+def _piece(work: Carried, line: int, place: FloatArray) -> int:
+    """Give the piece of a line that makes the least detour through a place."""
+    state, least = work.state, (np.inf, -1)
+    for curve in state.lines.curves.data[line]:
+        known = _ordered(work, curve)
+        if len(known) > 1:
+            least = min(least, (detour(work.value[known], place), int(curve)))
+    return least[1]
+
+
+def _ordered(work: Carried, curve: int) -> list[int]:
+    """Give the points of a curve that are known, in the order of before, with its new ends."""
+    rows: IntArray = work.state.curves.rows.data[curve]
+    inner = [row for row in rows.tolist() if work.known[row] and row not in work.gone]
+    ends = [work.new_ends.get((curve, side)) for side in (0, 1)]
+    return [row for row in (ends[0], *inner, ends[1]) if row is not None]
+
+
+def _base(work: Carried, curve: int, order: list[int]) -> list[int]:
+    """Give the points of a curve that keep their order: ends, and the family that cuts most."""
+    state = work.state
+    group = {
+        row: int(state.lines.group.data[state.line_of(work.other(row, curve))])
+        for row in order
+        if work.other(row, curve) >= 0 and not state.rows.contact.data[row]
+    }
+    count = Counter(group.values())
+    names = state.groups.name.data
+    main = min(count, key=lambda each: (-count[each], str(names[each]))) if count else -1
+    ends = {order[0], order[-1]}
+    return [
+        row for row in order
+        if row in ends or group.get(row) == main
+        or (state.rows.contact.data[row] and not work.slid[row])
+    ]  # fmt: skip
+
+
+def _give(work: Carried, curve: int) -> None:
+    """Cut a follower with the planes of those that come after it, where these have to slide."""
+    state = work.state
+    meets: Meets = state.curves.meets.data[curve]
+    rows = meets.row[meets.row >= 0]
+    wanted = [
+        row for row in rows[~work.known[rows]].tolist()
+        if row not in work.gone and not work.apart(row) and not _before(work, row, curve)
+    ]  # fmt: skip
+    if not wanted:
+        return
+    work.made[curve] = _points(work, curve)
+    spline = loft(through(work, [curve]), [str(state.curves.key.data[curve])])
+    for line in sorted({state.line_of(work.other(row, curve)) for row in wanted}):
+        _cut_one(work, curve, spline, line, set(wanted))
+
+
+def _cut_one(work: Carried, curve: int, spline: SplineBatch, line: int, wanted: set[int]) -> None:
+    """Cut one follower with the plane of one after it, and say which crossing is which."""
+    meets: Meets = work.state.curves.meets.data[curve]
+    old = np.flatnonzero(meets.line == line)
+    met = meet_planes(spline, work.planes.normal[line], work.planes.offset[[line]])
+    pairs = align_roots(meets.sign[old], work.space.places(meets.xyz[old]), met.sign, met.xyz)
+    found = {int(meets.row[old[one]]): other for one, other in pairs}
+    for row in meets.row[old].tolist():
+        if row in found and row in wanted:
+            place = met.xyz[[found[row]]]
+            work.value[row] = into_planes(work.state, work.planes, np.array([row]), place)[0]
+            work.known[row] = work.slid[row] = True
+        elif row >= 0 and row in wanted:
+            work.gone.add(row)

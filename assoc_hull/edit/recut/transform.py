@@ -1,0 +1,298 @@
+"""Global modification: a mapping of space carries the driving lines, the others follow.
+
+The images of the drivers are exact; their planes go where the mapping sends them. The
+followers are cut again, each at its own plane, first from the drivers, then from one
+another in the order of the ranks. Crossings keep their identity by sign and order along
+the images, roles and kinds stay, and what the designer placed is carried by the mapping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.followup.births_and_deaths import unmeet
+from assoc_hull.edit.mapped_features import carry_features
+from assoc_hull.edit.mapped_planes import Planes, carry_planes
+from assoc_hull.edit.recut.carried_points import (
+    Carried,
+    Through,
+    carry_directions,
+    carry_ends,
+    carry_points,
+)
+from assoc_hull.edit.recut.cut_drivers import cut_drivers, hold_images
+from assoc_hull.edit.recut.cut_followers import cut_followers
+from assoc_hull.edit.recut.cut_kept_planes import cut_kept
+from assoc_hull.edit.recut.recut_whole_line import take_out
+from assoc_hull.edit.recut.replacement_points import settle_stand_ins
+from assoc_hull.edit.recut.space_curves import bend_lines, let_go
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import BadInputError
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import Maker, PointSpec
+from assoc_hull.model.network import bits_differ
+from assoc_hull.model.state import HullState, Meets, Particulars
+
+__all__ = ["Reshape", "carry_meetings", "driving", "move_planes", "refuse_others", "transform"]
+
+Reshape = Callable[[Carried], None]
+"""Gives points that features own their exact places, before the drivers are cut."""
+
+_TOLERANCE = 2e-3
+"""How far (m) a driver may leave its exact image between the points it is made through."""
+
+_FINEST = 1e-4
+"""A tolerance (m) below this would fill drivers with points to no use."""
+
+
+def transform(
+    edit: Transaction,
+    space: SpaceMap,
+    drivers: Sequence[int],
+    *,
+    follow: bool = False,
+    levels: Mapping[int, float] | None = None,
+    tolerance: float = _TOLERANCE,
+    reshape: Reshape | None = None,
+    particulars: Particulars | None = None,
+    keep_features: bool = False,
+    lines_may_go: bool = False,
+) -> int:
+    """Carry driving lines by a mapping and cut the others again.
+
+    Parameters
+    ----------
+    edit : Transaction
+        The edit; nothing else may be in it.
+    space : SpaceMap
+        The mapping.
+    drivers : sequence of int
+        The driving lines. Boundary curves are features of the hull and no cuts of it: they
+        are carried with the drivers, named or not.
+    follow : bool
+        Whether the planes of followers move where the mapping sends them to parallel ones.
+    levels : mapping of int to float, m, or None
+        Offsets that planes of followers get, by line.
+    tolerance : float, m
+        How far a driver may leave its exact image; at least 0.1 mm.
+    reshape : callable or None
+        Is given the transformation when all points have been carried; what it settles there
+        takes the place of their images.
+    particulars : Particulars or None
+        Those of the hull afterwards; None leaves them.
+    keep_features : bool
+        Whether features stay whose points the mapping bends off them: for who makes them anew
+        right after.
+    lines_may_go : bool
+        Whether followers go, with a note, whose planes the hull does not reach any more; else
+        they refuse the edit.
+
+    Returns
+    -------
+    int
+        How many adopted points were added to drivers.
+
+    Raises
+    ------
+    BadInputError
+        A finer tolerance, no driver, a mapping that cannot be used, or lines that cannot follow it.
+    """
+    if tolerance < _FINEST:
+        raise BadInputError(
+            f"tolerance is {tolerance:g} m", "in transform",
+            f"give at least {_FINEST:g} m: finer, and points crowd without end",
+        )  # fmt: skip
+    state = edit.state
+    driver = driving(state, drivers)
+    refuse_others(edit)
+    edit.pending.alone = True
+    planes = carry_planes(state, space, np.flatnonzero(driver), follow=follow, levels=levels)
+    work = carry_points(edit.maker, space, planes, driver)
+    size = state.particulars
+    if particulars is not None:
+        edit.journal.set(state.settings.particulars, [0], [particulars])
+    if not _anything(state, work):
+        _tell(edit, work, 0, size)
+        return 0
+    edit.pending.structural = True
+    edit.pending.features = carry_features(state, space, np.inf if keep_features else tolerance)
+    turned = carry_directions(work, edit.journal) | carry_ends(work, edit.journal)
+    if reshape is not None:
+        reshape(work)
+    bend_lines(work)
+    image = cut_drivers(work, edit.document.index)
+    cut_kept(work)
+    settle_stand_ins(work)
+    cut_followers(work)
+    _watch(edit, work)
+    added = hold_images(work, image, tolerance)
+    let_go(edit, work)
+    move_planes(edit.maker, planes)  # first, so that lines that come back find their new ones
+    take_out(edit, work, may_go=lines_may_go)
+    _publish(edit, work, turned)
+    _tell(edit, work, added, size)
+    return added
+
+
+def driving(state: HullState, drivers: Sequence[int]) -> np.typing.NDArray[np.bool_]:
+    """Mark the driving lines, (l,): those that are named, and boundary curves.
+
+    Raises
+    ------
+    BadInputError
+        None is named, or a curve has failed.
+    """
+    driver = np.zeros(state.lines.count, bool)
+    driver[list(drivers)] = True
+    boundary = state.lines.boundary.data >= 0
+    if not (driver & ~boundary).any():
+        raise BadInputError(
+            "no driver but boundary curves" if driver.any() else "no driver", "in transform",
+            "name groups or lines that carry the hull, for instance ['sections', 'profile']",
+        )  # fmt: skip
+    if state.failed:
+        keys = ", ".join(str(state.curves.key.data[curve]) for curve in state.failed)
+        raise BadInputError(f"{keys} has failed", "in transform", "mend it before")
+    found: np.typing.NDArray[np.bool_] = (driver | boundary) & state.lines.alive.data
+    return found
+
+
+def refuse_others(edit: Transaction) -> None:
+    """See that nothing else is in the edit."""
+    pending = edit.pending
+    if edit.journal.entries or pending.values or pending.fields or pending.curves:
+        raise BadInputError(*pending.not_alone(edit.name))
+
+
+def _anything(state: HullState, work: Carried) -> bool:
+    """Tell whether the mapping moves anything by a bit."""
+    live = state.live("rows")
+    same = not bits_differ(work.value[live] + 0.0, state.rows.xyz.data[live] + 0.0).any()
+    lines = state.live("lines")
+    planes, table = work.planes, state.lines
+    flat = table.planar.data[lines]
+    return not (
+        same
+        and bool((planes.planar[lines] == flat).all())
+        and bool((planes.offset[lines[flat]] == table.offset.data[lines[flat]]).all())
+    )
+
+
+def move_planes(maker: Maker, planes: Planes) -> None:
+    """Write where the planes of all lines have come to."""
+    table, put = maker.state.lines, maker.journal.put
+    lines = maker.state.live("lines")
+    put(table.planar, lines, planes.planar[lines])
+    put(table.normal, lines, planes.normal[lines])
+    put(table.offset, lines, planes.offset[lines])
+
+
+def _publish(edit: Transaction, work: Carried, turned: set[int]) -> None:
+    """Hand everything over to the update."""
+    state, pending = edit.state, edit.pending
+    for curve in sorted(work.made):
+        _define(edit, curve, work.made[curve], work.gone)
+    carry_meetings(edit, work.space)
+    _remove(edit, work)
+    live = state.live("rows")
+    live = live[live < len(work.value)]
+    computed = state.rows.driver.data[live] >= 0
+    watched = (state.rows.sort.data[live] == Sort.CROSSING) & (
+        state.rows.role.data[live] == Role.WATCHED
+    )
+    apart = np.array([bool(work.anew) and work.apart(row) for row in live.tolist()], bool)
+    rows = live[~computed & ~watched & ~apart]
+    edit.write(rows, work.value[rows], "transform")
+    adopted = state.live("rows")
+    adopted = adopted[state.rows.sort.data[adopted] == Sort.ADOPTED]
+    fresh = [row for _, row in work.contacts]
+    # all that is computed: the plane of a line may move along a driver of which no bit changes
+    pending.computed |= set(fresh) | work.driven | set(live[computed].tolist())
+    pending.born += sorted(str(state.rows.key.data[row]) for row in fresh)
+    pending.held |= set(adopted.tolist())
+    pending.curves |= set(state.live("curves").tolist())
+    pending.moved_curves |= {curve for curve in work.made if work.drives(curve)}
+    pending.relink |= set(state.live("curves").tolist())
+
+
+def _watch(edit: Transaction, work: Carried) -> None:
+    """Let crossings define neither of their curves any more."""
+    rows = np.array(sorted(work.watched), np.int64)
+    if not len(rows):
+        return
+    edit.maker.roles(rows, np.full(len(rows), int(Role.WATCHED)))
+    limit = 2.0 * edit.state.tolerances.adoption
+    edit.journal.put(edit.state.rows.limit, rows, np.full(len(rows), limit))
+    for curve, part in work.made.items():
+        if work.drives(curve):
+            kept = [i for i, row in enumerate(part.row) if row not in work.watched]
+            part.row, part.place = [part.row[i] for i in kept], [part.place[i] for i in kept]
+            part.at = [part.at[i] for i in kept]
+    edit.pending.notes.append(
+        f"{len(rows)} crossings of lines that a mapping carried with lines that were cut again "
+        "are watched now: there the two agree within the tolerance of adoption"
+    )
+
+
+def _define(edit: Transaction, curve: int, chosen: Through, gone: set[int]) -> None:
+    """Say which points define a curve now; make the new adopted ones."""
+    new = [place for row, place in zip(chosen.row, chosen.place, strict=True) if row < 0]
+    specs = [PointSpec(curve, place, Sort.ADOPTED) for place in new]
+    made = iter(edit.maker.points(specs).tolist())
+    rows = [row if row >= 0 else next(made) for row in chosen.row]
+    rows = [row for row in rows if row not in gone]
+    if rows != edit.state.curves.rows.data[curve].tolist():
+        edit.maker.define(curve, rows)
+
+
+def carry_meetings(edit: Transaction, space: SpaceMap) -> None:
+    """Let the update look for each meeting where the mapping has carried it."""
+    state, table = edit.state, edit.state.curves.meets
+    curves = [curve for curve in state.live("curves").tolist() if len(table.data[curve].line)]
+    if not curves:
+        return
+    meets: list[Meets] = [table.data[curve] for curve in curves]
+    carried = space.places(np.concatenate([each.xyz for each in meets]))
+    parts = np.split(carried, np.cumsum([len(each.line) for each in meets])[:-1])
+    for curve, each, xyz in zip(curves, meets, parts, strict=True):
+        edit.journal.set(table, [curve], [attrs.evolve(each, xyz=xyz)])
+
+
+def _remove(edit: Transaction, work: Carried) -> None:
+    """Take out what has no place any more."""
+    state, keys = edit.state, edit.state.rows.key.data
+    rows = sorted(work.gone, key=lambda row: str(keys[row]))
+    for row in rows:
+        for curve in state.rows.curve.data[row].tolist():
+            if curve >= 0 and state.rows.sort.data[row] == Sort.CROSSING:
+                unmeet(edit.maker, curve, row)
+    edit.maker.remove_rows(rows)
+    edit.pending.gone += [
+        str(keys[row]) for row in rows if state.rows.sort.data[row] == Sort.CROSSING
+    ]
+
+
+def _tell(edit: Transaction, work: Carried, added: int, before: Particulars) -> None:
+    """Put into the report what was carried and what was cut again."""
+    state, pending = edit.state, edit.pending
+    every = {*state.live("lines").tolist(), *work.anew}
+    lines = sorted(every, key=lambda line: str(state.lines.key.data[line]))
+    for line in lines:
+        key = str(state.lines.key.data[line])
+        (pending.carried if work.driver[line] else pending.cut_again).append(key)
+    for line, away in sorted(work.planes.bent.items()):
+        pending.notes.append(
+            f"{state.lines.name.data[line]} is a curve in space now, {away:.3g} m out of its plane"
+        )
+    if added:
+        pending.notes.append(f"{added} adopted points hold the drivers to their images")
+    size = state.particulars
+    said = "stay as they are" if size == before else "are now"
+    pending.notes.append(
+        f"the particulars {said}: length {size.length:g}, breadth {size.breadth:g}, "
+        f"depth {size.depth:g}, draught {size.draught:g} m"
+    )

@@ -1,1 +1,0 @@
-"""Hulls that ship with the package."""

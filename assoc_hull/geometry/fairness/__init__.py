@@ -1,0 +1,1 @@
+"""Fairness of curves: criteria, inflections, curvature combs."""

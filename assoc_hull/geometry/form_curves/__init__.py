@@ -1,0 +1,1 @@
+"""Plane curves by form parameters: a cubic B-spline of 7 vertices."""

@@ -1,0 +1,1 @@
+"""Plane areas and moments, integrals over stations, series of curves."""

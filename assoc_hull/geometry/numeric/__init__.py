@@ -1,0 +1,1 @@
+"""Numerics without geometry: roots, banded systems, quadrature, dual numbers, intervals."""

@@ -1,0 +1,389 @@
+"""Arrays that carry derivatives along: values, and several tangents at once.
+
+A `Dual` stands in for an array of floats in code that computes with numpy. Each of its k
+tangents says how the values change with one parameter; operators, the functions of
+`dual_rules` and `dual_shapes`, products of matrices and indexing carry them through the
+same formulas, exactly. What is not known here raises `TypeError`: no tangent is ever lost
+silently. Comparisons look at values only, so that branches are those of the plain code.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.numeric.dual import Dual
+>>> x = Dual([3.0, 4.0], [[1.0, 0.0], [0.0, 1.0]])
+>>> length = np.sqrt((x**2).sum())
+>>> float(length.value), length.dot.tolist()
+(5.0, [0.6, 0.8])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, Literal, NoReturn, Self, cast
+
+import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
+from numpy.typing import ArrayLike
+
+from assoc_hull.errors import BadInputError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.numeric.dual_arrays import MANY, ONE, pick, put, spread, times
+from assoc_hull.geometry.numeric.dual_partials import CONSTANT, PARTIAL, Partial
+
+__all__ = ["Dual", "as_array", "is_plain", "real", "sum_by"]
+
+_SUMS = frozenset({np.add, np.subtract})
+_SUM: Callable[..., Any] = np.sum
+_METHODS: dict[str, Callable[..., Any]] = {
+    "reduce": np.sum, "accumulate": np.cumsum, "reduceat": np.add.reduceat,
+}  # fmt: skip
+
+
+class Dual(NDArrayOperatorsMixin):
+    """Values with k tangents.
+
+    Parameters
+    ----------
+    value : (...)
+        The values, real numbers of any unit.
+    dot : (k, ...), unit of the value per unit of its parameter
+        Their derivatives with respect to k parameters.
+
+    Raises
+    ------
+    BadInputError
+        Shapes that do not fit, or complex numbers.
+    """
+
+    __slots__ = ("dot", "value")
+
+    value: FloatArray
+    dot: FloatArray
+
+    def __init__(self, value: ArrayLike, dot: ArrayLike) -> None:
+        if np.iscomplexobj(value) or np.iscomplexobj(dot):
+            _refuse("a complex number", "use complex numbers or tangents, not both")
+        self.value, self.dot = np.asarray(value, np.float64), np.asarray(dot, np.float64)
+        if self.dot.shape[1:] != self.value.shape or self.dot.ndim == 0:
+            raise BadInputError(
+                f"values of shape {self.value.shape} and tangents of shape {self.dot.shape}",
+                "in Dual",
+                "give (...) and (k, ...)",
+            )
+
+    @classmethod
+    def _made(cls, value: FloatArray, dot: FloatArray) -> Self:
+        """Make one of what is known to fit."""
+        made = object.__new__(cls)
+        made.value, made.dot = np.asarray(value), dot
+        return made
+
+    @classmethod
+    def constant(cls, value: ArrayLike, count: int) -> Self:
+        """Give values that do not vary with any of so many parameters."""
+        fixed = np.asarray(value, np.float64)
+        return cls(fixed, np.zeros((count, *fixed.shape)))
+
+    def __repr__(self) -> str:
+        return f"<Dual {self.shape}, {self.count} tangents>"
+
+    @property
+    def count(self) -> int:
+        """Number of tangents."""
+        return len(self.dot)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the values."""
+        return self.value.shape
+
+    @property
+    def ndim(self) -> int:
+        """Number of axes of the values."""
+        return self.value.ndim
+
+    @property
+    def size(self) -> int:
+        """Number of values."""
+        return self.value.size
+
+    @property
+    def real(self) -> FloatArray:
+        """The values alone, under the name that they have in complex numbers."""
+        return self.value
+
+    @property
+    def T(self) -> Dual:  # noqa: N802
+        """Axes in reverse order."""
+        return self.transpose()
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __iter__(self) -> Iterator[Dual]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, key: Any) -> Dual:
+        return Dual._made(self.value[key], pick(self.dot, key, self.ndim))
+
+    def __setitem__(self, key: Any, new: Any) -> None:
+        here = self.value[key].ndim
+        if isinstance(new, Dual):
+            _same_count((self, new))
+            fresh = spread(new.dot, here)
+        else:
+            fresh = np.zeros((self.count, *(1,) * here))
+        self.value[key] = real(new)
+        put(self.dot, key, self.ndim, fresh)
+
+    def setflags(self, *, write: bool) -> None:
+        """Make values and tangents read-only, or not."""
+        self.value.setflags(write=write)
+        self.dot.setflags(write=write)
+
+    def sum(self, axis: int | tuple[int, ...] | None = None, *, keepdims: bool = False) -> Dual:
+        """Sum along axes, or of everything."""
+        return _one(_SUM, self, axis=axis, keepdims=keepdims)
+
+    def reshape(self, *shape: Any) -> Dual:
+        """Give the same numbers in another shape."""
+        return _one(np.reshape, self, shape[0] if len(shape) == 1 else shape)
+
+    def transpose(self, *axes: Any) -> Dual:
+        """Permute the axes; reverse them if none are given."""
+        order = axes[0] if len(axes) == 1 and not isinstance(axes[0], int) else axes or None
+        return _one(np.transpose, self, order)
+
+    def take(self, indices: Any, axis: int | None = None) -> Dual:
+        """Give the entries at some indices."""
+        return _one(np.take, self, indices, axis=axis)
+
+    def ravel(self) -> Dual:
+        """Give all entries in one row."""
+        return _one(np.ravel, self)
+
+    def copy(self, order: Literal["C", "F", "A", "K"] = "C") -> Dual:
+        """Give the same numbers in memory of their own."""
+        return Dual(self.value.copy(order), self.dot.copy(order))
+
+    def __array__(self, *_: Any, **__: Any) -> NoReturn:
+        _refuse("an array of plain numbers made of values with tangents", "use real(x) for values")
+
+    def __array_ufunc__(
+        self, ufunc: np.ufunc, method: str, *inputs: Any, out: Any = None, **more: Any
+    ) -> Any:
+        found: Any
+        if method == "__call__" and not more:
+            found = _call(ufunc, inputs)
+        elif ufunc is np.add and method in _METHODS:
+            found = _one(_METHODS[method], *inputs, **({"axis": 0} | more))
+        else:
+            _refuse(f"numpy.{ufunc.__name__}, {method} {sorted(more)}", "differentiate it by hand")
+        if out is None:
+            return found
+        if not isinstance(out[0], Dual) or not isinstance(found, Dual):
+            _refuse(f"numpy.{ufunc.__name__} into plain numbers", "leave out `out`")
+        out[0][...] = found
+        return out[0]
+
+    def __array_function__(
+        self, function: Callable[..., Any], types: Iterable[type], args: Any, kwargs: Any
+    ) -> Any:
+        del types
+        if function in _SPECIAL:
+            return _SPECIAL[function](*args, **kwargs)
+        if function in ONE:
+            return _one(function, *args, **kwargs)
+        if function in MANY:
+            return _many(function, *args, **kwargs)
+        _refuse(f"numpy.{function.__name__}", "differentiate it by hand")
+
+
+def _refuse(what: str, remedy: str) -> NoReturn:
+    raise WrongTypeError(what, "in a calculation that carries tangents", remedy)
+
+
+def _value(given: Any) -> Any:
+    return given.value if isinstance(given, Dual) else given
+
+
+def _same_count(given: Iterable[Any]) -> int:
+    """Give the number of tangents, which all that have any must share."""
+    counts = {each.count for each in given if isinstance(each, Dual)}
+    if len(counts) > 1:
+        raise BadInputError(
+            f"values with {' and '.join(map(str, sorted(counts)))} tangents",
+            "in one calculation",
+            "give all as many",
+        )
+    return counts.pop()
+
+
+def _call(ufunc: np.ufunc, given: Sequence[Any]) -> Any:
+    """Apply a function of numbers; its result is a `Dual` unless it is constant."""
+    values = [_value(each) for each in given]
+    if ufunc in CONSTANT:
+        return ufunc(*values)
+    if ufunc is np.matmul:
+        return _matmul(given[0], given[1])
+    if ufunc not in PARTIAL:
+        _refuse(f"numpy.{ufunc.__name__}", "differentiate it by hand")
+    count, result = _same_count(given), np.asarray(ufunc(*values))
+    shape = (count, *result.shape)
+    if ufunc in _SUMS and all(isinstance(each, Dual) for each in given):
+        return Dual(result, ufunc(*(spread(each.dot, result.ndim) for each in given)))
+    parts = [
+        _scaled(ufunc, partial, (*values, result), spread(each.dot, result.ndim))
+        for each, partial in zip(given, PARTIAL[ufunc], strict=True)
+        if isinstance(each, Dual)
+    ]
+    dot = _whole(parts[0], shape)
+    for more in parts[1:]:
+        dot += more
+    return Dual(result, dot)
+
+
+def _scaled(
+    ufunc: np.ufunc, partial: Partial | None, values: Sequence[Any], dot: FloatArray
+) -> FloatArray:
+    if partial is None:
+        _refuse(f"an argument of numpy.{ufunc.__name__} that varies", "give a constant")
+    # Also where the factor is 1: the tangents of a result share no memory with any others.
+    scaled: FloatArray = partial(*values) * dot
+    return scaled
+
+
+def _whole(dot: FloatArray, shape: tuple[int, ...]) -> FloatArray:
+    """Give tangents of one row or column as those of the whole; all can be written to."""
+    return dot if dot.shape == shape else np.array(np.broadcast_to(dot, shape))
+
+
+def _one(function: Callable[..., Any], given: Any, *args: Any, **kwargs: Any) -> Dual:
+    """Apply a linear function of one array."""
+    if not isinstance(given, Dual) or any(isinstance(each, Dual) for each in args):
+        _refuse(f"an argument of numpy.{function.__name__} that varies", "give a constant")
+    dot = ONE[function](given.dot, *args, **kwargs)
+    return Dual._made(function(given.value, *args, **kwargs), dot)
+
+
+def _many(function: Callable[..., Any], given: Sequence[Any], *args: Any, **kwargs: Any) -> Dual:
+    """Apply a linear function of several arrays, some of which may be constant."""
+    parts, count = list(given), _same_count(given)
+    dots = [_tangents(each, count) for each in parts]
+    values = [_value(each) for each in parts]
+    return Dual(function(values, *args, **kwargs), MANY[function](dots, *args, **kwargs))
+
+
+def _tangents(given: Any, count: int) -> FloatArray:
+    return given.dot if isinstance(given, Dual) else np.zeros((count, *np.shape(given)))
+
+
+def _where(condition: Any, *choices: Any) -> Dual:
+    if isinstance(condition, Dual) or len(choices) != 2:
+        _refuse("numpy.where of values", "give a condition and two arrays")
+    count, value = _same_count(choices), np.where(condition, *map(_value, choices))
+    first, second = (spread(_tangents(each, count), value.ndim) for each in choices)
+    dot = np.where(condition, first, second)
+    return Dual(value, _whole(dot, (count, *value.shape)))
+
+
+def _matmul(left: Any, right: Any) -> Dual:
+    """Multiply matrices or rows, of which one or both vary."""
+    one, other = np.asarray(_value(left)), np.asarray(_value(right))
+    value = np.matmul(one, other)
+    row, column = one.ndim == 1, other.ndim == 1
+    dots = []
+    if isinstance(left, Dual):
+        dots.append(times(left.dot, other[None], row, column))
+    if isinstance(right, Dual):
+        dots.append(times(one[None], right.dot, row, column))
+    count = _same_count((left, right))
+    return Dual(value, sum(dots[1:], dots[0]).reshape(count, *value.shape))
+
+
+_SPECIAL: dict[Callable[..., Any], Callable[..., Any]] = {
+    np.where: _where,
+    np.dot: _matmul,
+    np.shape: lambda given: given.shape,
+    np.ndim: lambda given: given.ndim,
+    np.size: lambda given: given.size,
+    np.iscomplexobj: lambda given: False,
+}
+
+
+def real(given: Any) -> FloatArray:
+    """Give the plain values of numbers, complex numbers or a `Dual`.
+
+    Parameters
+    ----------
+    given : (...) array of float or complex, or Dual
+        Any numbers.
+
+    Returns
+    -------
+    (...)
+        Values; the real parts of complex numbers. What is decided by them is decided alike
+        with and without derivatives.
+
+    Examples
+    --------
+    >>> from assoc_hull.geometry.numeric.dual import real
+    >>> real([1.0, 2.0 + 1e-30j]).tolist()
+    [1.0, 2.0]
+    """
+    return np.asarray(np.real(_value(given)), np.float64)
+
+
+def is_plain(given: Any) -> bool:
+    """Tell whether numbers are plain: neither complex nor with tangents."""
+    return not isinstance(given, Dual) and not np.iscomplexobj(given)
+
+
+def as_array(given: Dual) -> FloatArray:
+    """Let a `Dual` stand for an array of floats where a type checker wants one."""
+    return cast("FloatArray", given)
+
+
+def sum_by(values: Any, owner: IntArray, count: int) -> Any:
+    """Sum rows by owner, one after the other, of any kind of numbers.
+
+    Parameters
+    ----------
+    values : (n, ...) array of float or complex, or Dual
+        One row per item.
+    owner : (n,) int
+        To which sum each row belongs.
+    count : int
+        Number of sums.
+
+    Returns
+    -------
+    (count, ...) of the kind of the values
+        The sums.
+
+    Raises
+    ------
+    BadInputError
+        An owner that is not from 0 to count - 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.numeric.dual import sum_by
+    >>> sum_by(np.array([1.0, 2.0, 4.0]), np.array([2, 0, 2]), 3).tolist()
+    [2.0, 0.0, 5.0]
+    """
+    if isinstance(values, Dual):
+        dot = sum_by(np.moveaxis(values.dot, 0, -1), owner, count)
+        return Dual(sum_by(values.value, owner, count), np.moveaxis(dot, -1, 0))
+    if np.iscomplexobj(values):
+        return sum_by(values.real, owner, count) + 1j * sum_by(values.imag, owner, count)
+    if len(owner) and not 0 <= int(owner.min()) <= int(owner.max()) < count:
+        what = f"owners from {owner.min()} to {owner.max()}"
+        raise BadInputError(what, "in sum_by", f"give 0 to {count - 1}")
+    width = int(np.prod(values.shape[1:]))
+    place = (owner[:, None] * width + np.arange(width)).ravel()
+    sums = np.bincount(
+        place, weights=values.reshape(len(owner), width).ravel(), minlength=count * width
+    )
+    return sums.reshape(count, *values.shape[1:])

@@ -1,0 +1,99 @@
+"""The few sums of the immersion that are not element by element, and what decisions see.
+
+All other arithmetic of the immersion is written with plain operators, so it runs on real
+numbers, on complex ones (derivatives by complex step) and on any array type that overloads
+them. The sums below are kept together here, so that one place knows how each type adds up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.geometry.numeric.dual import Dual, as_array, is_plain, real
+from assoc_hull.geometry.numeric.dual import sum_by as sum_rows_by
+
+__all__ = ["differs", "mix", "nil", "root", "sum_by"]
+
+
+def differs(values: FloatArray) -> NDArray[np.bool_]:
+    """Tell which numbers are not nil, or have a derivative that is not."""
+    if isinstance(values, Dual):
+        return np.asarray((values.value != 0.0) | (values.dot != 0.0).any(axis=0))
+    return np.asarray(values != 0.0)
+
+
+def nil(shape: tuple[int, ...], *like: FloatArray) -> FloatArray:
+    """Give zeros of the arithmetic that results from all of some numbers."""
+    for each in like:
+        if isinstance(each, Dual):
+            return as_array(Dual.constant(np.zeros(shape), each.count))
+    return np.zeros(shape, np.result_type(*like))
+
+
+_NONE = 1e-22
+"""A square of less is rounding about nil, from which a root would take any direction."""
+
+
+def root(values: FloatArray) -> FloatArray:
+    """Give square roots; where there is nothing to take one of, nil and no derivative."""
+    if is_plain(values):
+        return np.sqrt(values)
+    some = real(values) > _NONE
+    return np.where(some, np.sqrt(np.where(some, values, 1.0)), 0.0)
+
+
+def mix(matrix: FloatArray, values: FloatArray) -> FloatArray:
+    """Combine rows: ``matrix @ values``, of which the matrix is plain.
+
+    Parameters
+    ----------
+    matrix : (m, n)
+        Real factors.
+    values : (..., n, k)
+        Any arithmetic.
+
+    Returns
+    -------
+    (..., m, k)
+        The combinations.
+    """
+    mixed: FloatArray = matrix @ values
+    return mixed
+
+
+def sum_by(values: FloatArray, owner: IntArray, count: int) -> FloatArray:
+    """Add up columns by owner.
+
+    Parameters
+    ----------
+    values : (c, k)
+        Any arithmetic.
+    owner : (k,) int
+        From 0 to count - 1.
+    count : int
+        Number of owners.
+
+    Returns
+    -------
+    (c, count)
+        The sums, each in the order of its columns.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> sum_by(np.array([[1.0, 2.0, 4.0]]), np.array([1, 0, 1]), 3)
+    array([[2., 5., 0.]])
+    """
+    if count == 1:
+        alone: FloatArray = values.sum(axis=1)[:, None]
+        return alone
+    if isinstance(values, Dual):
+        dot = values.dot.reshape(values.count * len(values), values.shape[1])
+        sums = sum_by(dot, owner, count).reshape(values.count, len(values), count)
+        return as_array(Dual(sum_by(values.value, owner, count), sums))
+    if not is_plain(values):
+        summed: FloatArray = sum_rows_by(values.T, owner, count).T
+        return summed
+    return np.stack([np.bincount(owner, row, count) for row in values])

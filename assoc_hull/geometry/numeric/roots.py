@@ -1,0 +1,306 @@
+"""Roots of many polynomials at once, each with the same bits as when found alone.
+
+Two finders: `bracketed_roots` for cubics whose one root is bracketed, in steps that compiled
+code repeats bit by bit (meetings of curves and planes); `unit_roots` for all sign changes of
+polynomials of any degree in [0, 1] (lengths, integrals, closest points).
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.numeric.roots import bracketed_roots
+>>> cubic = np.array([[-0.5], [1.0], [0.0], [0.0]])
+>>> bracketed_roots(cubic, np.zeros(1), np.ones(1), np.array([-0.5]), np.array([0.5]))
+array([0.5])
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.numeric.polynomials import differentiate, horner
+from assoc_hull.geometry.splines.bernstein import value
+
+__all__ = [
+    "FLOOR",
+    "MOST_TRIALS",
+    "RELATIVE",
+    "STEPS",
+    "bracketed_roots",
+    "quadratic_roots",
+    "unit_roots",
+]
+
+_ROUNDING = 4e-16  # a step below this changes nothing in [0, 1]
+_HALVINGS = 80  # more than bisection alone needs
+_FEW = 48  # brackets, so many as plain numbers are faster for than arrays
+
+STEPS = 3
+"""From the secant, three steps of Halley's rule reach the last bits of nearly all roots."""
+
+FLOOR, RELATIVE = 1e-14, 1e-15
+MOST_TRIALS = 200
+
+
+def bracketed_roots(
+    cubic: FloatArray,
+    lower: FloatArray,
+    upper: FloatArray,
+    at_lower: FloatArray,
+    at_upper: FloatArray,
+    start: FloatArray | None = None,
+) -> FloatArray:
+    """Find the one root of each cubic in a bracket in which it changes sign once.
+
+    Parameters
+    ----------
+    cubic : (4, k), m
+        Coefficients of 1, u, u**2, u**3.
+    lower, upper : (k,)
+        The brackets.
+    at_lower, at_upper : (k,), m
+        Values there; one is negative, the other is not. They decide the sign, whatever
+        rounding makes of the cubic itself.
+    start : (k,) or None
+        Where the steps begin; where the secant has its root if None.
+
+    Returns
+    -------
+    (k,)
+        The roots; exactly the end of the bracket if the value there is nil.
+
+    Notes
+    -----
+    Every cubic takes the same fixed steps; the few whose residual is not yet at rounding
+    level, or that left their bracket, start again with bisection as a safeguard. Either
+    way a root depends on its own cubic only.
+
+    Examples
+    --------
+    >>> cubic = np.array([[-0.125], [0.0], [0.0], [1.0]])
+    >>> bracketed_roots(cubic, np.zeros(1), np.ones(1), np.array([-0.125]), np.array([0.875]))
+    array([0.5])
+    """
+    origin, first, second, third = cubic
+    limit = FLOOR + RELATIVE * (np.abs(at_lower) + np.abs(at_upper))
+    if start is None:
+        root = lower + (upper - lower) * (at_lower / (at_lower - at_upper))
+    else:
+        root = start.copy()
+    with np.errstate(all="ignore"):
+        steep = 3.0 * third
+        for _ in range(STEPS):
+            root -= _halley(origin, first, second, third, steep, root)
+        residual = np.abs(value(origin, first, second, third, root))
+        good = (residual <= limit) & (root >= lower) & (root <= upper)
+    at_begin, at_end = at_lower == 0.0, at_upper == 0.0
+    # Many meetings lie on knots: those are known, whatever the steps have made of them.
+    bad = np.flatnonzero(~(good | at_begin | at_end))
+    if len(bad):
+        rising = at_lower[bad] < 0.0
+        root[bad] = _safe_roots(cubic[:, bad], lower[bad], upper[bad], rising, limit[bad])
+    np.copyto(root, lower, where=at_begin)
+    np.copyto(root, upper, where=at_end)
+    return root
+
+
+def _halley(
+    origin: FloatArray,
+    first: FloatArray,
+    second: FloatArray,
+    third: FloatArray,
+    steep: FloatArray,
+    root: FloatArray,
+) -> FloatArray:
+    """Give the step f f' / (f'**2 - f f'' / 2)."""
+    height = value(origin, first, second, third, root)
+    bend = steep * root
+    bend += second
+    slope = bend + second
+    slope *= root
+    slope += first
+    bend *= height
+    height *= slope
+    slope *= slope
+    slope -= bend
+    height /= slope
+    return height
+
+
+def _safe_roots(
+    cubic: FloatArray,
+    lower: FloatArray,
+    upper: FloatArray,
+    rising: np.typing.NDArray[np.bool_],
+    limit: FloatArray,
+) -> FloatArray:
+    """Find roots by Newton's rule, every third trial and whenever it fails by bisection."""
+    result = 0.5 * (lower + upper)
+    active = np.arange(len(result))
+    for trial in range(MOST_TRIALS):
+        root = result[active]
+        origin, first, second, third = cubic[:, active]
+        height = value(origin, first, second, third, root)
+        above = (height >= 0.0) == rising[active]
+        upper[active] = np.where(above, root, upper[active])
+        lower[active] = np.where(above, lower[active], root)
+        low, high = lower[active], upper[active]
+        middle = 0.5 * (low + high)
+        with np.errstate(all="ignore"):
+            slope = first + root * (2.0 * second + root * (3.0 * third))
+            newton = root - height / slope
+        bisect = ~((newton > low) & (newton < high)) | (trial % 3 == 2)
+        more = (np.abs(height) > limit[active]) & (middle > low) & (middle < high)
+        result[active] = np.where(more, np.where(bisect, middle, newton), root)
+        active = active[more]
+        if not len(active):
+            break
+    return result
+
+
+def quadratic_roots(constant: FloatArray, linear: FloatArray, square: FloatArray) -> FloatArray:
+    """Give the real roots of ``constant + linear u + square u^2``.
+
+    Parameters
+    ----------
+    constant, linear, square : (p,)
+        The coefficients.
+
+    Returns
+    -------
+    (p, 2)
+        The roots in ascending order; nan where there are none, and infinite or nan where
+        the degree is less than two.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.numeric.roots import quadratic_roots
+    >>> quadratic_roots(np.array([2.0, 1.0]), np.array([-3.0, 0.0]), np.array([1.0, 1.0]))
+    array([[ 1.,  2.],
+           [nan, nan]])
+    """
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        discriminant = linear * linear - 4.0 * constant * square
+        # Adding numbers of one sign keeps the digits that the textbook formula loses.
+        larger = -0.5 * (linear + np.copysign(np.sqrt(discriminant), linear))
+        pair = np.stack([larger / square, constant / larger], axis=-1)
+    # 0 / 0 with a root at nil: both roots are nil there.
+    pair[..., 1] = np.where(larger == 0.0, pair[..., 0], pair[..., 1])
+    roots: FloatArray = np.sort(pair, axis=-1)
+    freeze(roots)
+    return roots
+
+
+def unit_roots(coefficients: FloatArray) -> FloatArray:
+    """Split [0, 1] so that each polynomial keeps its sign on every part.
+
+    Between neighbouring roots of its derivative a polynomial is monotone and has one root at
+    most, which bisection with Newton steps cannot miss. No coefficient is divided by, so a
+    polynomial of lower degree than its row is as good as any.
+
+    Parameters
+    ----------
+    coefficients : (p, d + 1), d >= 2
+        Ascending powers.
+
+    Returns
+    -------
+    (p, d)
+        Ascending parameters in [0, 1]: every root at which the sign changes, and harmless
+        repetitions or other places in the room that is left.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.numeric.roots import unit_roots
+    >>> cubic = np.array([[-0.09375, 0.6875, -1.5, 1.0]])  # (u - 1/4) (u - 1/2) (u - 3/4)
+    >>> [round(float(u), 12) for u in unit_roots(cubic)[0]]
+    [0.25, 0.5, 0.75]
+    """
+    count, degree = coefficients.shape[0], coefficients.shape[1] - 1
+    if degree == 2:
+        roots = quadratic_roots(coefficients[:, 0], coefficients[:, 1], coefficients[:, 2])
+        clipped = np.sort(np.clip(np.where(np.isnan(roots), 0.0, roots), 0.0, 1.0), axis=1)
+        freeze(clipped)
+        return clipped
+    inner = unit_roots(differentiate(coefficients))
+    edge = np.concatenate([np.zeros((count, 1)), inner, np.ones((count, 1))], axis=1)
+    negative = horner(coefficients, edge) < 0.0
+    row, column = np.nonzero(negative[:, :-1] != negative[:, 1:])
+    found = edge[:, :-1].copy()
+    found[row, column] = _bracketed(
+        coefficients[row], edge[row, column], edge[row, column + 1], negative[row, column]
+    )
+    freeze(found)
+    return found
+
+
+def _bracketed(
+    coefficients: FloatArray, low: FloatArray, high: FloatArray, rising: NDArray[np.bool_]
+) -> FloatArray:
+    """Find the one root in each bracket: Newton steps where they halve, else bisection."""
+    if len(low) <= _FEW:
+        # Calls of numpy cost more than the arithmetic here; plain numbers have the same bits.
+        given = zip(
+            coefficients.tolist(), low.tolist(), high.tolist(), rising.tolist(), strict=True
+        )
+        return np.array([_bracketed_one(*each) for each in given], np.float64)
+    columns = list(np.ascontiguousarray(coefficients.T))
+    slopes = [power * column for power, column in enumerate(columns[1:], 1)]
+    at, last = 0.5 * (low + high), high - low
+    alive = np.ones(len(at), bool)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        for _ in range(_HALVINGS):
+            if not alive.any():
+                break
+            height = _value(columns, at)
+            right = (height < 0.0) == rising
+            low, high = np.where(right, at, low), np.where(right, high, at)
+            aim = at - height / _value(slopes, at)
+            good = (aim >= low) & (aim <= high) & (np.abs(aim - at) <= 0.5 * last)
+            aim = np.where(height == 0.0, at, np.where(good, aim, 0.5 * (low + high)))
+            last = np.abs(aim - at)
+            # A root that has settled stays: its last bit must not depend on the others.
+            at = np.where(alive, aim, at)
+            alive &= last > _ROUNDING
+    return at
+
+
+def _value(columns: list[FloatArray], at: FloatArray) -> FloatArray:
+    """Evaluate polynomials by their coefficients, power by power, at one place each."""
+    value = columns[-1] + 0.0 * at
+    for column in columns[-2::-1]:
+        value *= at
+        value += column
+    return value
+
+
+def _bracketed_one(coefficients: list[float], low: float, high: float, rising: bool) -> float:
+    """Find the one root in a bracket as `_bracketed` does, operation by operation."""
+    falling = coefficients[::-1]
+    slopes = [power * each for power, each in enumerate(coefficients[1:], 1)][::-1]
+    at, last = 0.5 * (low + high), high - low
+    for _ in range(_HALVINGS):
+        height, slope = _value_one(falling, at), _value_one(slopes, at)
+        if height == 0.0:
+            break
+        if (height < 0.0) == rising:
+            low = at
+        else:
+            high = at
+        aim = at - height / slope if slope else np.inf
+        if not (low <= aim <= high and abs(aim - at) <= 0.5 * last):
+            aim = 0.5 * (low + high)
+        last, at = abs(aim - at), aim
+        if not last > _ROUNDING:
+            break
+    return at
+
+
+def _value_one(falling: list[float], at: float) -> float:
+    value = falling[0]
+    for each in falling[1:]:
+        value = value * at + each
+    return value

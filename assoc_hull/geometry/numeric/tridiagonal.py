@@ -1,0 +1,247 @@
+"""Many small tridiagonal systems at once, each with the same bits as when solved alone.
+
+Systems of different lengths lie one behind the other. Each is given a slot whose length is
+a power of two, the longest slots first, so that every slot starts at a multiple of its own
+length. Cyclic reduction then couples rows of one slot only, in an order that depends on
+nothing but the place of a row in its own system: a neighbour in the batch cannot change a
+bit. (BLAS products and padded sums do change the last bit, elementwise work does not.)
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.numeric.tridiagonal import slots_of, solve
+>>> from assoc_hull.geometry.numeric.workspace import Workspace
+>>> slots = slots_of(np.array([0, 3]))
+>>> rows = np.zeros((5, 4))
+>>> rows[:, :3] = [[0, -0.25, 0], [1, 2, 3], [0, 0, 0], [0, 0, 0], [0, -0.25, 0]]
+>>> with Workspace() as workspace:
+...     solve(slots, rows, workspace)[0].tolist()
+[1.0, 1.0, 3.0]
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.geometry.numeric.workspace import Workspace
+
+__all__ = ["MOST_LEVELS", "Slots", "accumulate", "slots_of", "solve"]
+
+MOST_LEVELS = 6
+"""After so many reductions the couplings of a spline are below 2**-64: no bit sees them."""
+
+
+@attrs.frozen(eq=False)
+class Slots:
+    """Where each system of a batch lies in the slotted layout.
+
+    Attributes
+    ----------
+    home : (n,) int
+        Slotted place of each flat row.
+    source : (total + 1,) int
+        Flat row at each slotted place; n where the slot is empty.
+    curve : (n,) int
+        The system that each flat row belongs to.
+    first, last : (m,) int
+        First and last flat row of each system.
+    is_first, is_last : (n,) bool
+        Whether a flat row is one of these.
+    shortest : int
+        Rows of the shortest system.
+    blocks : tuple of (int, int, int)
+        Begin, end and slot length of each run of equally long slots.
+    levels : int
+        Number of reductions needed.
+    """
+
+    home: IntArray
+    source: IntArray
+    curve: IntArray
+    first: IntArray
+    last: IntArray
+    is_first: NDArray[np.bool_]
+    is_last: NDArray[np.bool_]
+    shortest: int
+    blocks: tuple[tuple[int, int, int], ...]
+    levels: int
+
+
+def slots_of(start: IntArray) -> Slots:
+    """Give the slotted layout of a ragged batch.
+
+    Parameters
+    ----------
+    start : (m + 1,) int
+        Where each system begins; the last entry is the number n of rows.
+
+    Returns
+    -------
+    Slots
+        The layout; the latest few are remembered, as a hull re-lofts the same batches.
+
+    Examples
+    --------
+    >>> slots_of(np.array([0, 2, 7])).home
+    array([8, 9, 0, 1, 2, 3, 4])
+    """
+    return _slots(np.ascontiguousarray(start, np.int64).tobytes())
+
+
+@lru_cache(maxsize=64)
+def _slots(packed: bytes) -> Slots:
+    start = np.frombuffer(packed, np.int64)
+    count = np.diff(start)
+    bits = np.array([max(int(rows) - 1, 0).bit_length() for rows in count], np.int64)
+    order = np.argsort(-bits, kind="stable")
+    width = np.int64(1) << bits[order]
+    begin = np.zeros(len(count), np.int64)
+    begin[order] = np.cumsum(width) - width
+    levels = min(MOST_LEVELS, int(bits.max(initial=0)))
+    total = -(-int(width.sum()) >> levels) << levels
+    return _layout(start, count, begin, total, levels, _blocks(width))
+
+
+def _layout(
+    start: IntArray,
+    count: IntArray,
+    begin: IntArray,
+    total: int,
+    levels: int,
+    blocks: tuple[tuple[int, int, int], ...],
+) -> Slots:
+    rows = int(start[-1])
+    curve = np.repeat(np.arange(len(count)), count)
+    home = np.arange(rows) + np.repeat(begin - start[:-1], count)
+    source = np.full(total + 1, rows, np.int64)
+    source[home] = np.arange(rows)
+    first, last = start[:-1].copy(), start[1:] - 1
+    is_first, is_last = np.zeros(rows, np.bool_), np.zeros(rows, np.bool_)
+    occupied = count > 0
+    is_first[first[occupied]] = True
+    is_last[last[occupied]] = True
+    freeze(home, source, curve, first, last, is_first, is_last)
+    shortest = int(count.min(initial=np.iinfo(np.int64).max))
+    return Slots(home, source, curve, first, last, is_first, is_last, shortest, blocks, levels)
+
+
+def _blocks(width: IntArray) -> tuple[tuple[int, int, int], ...]:
+    blocks, end = [], 0
+    for size in sorted({int(one) for one in width}, reverse=True):
+        begin, end = end, end + size * int(np.count_nonzero(width == size))
+        blocks.append((begin, end, size))
+    return tuple(blocks)
+
+
+def accumulate(slots: Slots, steps: FloatArray) -> FloatArray:
+    """Sum steps along each system, strictly one after the other.
+
+    Parameters
+    ----------
+    slots : Slots
+        The layout.
+    steps : (..., n + 1), any unit
+        The step that leads to each row, nil at the first row of a system; the last entry
+        is ignored and should be nil.
+
+    Returns
+    -------
+    (..., n), the unit of `steps`
+        Sum of all steps of the system up to each row.
+
+    Notes
+    -----
+    A running sum over the flat array minus its value at the start has other bits.
+
+    Examples
+    --------
+    >>> accumulate(slots_of(np.array([0, 2, 5])), np.array([0.0, 1, 0, 2, 3, 0]))
+    array([0., 1., 0., 2., 5.])
+    """
+    slotted = steps.take(slots.source, axis=-1)
+    for begin, end, size in slots.blocks:
+        table = slotted[..., begin:end].reshape(*steps.shape[:-1], (end - begin) // size, size)
+        np.add.accumulate(table, axis=-1, out=table)
+    return slotted.take(slots.home, axis=-1)
+
+
+def solve(slots: Slots, rows: FloatArray, workspace: Workspace) -> FloatArray:
+    """Solve ``d[i] = right[i] + before[i] * d[i-1] + after[i] * d[i+1]`` for every system.
+
+    Parameters
+    ----------
+    slots : Slots
+        The layout.
+    rows : (2 + r, n + 1)
+        The rows ``before, right (r of them), after``; column n must be nil. The sum of the
+        magnitudes of `before` and `after` must not exceed one half, and neither may reach
+        out of its system.
+    workspace : Workspace
+        Scratch memory.
+
+    Returns
+    -------
+    (r, n)
+        The solutions, in scratch memory.
+
+    Notes
+    -----
+    Cyclic reduction: rows of even place are eliminated level by level. The couplings s of
+    a level shrink to s * s at least, so six levels are enough for any length.
+    Source: R.W. Hockney, J. ACM 12 (1965) 95-113.
+
+    Examples
+    --------
+    >>> slots = slots_of(np.array([0, 2]))
+    >>> rows = np.array([[0, 0.5, 0], [3, 0, 0], [0, 0, 0], [0, 0, 0], [0.5, 0, 0.0]])
+    >>> with Workspace() as workspace:
+    ...     solve(slots, rows, workspace)[0].tolist()
+    [4.0, 2.0]
+    """
+    slotted = workspace.array(len(rows), len(slots.source))
+    levels = [rows.take(slots.source, axis=1, out=slotted, mode="clip")]
+    for _ in range(slots.levels):
+        levels.append(_reduced(levels[-1], workspace))
+    solution = levels.pop()[1:-1, :-1]
+    while levels:
+        solution = _restored(levels.pop(), solution, workspace)
+    result = workspace.array(len(rows) - 2, len(slots.home))
+    return solution.take(slots.home, axis=1, out=result, mode="clip")
+
+
+def _reduced(rows: FloatArray, workspace: Workspace) -> FloatArray:
+    """Eliminate the rows of even place; the last column is nil and stands for no row."""
+    kept, left, right = rows[:, 1::2], rows[:, :-1:2], rows[:, 2::2]
+    size = kept.shape[1]
+    fewer = workspace.array(len(rows), size + 1)
+    fewer[:, size] = 0.0
+    result = fewer[:, :size]
+    np.multiply(kept[0], left, out=result)
+    from_right = np.multiply(kept[-1], right, out=workspace.array(len(rows), size))
+    scale = result[-1]
+    scale += from_right[0]
+    scale = 1.0 / (1.0 - scale)
+    inner = result[1:-1]
+    inner += kept[1:-1]
+    inner += from_right[1:-1]
+    result[-1] = from_right[-1]
+    result *= scale
+    return fewer
+
+
+def _restored(rows: FloatArray, solution: FloatArray, workspace: Workspace) -> FloatArray:
+    """Put the eliminated rows back between those already solved."""
+    size = solution.shape[1]
+    full = workspace.array(len(solution), 2 * size)
+    full[:, 1::2] = solution
+    even = full[:, ::2]
+    np.multiply(rows[-1, :-1:2], solution, out=even)
+    even += rows[1:-1, :-1:2]
+    from_left = workspace.array(len(solution), size - 1)
+    even[:, 1:] += np.multiply(rows[0, 2:-1:2], solution[:, :-1], out=from_left)
+    return full

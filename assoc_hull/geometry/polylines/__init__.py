@@ -1,0 +1,1 @@
+"""Features of digitised curves: corners, straight runs, arcs, noise, smoothing."""

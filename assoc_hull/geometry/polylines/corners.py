@@ -1,0 +1,342 @@
+"""Corners of plane polylines, told from tight bends by looking at two scales.
+
+Over a corner a line turns by the same angle however short the stretch looked at; over a
+bend by half of it on half the stretch.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.polylines.corners import find_corners
+>>> t = np.linspace(-5.0, 5.0, 101)
+>>> bent = np.column_stack([t, np.where(t > 0.03, np.tan(np.deg2rad(12.0)) * (t - 0.03), 0.0)])
+>>> [corner] = find_corners(bent, 1e-4)
+>>> round(corner.turn_deg, 2), round(float(corner.place[0]), 3)
+(12.0, 0.03)
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.polylines.operations import arc_length, foot_on, resample
+
+__all__ = ["Corner", "CornerRule", "find_corners", "marked_corners", "with_marked"]
+
+
+@attrs.frozen
+class CornerRule:
+    """What counts as a corner.
+
+    Attributes
+    ----------
+    least_deg : float
+        Least turn over `stretch`.
+    stretch : float, m
+        The longer stretch; where the points lie wide apart it is doubled until each half of it
+        holds two or more.
+    share : float
+        Part of the turn that half the stretch must show.
+    window : float, m
+        The sides of a corner are fitted over at most this.
+    """
+
+    least_deg: float = 4.0
+    stretch: float = 0.6
+    share: float = 0.8
+    window: float = 2.0
+
+
+@attrs.frozen(eq=False)
+class Corner:
+    """A corner of a polyline.
+
+    Attributes
+    ----------
+    at : float, m
+        Length along the polyline.
+    place : (2,), m
+        Where the fitted sides meet.
+    turn_deg : float
+        Angle between them.
+    share : float
+        Part of the turn over the stretch that half of it shows.
+    stretch : float, m
+        The stretch it was found on.
+    uncertainty : float, m
+        Standard deviation of its place along the polyline.
+    """
+
+    at: float
+    place: FloatArray
+    turn_deg: float
+    share: float
+    stretch: float
+    uncertainty: float = 0.0
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.place)
+
+
+def find_corners(points: FloatArray, noise: float, rule: CornerRule | None = None) -> list[Corner]:
+    """Find the corners of a polyline.
+
+    Parameters
+    ----------
+    points : (n, 2), m
+        In order.
+    noise : float, m
+        Scatter of the points.
+    rule : CornerRule or None
+        Defaults if None.
+
+    Returns
+    -------
+    list of Corner
+        In order along the polyline.
+    """
+    wanted = rule or CornerRule()
+    length = arc_length(points)
+    seen: list[_Scale] = []
+    found: list[tuple[float, float, float]] = []
+    for level in range(5):
+        half = 0.5 * wanted.stretch * 2.0**level
+        if length[-1] < 2.5 * half:
+            break
+        seen.append(_look(points, length, half, level, noise))
+        if seen[-1].fits.any():
+            found = _add(found, _peaks(seen, wanted, noise), half)
+    found.sort()
+    places = [each[0] for each in found]
+    return [
+        _refine(points, length, at, share, half, places, noise, wanted) for at, share, half in found
+    ]
+
+
+@attrs.frozen(eq=False)
+class _Scale:
+    """What is seen at one scale: turns over both stretches, and where it may be looked at."""
+
+    half: float
+    at: FloatArray
+    wide: FloatArray
+    narrow: FloatArray
+    share: FloatArray
+    fits: np.typing.NDArray[np.bool_]
+
+
+def _look(points: FloatArray, length: FloatArray, half: float, level: int, noise: float) -> _Scale:
+    from scipy.ndimage import maximum_filter1d
+
+    at = np.arange(0.0, length[-1], half / 12.0)
+    line = resample(points, at)
+    wide, narrow = _turn(line, 12), _turn(line, 6)
+    facet = np.clip(np.searchsorted(length, at, "right") - 1, 0, len(length) - 2)
+    widest = maximum_filter1d(np.diff(length)[facet], 25)
+    share = maximum_filter1d(narrow, 13) / np.maximum(wide, 1e-12)
+    fits = widest <= 0.75 * half
+    # Coarser than needed only where the scatter of the points asks for it.
+    fits &= (widest > 0.36 * half) | (level == 0) | (_doubt(noise, 0.5 * half) > np.deg2rad(0.25))
+    return _Scale(half, at, wide, narrow, share, fits)
+
+
+def _doubt(noise: float, half: float) -> float:
+    """Give the standard deviation (rad) of the turn over half the stretch."""
+    return float(np.sqrt(6.0) * noise / (0.5 * half))
+
+
+def _peaks(seen: list[_Scale], rule: CornerRule, noise: float) -> list[tuple[float, float, float]]:
+    """Give (place, share, half stretch) of the corners seen at the last scale.
+
+    A finer scale at which the place is plainly a bend speaks against it.
+    """
+    from scipy.ndimage import maximum_filter1d
+
+    now = seen[-1]
+    least = float(np.deg2rad(rule.least_deg))
+    peak = (now.wide >= maximum_filter1d(now.wide, 25)) & (now.wide > least)
+    # A bend shows half of its turn: what is more must be more than scatter makes of it.
+    peak &= (now.share - 0.5) * now.wide > 4.0 * _doubt(noise, now.half)
+    peak &= (now.share > rule.share) & now.fits
+    for finer in seen[:-1]:
+        nearest = np.searchsorted(finer.at, now.at).clip(max=len(finer.at) - 1)
+        wide = maximum_filter1d(finer.wide, 25)[nearest]
+        share = maximum_filter1d(finer.narrow, 25)[nearest] / np.maximum(wide, 1e-12)
+        margin = 3.0 * _doubt(noise, finer.half) / np.maximum(wide, 1e-12)
+        peak &= ~(finer.fits[nearest] & (share < rule.share - margin))
+    number = np.flatnonzero(peak)
+    keep = np.append(True, np.diff(number) > 12)[: len(number)]
+    found = [
+        (float(now.at[_top(now.narrow, i)]), float(now.share[i]), now.half)
+        for i in number[keep].tolist()
+    ]
+    # Nearer to an end both sides cannot be seen.
+    end = float(now.at[-1])
+    return [each for each in found if 0.9 * now.half < each[0] < end - 0.9 * now.half]
+
+
+def _add(
+    found: list[tuple[float, float, float]], more: list[tuple[float, float, float]], half: float
+) -> list[tuple[float, float, float]]:
+    """Add corners that no finer scale has shown."""
+    return found + [e for e in more if all(abs(e[0] - old[0]) > half for old in found)]
+
+
+def _top(narrow: FloatArray, i: int) -> int:
+    """Give the middle of the highest stretch of the narrow turn near a place."""
+    low = max(0, i - 6)
+    part = narrow[low : i + 7]
+    high = np.flatnonzero(part > 0.95 * part.max())
+    return low + int(high[len(high) // 2])
+
+
+def _turn(line: FloatArray, many: int) -> FloatArray:
+    """Give the angle between straight lines fitted to the `many` steps before and after."""
+    weight = np.arange(many + 1) - 0.5 * many
+    slope = np.column_stack([np.convolve(column, weight[::-1], "valid") for column in line.T])
+    turn = np.zeros(len(line))
+    if len(slope) <= many:
+        return turn
+    before, after = slope[:-many], slope[many:]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn[many : many + len(cross)] = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
+    return turn
+
+
+def _refine(
+    points: FloatArray,
+    length: FloatArray,
+    at: float,
+    share: float,
+    half: float,
+    others: list[float],
+    noise: float,
+    rule: CornerRule,
+) -> Corner:
+    """Take the point that turns nearly all by itself, else let curves fitted to the sides meet."""
+    sharp = _sharpest(points, length, at, half)
+    if sharp is not None:
+        place = points[sharp[0]].copy()
+        return Corner(float(length[sharp[0]]), place, sharp[1], share, 2.0 * half, noise)
+    near = min([abs(other - at) for other in others if abs(other - at) > half], default=np.inf)
+    best: tuple[float, float, FloatArray, float, float] | None = None
+    for window in (rule.window, 0.5 * rule.window, 0.25 * rule.window):
+        reach = min(max(window, 3.0 * half), 0.8 * near)
+        fitted = _meet_sides(points, length, at, reach, 0.2 * half)
+        if fitted is None:
+            continue
+        if best is None or fitted[0] < 0.7 * best[0]:
+            best = fitted
+        if best[0] <= 1.5 * max(noise, 1e-4):
+            break
+    foot, off = (at, np.inf) if best is None else foot_on(points, length, best[2])
+    if best is None or off > max(6.0 * noise, 0.02):
+        place = resample(points, np.array([at]))[0]
+        turn = float(
+            np.rad2deg(_turn(resample(points, at + half * np.linspace(-1, 1, 25)), 12)[12])
+        )
+        return Corner(at, place, turn, share, 2.0 * half, 0.5 * half)
+    doubt = best[4] * max(noise, best[0])
+    return Corner(foot, best[2], best[3], share, 2.0 * half, doubt)
+
+
+def _sharpest(
+    points: FloatArray, length: FloatArray, at: float, half: float
+) -> tuple[int, float] | None:
+    """Give the point near a place that turns by 30 degrees or more, and its turn in degrees."""
+    inner = np.flatnonzero(np.abs(length[1:-1] - at) < half) + 1
+    if not len(inner):
+        return None
+    before, after = points[inner] - points[inner - 1], points[inner + 1] - points[inner]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
+    best = int(turn.argmax())
+    whole = turn.sum()
+    if turn[best] < np.deg2rad(30.0) or turn[best] < 0.8 * whole:
+        return None
+    return int(inner[best]), float(np.rad2deg(turn[best]))
+
+
+def _meet_sides(
+    points: FloatArray, length: FloatArray, at: float, reach: float, skip: float
+) -> tuple[float, float, FloatArray, float, float] | None:
+    """Give (residual, shift along, place, turn in degrees, doubt) of two fitted sides.
+
+    The doubt is the standard deviation of the place along, per scatter of the points: a parabola
+    is known at its end to 3 times the scatter over the root of the number of points.
+    """
+    ends = resample(points, np.array([at - reach, at, at + reach]).clip(0.0, length[-1]))
+    ahead = (ends[2] - ends[0]) / max(float(np.linalg.norm(ends[2] - ends[0])), 1e-12)
+    frame = np.array([ahead, [-ahead[1], ahead[0]]])
+    local = (points - ends[1]) @ frame.T
+    shift = 0.0
+    for _ in range(3):
+        sides = []
+        for sign in (-1.0, 1.0):
+            away = sign * (length - at - shift)
+            mine = (away > skip) & (away < reach)
+            if mine.sum() < 2:
+                return None
+            t, u = local[mine].T
+            order = 2 if mine.sum() >= 4 else 1
+            sides.append((np.polyfit(t, u, order), t, u))
+        roots = np.roots(np.polysub(sides[1][0], sides[0][0]))
+        real = roots[np.abs(roots.imag) < 1e-9].real
+        if not len(real):
+            return None
+        shift = float(real[np.argmin(np.abs(real - shift))])
+        if abs(shift) > reach:
+            return None
+    t0 = shift
+    slopes = [float(np.polyval(np.polyder(side[0]), t0)) for side in sides]
+    turn = abs(np.arctan(slopes[1]) - np.arctan(slopes[0]))
+    off = np.concatenate([np.polyval(c, t) - u for c, t, u in sides])
+    spread = 3.0 * np.sqrt(sum(1.0 / len(t) for _, t, _ in sides))
+    doubt = float(spread / max(abs(slopes[1] - slopes[0]), 1e-6))
+    place = ends[1] + np.array([t0, float(np.polyval(sides[0][0], t0))]) @ frame
+    return float(np.sqrt((off * off).mean())), t0, place, float(np.rad2deg(turn)), doubt
+
+
+_MARKED = 1e-3
+"""A mark this close (m) to a point of a polyline means the point."""
+
+_ANEW = 0.3
+"""A corner that was found this close (m) along the line to a marked one is the marked one."""
+
+
+def marked_corners(points: FloatArray, marks: FloatArray) -> list[Corner]:
+    """Give the points of a polyline that are marked as corners, whatever they turn by.
+
+    Parameters
+    ----------
+    points : (n, 2), m
+        The polyline.
+    marks : (k, 2), m
+        Places; those at its ends or beside it mean none of its points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.corners import marked_corners
+    >>> bent = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0]])
+    >>> [round(each.turn_deg) for each in marked_corners(bent, np.array([[1.0, 0.0], [0.0, 0.0]]))]
+    [45]
+    """
+    if not len(marks) or len(points) < 3:
+        return []
+    away = np.linalg.norm(points[:, None] - marks, axis=2)
+    at = np.unique(away.argmin(axis=0)[away.min(axis=0) < _MARKED])
+    length, step = arc_length(points), np.diff(points, axis=0)
+    found = []
+    for i in at[(at > 0) & (at < len(points) - 1)].tolist():
+        (a, b), (c, d) = step[i - 1], step[i]
+        turn = float(np.degrees(np.abs(np.arctan2(a * d - b * c, a * c + b * d))))
+        found.append(Corner(float(length[i]), points[i].copy(), turn, 1.0, 0.0))
+    return found
+
+
+def with_marked(found: list[Corner], marked: list[Corner]) -> list[Corner]:
+    """Put marked corners before those that were found elsewhere."""
+    others = [each for each in found if all(abs(each.at - mark.at) > _ANEW for mark in marked)]
+    return [*marked, *others]

@@ -1,0 +1,78 @@
+"""The circle on which the points of a plane curve lie.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.polylines.fitted_circle import circle_of
+>>> t = np.linspace(-1.5, 1.5, 9)
+>>> points = np.column_stack([np.full(9, 6.0), 0.725 * np.cos(t), 5.0 + 0.725 * np.sin(t)])
+>>> found = circle_of(points, np.array([1.0, 0.0, 0.0]), closed=True)
+>>> found.centre.tolist(), found.radius
+([6.0, 0.0, 5.0], 0.725)
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.geometry.numeric.circle_fit import fit_circle
+from assoc_hull.geometry.numeric.vectors import dot
+from assoc_hull.geometry.plane import plane_axes
+
+__all__ = ["FittedCircle", "circle_of"]
+
+_DIGITS = 6
+"""Centre and radius are told to this digit of a metre: points that make a feature lie on it within
+as much, and another machine's last bit must not show."""
+
+
+@attrs.frozen(eq=False)
+class FittedCircle:
+    """A circle through points, as nearly as they allow.
+
+    Attributes
+    ----------
+    centre : (3,), m
+    radius : float, m
+        Both rounded to 1e-6 m.
+    off : float, m
+        How far the farthest point lies off the circle, before it is rounded.
+    turn : float, rad
+        The angle over which the points stretch, seen from the centre.
+    """
+
+    centre: FloatArray
+    radius: float
+    off: float
+    turn: float
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.centre)
+
+
+def circle_of(xyz: FloatArray, normal: FloatArray, *, closed: bool = False) -> FittedCircle:
+    """Fit a circle to points in a plane.
+
+    Parameters
+    ----------
+    xyz : (n, 3), m
+        The points in order, three or more that are not on one line.
+    normal : (3,)
+        Unit normal of their plane.
+    closed : bool
+        Whether the mirror image closes it: then the centre lies in the centre plane.
+    """
+    axes = plane_axes(normal)
+    flat = np.column_stack([dot(xyz, axis) for axis in axes])
+    found = fit_circle(flat)
+    away = flat - found.centre
+    off = np.abs(np.sqrt((away * away).sum(axis=1)) - found.radius)
+    turn = np.ptp(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
+    height = float((normal * xyz[0]).sum())
+    centre = height * normal + found.centre[0] * axes[0] + found.centre[1] * axes[1]
+    centre = np.round(centre, _DIGITS) + 0.0
+    if closed:
+        centre[1] = 0.0
+    return FittedCircle(centre, round(found.radius, _DIGITS), float(off.max()), float(turn))

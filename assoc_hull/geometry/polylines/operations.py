@@ -1,0 +1,191 @@
+"""Polylines: arc length, resampling, order along a path, and where one crosses itself.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.geometry.polylines.operations import arc_length, resample
+>>> corner = np.array([[0.0, 0, 0], [3, 0, 0], [3, 4, 0]])
+>>> arc_length(corner)
+array([0., 3., 7.])
+>>> resample(corner, np.array([5.0]))
+array([[3., 2., 0.]])
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray
+
+__all__ = [
+    "arc_length", "distinct", "drop_repeats", "foot_on", "order_paths", "resample",
+    "self_crossings",
+]  # fmt: skip
+
+
+def arc_length(points: FloatArray) -> FloatArray:
+    """Give the length from the first point to each, (n,), m.
+
+    Parameters
+    ----------
+    points : (n, k), m
+        A polyline.
+    """
+    out = np.zeros(len(points))
+    step = np.diff(points, axis=0)
+    np.cumsum(np.sqrt((step * step).sum(axis=1)), out=out[1:])
+    return out
+
+
+def resample(points: FloatArray, at: FloatArray) -> FloatArray:
+    """Give the places at lengths `at` (m) along a polyline, (len(at), k), m."""
+    length = arc_length(points)
+    return np.column_stack([np.interp(at, length, column) for column in points.T])
+
+
+def foot_on(points: FloatArray, length: FloatArray, place: FloatArray) -> tuple[float, float]:
+    """Give the length along a polyline that is nearest to a place, and the distance, m.
+
+    Parameters
+    ----------
+    points, length : (n, k), (n,), m
+        The polyline, and the length to each point as `arc_length` gives it.
+    place : (k,), m
+        The place.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.operations import arc_length, foot_on
+    >>> line = np.array([[0.0, 0], [3, 0], [3, 4]])
+    >>> foot_on(line, arc_length(line), np.array([2.0, 1.0]))
+    (2.0, 1.0)
+    """
+    start, step = points[:-1], np.diff(points, axis=0)
+    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-24)
+    part = np.clip(part, 0.0, 1.0)
+    away = np.sqrt(((start + part[:, None] * step - place) ** 2).sum(axis=1))
+    i = int(away.argmin())
+    return float(length[i] + part[i] * (length[i + 1] - length[i])), float(away[i])
+
+
+def drop_repeats(points: FloatArray, least: float) -> FloatArray:
+    """Leave out points closer than `least` (m) to the one before; both ends stay.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.operations import drop_repeats
+    >>> drop_repeats(np.array([[0.0], [1e-9], [1.0], [1.0]]), 1e-6).tolist()
+    [[0.0], [1.0]]
+    """
+    return np.asarray(points[distinct(points, least)])
+
+
+def distinct(points: FloatArray, least: float) -> IntArray:
+    """Give the numbers of the points that `drop_repeats` keeps."""
+    step = np.diff(points, axis=0)
+    keep = np.flatnonzero(np.append(True, (step * step).sum(axis=1) > least * least))
+    if len(keep) > 1:
+        keep[-1] = len(points) - 1
+    return keep
+
+
+def order_paths(edges: IntArray, count: int) -> list[tuple[IntArray, bool]]:
+    """Put the edges of a graph in order: one path per chain, with whether it is closed.
+
+    Parameters
+    ----------
+    edges : (e, 2) int
+        Pairs of nodes; a node where three or more edges meet ends the chains that meet it.
+    count : int
+        Number of nodes.
+
+    Returns
+    -------
+    list of ((k,) int, bool)
+        Nodes in order; those of a closed path once.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.operations import order_paths
+    >>> [(path.tolist(), closed) for path, closed in order_paths(np.array([[2, 0], [1, 2]]), 3)]
+    [([0, 2, 1], False)]
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components, depth_first_order
+
+    if not len(edges):
+        return []
+    nodes, edges, origin = _split_branches(edges, count)
+    ones = np.ones(len(edges), np.int8)
+    graph = coo_array((ones, (edges[:, 0], edges[:, 1])), shape=(nodes, nodes)).tocsr()
+    degree = np.bincount(edges.ravel(), minlength=nodes)
+    _, label = connected_components(graph, directed=False)
+    used = np.flatnonzero(degree > 0)
+    # Per component the start: an end of the path where there is one, the lowest node else.
+    order = used[np.lexsort((used, degree[used], label[used]))]
+    starts = order[np.unique(label[order], return_index=True)[1]]
+    both = (graph + graph.T).tocsr()
+    found: list[tuple[IntArray, bool]] = []
+    for start in starts.tolist():
+        path = depth_first_order(both, start, directed=True, return_predecessors=False)
+        found.append((origin[path.astype(np.int64)], bool(degree[start] == 2)))
+    return found
+
+
+def _split_branches(edges: IntArray, count: int) -> tuple[int, IntArray, IntArray]:
+    """Give every edge its own copy of a node where three or more edges meet."""
+    edges = np.unique(np.sort(edges, axis=1), axis=0)
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    degree = np.bincount(edges.ravel(), minlength=count)
+    flat = edges.ravel().copy()
+    branch = np.flatnonzero(degree[flat] > 2)
+    origin = np.concatenate([np.arange(count, dtype=np.int64), flat[branch]])
+    flat[branch] = count + np.arange(len(branch))
+    return len(origin), flat.reshape(-1, 2), origin
+
+
+def self_crossings(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Give the places where segments of a plane cross that do not share an end, (k, 2), m.
+
+    Parameters
+    ----------
+    start, end : (n, 2), m
+        Both ends of each segment.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.polylines.operations import self_crossings
+    >>> bow_tie = np.array([[0.0, 0], [2, 2], [2, 0], [0, 2]])
+    >>> self_crossings(bow_tie[:-1], bow_tie[1:]).tolist()
+    [[1.0, 1.0]]
+    """
+    i, j = _overlapping(start, end)
+    along, beside = end[i] - start[i], end[j] - start[j]
+    offset = start[j] - start[i]
+    cross = along[:, 0] * beside[:, 1] - along[:, 1] * beside[:, 0]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        t = (offset[:, 0] * beside[:, 1] - offset[:, 1] * beside[:, 0]) / cross
+        u = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / cross
+    margin = 1e-6
+    inside = (t > margin) & (t < 1.0 - margin) & (u > margin) & (u < 1.0 - margin)
+    return np.asarray(start[i[inside]] + t[inside, None] * along[inside])
+
+
+def _overlapping(start: FloatArray, end: FloatArray) -> tuple[IntArray, IntArray]:
+    """Give the pairs of segments whose boxes overlap, found by a sweep along the longer side."""
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    axis = int(np.argmax(np.ptp(low, axis=0))) if len(low) else 0
+    order = np.argsort(low[:, axis], kind="stable")
+    low, high = low[order], high[order]
+    stop = np.searchsorted(low[:, axis], high[:, axis], side="right")
+    first = np.arange(len(low))
+    many = np.maximum(stop - first - 1, 0)
+    i = np.repeat(first, many)
+    j = i + 1 + np.arange(len(i)) - np.repeat(np.cumsum(many) - many, many)
+    other = 1 - axis
+    near = (low[j, other] <= high[i, other]) & (low[i, other] <= high[j, other])
+    return order[i[near]], order[j[near]]

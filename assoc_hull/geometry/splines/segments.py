@@ -1,0 +1,352 @@
+"""The segments of a batch of splines: their cubics as arrays, and where a parameter falls.
+
+A curve with k points has k - 1 segments; the segments of all curves lie one behind the
+other, in the order of the curves. Each has its own parameter u, from 0 to 1. Every result
+for one curve is the same to the last bit whatever other curves are in the batch. `power` and
+`bernstein` also take arrays that are complex or carry tangents.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assoc_hull.errors import BadInputError, TooFewPointsError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch, freeze
+
+__all__ = [
+    "bernstein",
+    "locate",
+    "on_knots",
+    "power",
+    "segment_curve",
+    "segment_start",
+    "sum_per_curve",
+]
+
+_OVERSHOOT = 1e-9  # m: by this a parameter may miss the ends of its curve
+
+
+def segment_start(batch: SplineBatch) -> IntArray:
+    """Give the knot at which each segment begins: all knots but the last of each curve.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+
+    Returns
+    -------
+    (s,) int
+        Rows of ``batch.knot``; the segment ends at the next row.
+
+    Raises
+    ------
+    TooFewPointsError
+        A curve has fewer than two points, so no segment.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import segment_start
+    >>> start = np.array([0, 3, 5])
+    >>> segment_start(SplineBatch(start, np.array([0.0, 1, 2, 0, 1]), *np.zeros((3, 5, 3))))
+    array([0, 1, 3])
+    """
+    counts = np.diff(batch.start)
+    if np.any(counts < 2):
+        short = int(np.argmax(counts < 2))
+        raise TooFewPointsError(f"curve {short} of the batch", int(counts[short]))
+    begins = np.ones(len(batch.knot), bool)
+    begins[batch.start[1:] - 1] = False
+    first = np.flatnonzero(begins).astype(np.int64, copy=False)
+    freeze(first)
+    return first
+
+
+def segment_curve(batch: SplineBatch) -> IntArray:
+    """Give the curve that each segment belongs to.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+
+    Returns
+    -------
+    (s,) int
+        Indices of curves.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import segment_curve
+    >>> start = np.array([0, 3, 5])
+    >>> segment_curve(SplineBatch(start, np.array([0.0, 1, 2, 0, 1]), *np.zeros((3, 5, 3))))
+    array([0, 0, 1])
+    """
+    curve = np.repeat(np.arange(batch.count, dtype=np.int64), np.diff(batch.start) - 1)
+    freeze(curve)
+    return curve
+
+
+def sum_per_curve(batch: SplineBatch, values: FloatArray) -> FloatArray:
+    """Add up the values of the segments of each curve.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    values : (s, ...)
+        One row per segment.
+
+    Returns
+    -------
+    (m, ...)
+        One row per curve.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import sum_per_curve
+    >>> start = np.array([0, 3, 5])
+    >>> batch = SplineBatch(start, np.array([0.0, 1, 2, 0, 1]), *np.zeros((3, 5, 3)))
+    >>> sum_per_curve(batch, np.array([1.0, 2, 5]))
+    array([3., 5.])
+    """
+    if batch.count == 0:
+        return np.zeros((0, *values.shape[1:]))
+    sums: FloatArray = np.add.reduceat(values, batch.start[:-1] - np.arange(batch.count), axis=0)
+    freeze(sums)
+    return sums
+
+
+def _ends(batch: SplineBatch) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
+    """Give the first knot, the chord and the two end derivatives by u of each segment."""
+    first = segment_start(batch)
+    length = (batch.knot[first + 1] - batch.knot[first])[:, None]
+    chord = batch.xyz[first + 1] - batch.xyz[first]
+    return first, chord, batch.leave[first] * length, batch.arrive[first + 1] * length
+
+
+def power(batch: SplineBatch) -> FloatArray:
+    """Give the power coefficients of each segment in its parameter u.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+
+    Returns
+    -------
+    (s, 4, 3), m
+        ``P(u) = c[0] + c[1] u + c[2] u^2 + c[3] u^3`` with u in [0, 1].
+
+    Raises
+    ------
+    TooFewPointsError
+        A curve has fewer than two points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import power
+    >>> xyz = np.array([[0.0, 0, 0], [2, 0, 0]])
+    >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
+    >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 2]), xyz, along, along.copy())
+    >>> power(line)[0, :, 0]
+    array([0., 2., 0., 0.])
+    """
+    first, chord, leave, arrive = _ends(batch)
+    start = batch.xyz[first]
+    # 3 (chord - leave) + (leave - arrive) is nil to the last bit on a straight segment.
+    square = 3.0 * (chord - leave) + (leave - arrive)
+    cube = (leave - chord) + (arrive - chord)
+    coefficients = np.stack([start, leave, square, cube], axis=1)
+    freeze(coefficients)
+    return coefficients
+
+
+def bernstein(batch: SplineBatch) -> FloatArray:
+    """Give the Bezier points of each segment.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+
+    Returns
+    -------
+    (s, 4, 3), m
+        The segment lies in the convex hull of its four points.
+
+    Raises
+    ------
+    TooFewPointsError
+        A curve has fewer than two points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import bernstein
+    >>> xyz = np.array([[0.0, 0, 0], [3, 0, 0]])
+    >>> along = np.array([[1.0, 0, 0], [1, 0, 0]])
+    >>> line = SplineBatch(np.array([0, 2]), np.array([0.0, 3]), xyz, along, along.copy())
+    >>> bernstein(line)[0, :, 0]
+    array([0., 1., 2., 3.])
+    """
+    first, _, leave, arrive = _ends(batch)
+    start, end = batch.xyz[first], batch.xyz[first + 1]
+    points = np.stack([start, start + leave / 3.0, end - arrive / 3.0, end], axis=1)
+    freeze(points)
+    return points
+
+
+def locate(batch: SplineBatch, curve: ArrayLike, t: ArrayLike) -> tuple[IntArray, FloatArray]:
+    """Find the segments on which parameters lie.
+
+    A parameter at a knot belongs to the segment that begins there, at the last knot to the
+    last segment; one that misses an end of its curve by rounding is taken as the end.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    curve : (k,) int
+        The curve of each parameter.
+    t : (k,), m
+        Chord-length parameters.
+
+    Returns
+    -------
+    segment : (k,) int
+        Indices of segments.
+    u : (k,)
+        Parameters on them, from 0 to 1.
+
+    Raises
+    ------
+    BadInputError
+        There is no such curve, a parameter lies off its curve, or the shapes differ.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.geometry.curves import SplineBatch
+    >>> from assoc_hull.geometry.splines.segments import locate
+    >>> start = np.array([0, 3, 5])
+    >>> batch = SplineBatch(start, np.array([0.0, 1, 3, 0, 4]), *np.zeros((3, 5, 3)))
+    >>> segment, u = locate(batch, [0, 0, 1], [0.25, 2.5, 1.0])
+    >>> segment.tolist(), u.tolist()
+    ([0, 1, 2], [0.25, 0.75, 0.25])
+    """
+    segment_start(batch)
+    which, at = _checked_places(curve, t)
+    first, u, _ = on_knots(batch, which, at)
+    segment = first - which
+    freeze(segment, u)
+    return segment, u
+
+
+def on_knots(
+    batch: SplineBatch, curve: IntArray, t: FloatArray, guess: NDArray[np.integer] | None = None
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Find the segments on which parameters lie; the search is exact in the knots' bits.
+
+    Parameters
+    ----------
+    batch : SplineBatch
+        The curves.
+    curve : (k,) int
+        The curve of each parameter.
+    t : (k,), m
+        Chord-length parameters.
+    guess : (k,) int or None
+        Where each segment is thought to be, as number of its first knot along its curve.
+
+    Returns
+    -------
+    first : (k,) int
+        The knot at which the segment begins.
+    u : (k,)
+        Parameters on the segments, from 0 to 1.
+    length : (k,), m
+        Of the segments, in the parameter.
+
+    Raises
+    ------
+    BadInputError
+        If a curve does not exist or a parameter lies outside its curve.
+    """
+    curve = np.asarray(curve, np.int64).ravel()
+    t = np.asarray(t, np.float64).ravel()
+    if len(curve) and (int(curve.min()) < 0 or int(curve.max()) >= batch.count):
+        raise BadInputError(
+            f"curve {int(curve.max())} or {int(curve.min())} was asked",
+            f"in a batch of {batch.count} curves",
+            "count from 0",
+        )
+    low, last = batch.start.take(curve), batch.start.take(curve + 1) - 1
+    if guess is None:
+        t = _inside(t, batch.knot.take(last))
+        segment = _search(batch, low, last - 1, t)
+        begin, end = batch.knot.take(segment), batch.knot.take(segment + 1)
+    else:
+        segment = low + guess
+        begin, end = (batch.knot.take(at, mode="clip") for at in (segment, segment + 1))
+        right = (begin <= t) & (t < end) & (segment >= low) & (segment < last)
+        rest = np.flatnonzero(~right)
+        if len(rest):
+            t = t.copy()
+            t[rest] = _inside(t[rest], batch.knot.take(last[rest]), rest)
+            segment[rest] = _search(batch, low[rest], last[rest] - 1, t[rest])
+            begin[rest], end[rest] = batch.knot[segment[rest]], batch.knot[segment[rest] + 1]
+    length = end - begin
+    fraction = np.where(t == end, 1.0, (t - begin) / length)
+    return segment, fraction, length
+
+
+def _search(batch: SplineBatch, low: IntArray, high: IntArray, t: FloatArray) -> IntArray:
+    """Find the last knot not above each parameter, between given ones."""
+    while (high > low).any():
+        middle = (low + high + 1) // 2
+        reached = batch.knot[middle] <= t
+        low = np.where(reached, middle, low)
+        high = np.where(reached, high, middle - 1)
+    return low
+
+
+def _inside(t: FloatArray, end: FloatArray, place: IntArray | None = None) -> FloatArray:
+    outside = ~((t >= -_OVERSHOOT) & (t <= end + _OVERSHOOT))
+    if outside.any():
+        worst = int(np.flatnonzero(outside)[0])
+        raise BadInputError(
+            f"parameter {t[worst]} lies outside 0 to {end[worst]} m",
+            f"at place {worst if place is None else place[worst]} of the parameters",
+            "ask within the curve",
+        )
+    result: FloatArray = np.clip(t, 0.0, end)
+    return result
+
+
+def _checked_places(curve: ArrayLike, t: ArrayLike) -> tuple[IntArray, FloatArray]:
+    """Give curves and parameters as arrays of one shape."""
+    which, at = np.asarray(curve), np.asarray(t, np.float64)
+    if which.ndim != 1 or which.shape != at.shape:
+        raise BadInputError(
+            f"curves of shape {which.shape} and parameters of shape {at.shape}",
+            "where places on curves were asked",
+            "give one curve index and one parameter per place",
+        )
+    if which.size and (which.dtype.kind not in "iu" or which.min() < 0):
+        raise BadInputError(
+            f"{which.tolist()[:5]} are not all curve indices",
+            "where places on curves were asked",
+            "give whole numbers from 0",
+        )
+    return which.astype(np.int64), at

@@ -1,0 +1,1 @@
+"""Surfaces: Coons cells, curves across them, triangles, panels."""

@@ -1,0 +1,1 @@
+"""Digitised lines of a hull from text files and drawings."""

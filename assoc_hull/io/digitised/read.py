@@ -1,0 +1,321 @@
+"""Digitised lines: lists of points per line, in one or several pieces.
+
+Examples
+--------
+>>> from assoc_hull.io.digitised.read import read_lines
+>>> text = '''line,x,y,z
+... ST 10,50,0,0
+... ST 10,50,3,1
+... ST 10,50,4,5
+... WL 1,0,0,1
+... WL 1,50,3,1
+... WL 1,99,0,1
+... '''
+>>> slices = read_lines(text)
+>>> [(line.group, line.name, line.offset) for line in slices.lines]
+[('sections', 'ST 10', 50.0), ('waterlines', 'WL 1', 1.0)]
+>>> slices["WL 1"].pieces[0].ends
+('profile', 'profile')
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from assoc_hull.arguments import file_path, positive, shown
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polylines.operations import drop_repeats
+from assoc_hull.io.digitised.sides import one_side
+from assoc_hull.io.digitised.text import parse_lines
+from assoc_hull.io.lines.digitised_piece import BOUNDARIES, RawPiece, refuse_retraced
+from assoc_hull.io.lines.raw_lines import RawLines
+from assoc_hull.io.lines.slice_chain import enough, join_pieces, nearest_ends
+from assoc_hull.io.lines.slice_order import put_in_order, tell_crossings, tell_joins
+from assoc_hull.io.lines.slices import AXES, Gaps, Join, Piece, SliceLine, Slices
+from assoc_hull.io.offset_report import Notebook
+from assoc_hull.io.tables.offset_text import read_text
+
+__all__ = ["read_lines"]
+
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+_METRIC = ("m", "cm", "mm")
+_LONGEST, _SHORTEST = 600.0, 1.0
+_OFF_PLANE = 0.02
+"""Points scattered less than this (m) about a plane are meant to lie in it."""
+
+_MOST_PIECES = 400
+"""Pieces of one line are joined in seconds up to here; what has more was taken to bits."""
+
+_REACH = 0.1
+_GROUPS = {
+    "ST": "sections", "SECTION": "sections", "FRAME": "sections", "FR": "sections",
+    "WL": "waterlines", "WATERLINE": "waterlines", "BTK": "buttocks", "BUTTOCK": "buttocks",
+}  # fmt: skip
+_ORDER = ("sections", "waterlines", "buttocks")
+
+
+def read_lines(
+    path_or_text: str | Path,
+    *,
+    scale: float = 1.0,
+    unit: str = "auto",
+    gaps: Gaps | None = None,
+    name: str | None = None,
+) -> Slices:
+    """Read digitised lines in ship axes: x forward, y to port, z up.
+
+    Parameters
+    ----------
+    path_or_text : str or Path
+        A file, or the text itself: CSV with the columns line, x, y, z (and piece), DXF, BRITFAIR,
+        curves or offsets of DELFTship, or a GHS geometry file. A line is a section, waterline
+        or buttock by its constant coordinate; lines called "profile", "deck edge" and "transom"
+        are boundary curves.
+    scale : float
+        Full scale over the scale of the file.
+    unit : {"auto", "m", "mm", "cm", "ft", "in"}
+        Unit of the file.
+    gaps : Gaps or None
+        Loose ends closer than `join` are joined, 60 mm by default; farther ones stay apart,
+        and those up to `refuse` are told.
+    name : str or None
+        Of the hull; that of the file by default.
+
+    Returns
+    -------
+    Slices
+
+    Raises
+    ------
+    BadInputError
+        A text that holds no lines, a line in no plane, or one name in two planes.
+    """
+    if not isinstance(path_or_text, str):
+        file_path(path_or_text, "in read_lines")
+    book = Notebook()
+    text, source = read_text(path_or_text, book)
+    found = parse_lines(text, source, book)
+    raw = found.pieces
+    factor = _factor(raw, scale, _unit(found, unit, book, source), book, source)
+    knuckles = _knuckles(raw, factor)
+    for each in raw:
+        refuse_retraced(each)
+    raw = one_side([RawPiece(e.line, e.points * factor, e.where) for e in raw], book)
+    every = np.concatenate([each.points for each in raw])
+    joins: list[Join] = []
+    limits = gaps or Gaps()
+    boundaries = [
+        SliceLine(
+            "boundary", title, float("nan"), tuple(_chain(title, mine, limits, joins, {}, book))
+        )
+        for title, mine in _by_name(raw, boundary=True).items()
+    ]
+    borders = {
+        line.name: np.concatenate([each.points for each in line.pieces]) for line in boundaries
+    }
+    lines = [
+        _line(title, mine, limits, joins, borders, book)
+        for title, mine in _by_name(raw, boundary=False).items()
+    ]
+    _refuse_twins(lines, source)
+    tell_joins(joins, book)
+    lines.sort(key=lambda each: (_ORDER.index(each.group), each.offset))
+    default = Path(source).stem if source != "text" else "lines"
+    return Slices(
+        default if name is None else name, tuple(lines), tuple(boundaries), tuple(joins),
+        book.report(), False, every.min(axis=0), every.max(axis=0), gaps=limits,
+        knuckles=knuckles,
+    )  # fmt: skip
+
+
+def _knuckles(raw: list[RawPiece], factor: float) -> dict[str, FloatArray]:
+    """Give the places marked as knuckles by line, m, to port."""
+    found: dict[str, list[FloatArray]] = {}
+    for each in raw:
+        if len(each.knuckles):
+            places = each.knuckles * factor
+            places[:, 1] = np.abs(places[:, 1])
+            found.setdefault(each.line, []).append(places)
+    return {name: np.concatenate(places) for name, places in found.items()}
+
+
+def _unit(found: RawLines, unit: str, book: Notebook, source: str) -> str:
+    """Give the unit of the form where it has one; another one may not be given, but for a hint."""
+    if found.unit is None or unit == found.unit:
+        return unit
+    if unit != "auto" and found.told:
+        raise BadInputError(f"the unit {shown(unit)} was given and the form has {found.unit}",
+                            f"at {source}", "leave the unit out")  # fmt: skip
+    if unit != "auto":
+        book.assume("unit", "the lines", f"{unit}, as given; the header says {found.unit}")
+        return unit
+    if not found.told and found.unit not in _METRIC:
+        what = f"the header says {found.unit}, as it does by default: the unit goes by the size"
+        book.suspect("unit", "the lines", f"{what}; give the unit")
+        return unit
+    book.assume("unit", "the lines", f"{found.unit}, as the form has it")
+    return found.unit
+
+
+def _factor(raw: list[RawPiece], scale: float, unit: str, book: Notebook, source: str) -> float:
+    scale = positive(scale, "scale", "as an argument")
+    if unit not in ["auto", *_UNITS]:
+        known = " or ".join(map(repr, ("auto", *_UNITS)))
+        raise BadInputError(f"the unit {shown(unit)} is unknown for digitised lines",
+                            "the argument unit", f"give {known}")  # fmt: skip
+    size = scale * float(np.ptp(np.concatenate([each.points for each in raw]), axis=0).max())
+    if unit == "auto":
+        unit = "mm" if size > _LONGEST else "m"
+        what = f"{unit}, because the longest side is {size:.6g} units at full scale"
+        book.assume("unit", "the lines", what, size)
+    if size * _UNITS[unit] > _LONGEST:
+        raise BadInputError(f"the lines are {size * _UNITS[unit]:.6g} m long in {unit}, with "
+                            f"{_farthest(raw)}", f"at {source}",
+                            "correct it, or give another unit or scale")  # fmt: skip
+    if 0.0 < size * _UNITS[unit] < _SHORTEST:
+        raise BadInputError(f"the lines are only {size * _UNITS[unit]:.4g} m long in {unit}",
+                            f"at {source}", "give unit='m', or the scale")  # fmt: skip
+    return scale * _UNITS[unit]
+
+
+def _farthest(raw: list[RawPiece]) -> str:
+    """Name the coordinate that lies farthest from the middle one of its kind."""
+    every = np.concatenate([each.points for each in raw])
+    far = np.abs(every - np.median(every, axis=0))
+    row, axis = np.unravel_index(int(far.argmax()), far.shape)
+    ends = np.cumsum([len(each.points) for each in raw])
+    piece = raw[int(np.searchsorted(ends, row, side="right"))]
+    return f"{'xyz'[axis]} = {every[row, axis]:.6g} in {piece.line} (from {piece.where})"
+
+
+def _by_name(raw: list[RawPiece], *, boundary: bool) -> dict[str, list[RawPiece]]:
+    found: dict[str, list[RawPiece]] = {}
+    for each in raw:
+        if (each.line.lower() in BOUNDARIES) == boundary:
+            found.setdefault(each.line.lower() if boundary else each.line, []).append(each)
+    return found
+
+
+def _chain(
+    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    book: Notebook,
+) -> list[Piece]:  # fmt: skip
+    if len(raw) > _MOST_PIECES:
+        raise BadInputError(f"{name} comes in {len(raw)} pieces, more than {_MOST_PIECES}",
+                            f"in {raw[0].where}", "join them where they were drawn")  # fmt: skip
+    pieces: list[Piece] = []
+    for each in raw:
+        points = drop_repeats(each.points, 1e-6)
+        if len(points) < 2:
+            raise BadInputError(f"{name} has a piece of one point", f"in {each.where}",
+                                "give two or more")  # fmt: skip
+        points = put_in_order(name, points, book)
+        pieces.append(Piece(points, (_under(points[0], borders), _under(points[-1], borders))))
+    pieces, made = join_pieces(name, pieces, Gaps(gaps.join, gaps.join))
+    joins += made
+    _tell_gap(name, pieces, gaps, book)
+    return pieces
+
+
+def _tell_gap(name: str, pieces: list[Piece], gaps: Gaps, book: Notebook) -> None:
+    """Tell of loose ends that face one another across a gap too wide to be closed unasked."""
+    near = nearest_ends(pieces)
+    if near is None or near[0] > gaps.refuse or near[1][0] == near[2][0]:
+        return
+    gap, (piece, end), _ = near
+    x, y, z = pieces[piece].points[-end].tolist()
+    what = (
+        f"two pieces end {1e3 * gap:.0f} mm apart at ({x:.4g}, {y:.4g}, {z:.4g}) m and were not "
+        f"joined; if they are one line give join= of {enough(gap)} m or more"
+    )
+    book.suspect("gap", name, what, gap)
+
+
+def _under(place: FloatArray, borders: dict[str, FloatArray]) -> str:
+    """Say on what boundary curve the end of a line lies."""
+    for name in ("deck edge", "transom"):
+        if name in borders and _distance(borders[name], place) < _REACH:
+            return name
+    return "profile" if abs(place[1]) < 1e-3 else "loose"
+
+
+def _distance(border: FloatArray, place: FloatArray) -> float:
+    start, step = border[:-1], np.diff(border, axis=0)
+    part = ((place - start) * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-12)
+    foot = start + np.clip(part, 0.0, 1.0)[:, None] * step
+    return float(np.linalg.norm(foot - place, axis=1).min())
+
+
+def _line(
+    name: str, raw: list[RawPiece], gaps: Gaps, joins: list[Join], borders: dict[str, FloatArray],
+    book: Notebook,
+) -> SliceLine:  # fmt: skip
+    every = np.concatenate([each.points for each in raw])
+    group = _group(name, every, raw[0].where)
+    axis = AXES[group]
+    offset = round(float(np.median(every[:, axis])), 9)
+    off = float(np.abs(every[:, axis] - offset).max())
+    if off > _OFF_PLANE:
+        raise _no_plane(name, every, axis, off, raw[0].where)
+    if off > 1e-9:
+        what = f"points up to {1e3 * off:.3g} mm off {'xyz'[axis]} = {offset:.6g} m put into it"
+        book.repair("plane", name, what, off)
+    flat = [RawPiece(each.line, _flattened(each.points, axis, offset), each.where) for each in raw]
+    pieces = _chain(name, flat, gaps, joins, borders, book)
+    tell_crossings(name, pieces, axis, book)
+    way = 2 if group == "sections" else 0
+    turned = [
+        each if each.points[-1, way] >= each.points[0, way] else each.reversed() for each in pieces
+    ]
+    turned.sort(key=lambda each: (each.points[:, 2].min(), each.points[:, 0].min()))
+    return SliceLine(group, name, offset, tuple(turned))
+
+
+def _no_plane(name: str, every: FloatArray, axis: int, off: float, where: str) -> BadInputError:
+    """Say how a line lies: in the plane of another family, or in none."""
+    spread = np.ptp(every, axis=0)
+    other = int(np.argmin(spread))
+    median = float(np.median(every[:, axis]))
+    what = f"{name} lies in no plane: {'xyz'[axis]} runs to {off:.3g} m off {median:.6g} m"
+    if other != axis and spread[other] < _OFF_PLANE:
+        return BadInputError(
+            f"{what}, but {'xyz'[other]} is constant", f"in {where}",
+            "the hull lies on its side: give x forward, y to port, z up; or the name is wrong",
+        )  # fmt: skip
+    return BadInputError(what, f"in {where}", "give each line its own name")
+
+
+def _flattened(points: FloatArray, axis: int, offset: float) -> FloatArray:
+    out = points.copy()
+    out[:, axis] = offset
+    return out
+
+
+def _group(name: str, points: FloatArray, where: str) -> str:
+    """Tell the family by the name, else by the coordinate that is constant."""
+    word = name.split()[0].upper() if name.split() else ""
+    if word in _GROUPS:
+        return _GROUPS[word]
+    spread = np.ptp(points, axis=0)
+    flat = [group for group, axis in AXES.items() if spread[axis] < 2.0 * _OFF_PLANE]
+    if len(flat) != 1:
+        raise BadInputError(
+            f"{name!r} is no section, waterline or buttock by its points", f"in {where}",
+            "begin its name with ST, WL or BTK, or call it profile, deck edge or transom",
+        )  # fmt: skip
+    return flat[0]
+
+
+def _refuse_twins(lines: list[SliceLine], source: str) -> None:
+    seen: dict[tuple[str, float], str] = {}
+    for line in lines:
+        key = (line.group, line.offset)
+        if key in seen:
+            raise BadInputError(
+                f"{seen[key]!r} and {line.name!r} lie in one plane", f"at {source}",
+                "give their pieces one name",
+            )  # fmt: skip
+        seen[key] = line.name

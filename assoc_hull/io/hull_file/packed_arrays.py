@@ -1,0 +1,91 @@
+"""Arrays and facts in one compressed piece of bytes, as a hull file keeps them.
+
+One line of JSON, ``{"facts": ..., "arrays": [[name, type, shape], ...]}``, then the arrays one
+behind the other, little end first, all of it as one zlib stream. A ``.npz`` would do the same
+and spends 250 bytes on each array, which is as much as many an array of an edit holds.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.io.hull_file.packed_arrays import pack, unpack
+>>> arrays, facts = unpack(pack({"knot": np.array([0.0, 1.5])}, {"curve": "WL 1"}))
+>>> arrays["knot"].tolist(), facts
+([0.0, 1.5], {'curve': 'WL 1'})
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import zlib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["pack", "unpack"]
+
+_TYPES = ("|u1", "|i1", "<i4", "<i8", "<f8")
+_LEVEL = 6
+_LARGEST = 1 << 31
+"""No piece unpacks to more bytes; what claims to was not written here."""
+
+
+def pack(arrays: Mapping[str, NDArray[Any]], facts: object = None) -> bytes:
+    """Put arrays and facts into one piece of bytes.
+
+    Parameters
+    ----------
+    arrays : dict of str to array
+        uint8, int8, int32, int64 or float64.
+    facts : object
+        What JSON can say.
+    """
+    ready = {name: _little(array) for name, array in arrays.items()}
+    listed = [[name, each.dtype.str, list(each.shape)] for name, each in ready.items()]
+    head = json.dumps({"facts": facts, "arrays": listed}, separators=(",", ":"))
+    body = b"".join(each.tobytes() for each in ready.values())
+    return zlib.compress(head.encode() + b"\n" + body, _LEVEL)
+
+
+def _little(array: NDArray[Any]) -> NDArray[Any]:
+    found: NDArray[Any] = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
+    if found.dtype.str not in _TYPES:
+        raise TypeError(f"an array of {array.dtype} cannot be packed")
+    return found
+
+
+def unpack(data: bytes) -> tuple[dict[str, NDArray[Any]], Any]:
+    """Take arrays and facts out again; the arrays are frozen.
+
+    Raises
+    ------
+    ValueError
+        It is not what `pack` gives.
+    """
+    try:
+        stream = zlib.decompressobj()
+        whole = stream.decompress(data, _LARGEST)
+        if not stream.eof or stream.unused_data:
+            raise ValueError("it ends too early, or goes on behind its end")
+        head, body = whole.split(b"\n", 1)
+        said = json.loads(head)
+        return _split(body, said["arrays"]), said["facts"]
+    except (zlib.error, KeyError, TypeError, RecursionError) as error:
+        raise ValueError(f"it is no packed piece ({error})") from error
+
+
+def _split(body: bytes, listed: list[list[Any]]) -> dict[str, NDArray[Any]]:
+    found: dict[str, NDArray[Any]] = {}
+    first = 0
+    for name, kind, shape in listed:
+        if kind not in _TYPES:
+            raise ValueError(f"{name} is of the type {kind!r}")
+        count = math.prod(shape)
+        array = np.frombuffer(body, kind, count, first).reshape(shape)
+        first += array.nbytes
+        found[name] = array
+    if first != len(body):
+        raise ValueError(f"it holds {len(body)} bytes, and names {first}")
+    return found

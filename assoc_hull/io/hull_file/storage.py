@@ -1,0 +1,371 @@
+"""The hull file: one database that holds a hull with all that was ever committed to it.
+
+`HullFile` is what a `Document` keeps its steps in. A step is written, with every row of the
+tables that it changed, in one transaction of the database, and brought to the disk before the
+edit counts as committed; a process that is killed leaves the file as the last commit did.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from assoc_hull.edit.document import Document
+>>> from assoc_hull.edit.session import Edit
+>>> from assoc_hull.shipped.wigley import wigley
+>>> from assoc_hull.io.hull_file.open import open_hull_file
+>>> from assoc_hull.io.hull_file.write import save_hull_file
+>>> with TemporaryDirectory() as folder:
+...     document = Document(wigley())
+...     save_hull_file(document, Path(folder) / "ship.hull")
+...     with Edit(document, "fuller") as edit:
+...         edit.move("WL 2.5 x ST 7", y=2.95)
+...     document.keeper.close()
+...     again = open_hull_file(Path(folder) / "ship.hull")
+...     print([step.name for step in again.history])
+...     again.keeper.close()
+['fuller']
+"""
+
+from __future__ import annotations
+
+import contextlib
+import operator
+import sqlite3
+import weakref
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.report import EditReport
+from assoc_hull.edit.step import Rerun, Step, StepBody
+from assoc_hull.edit.step_storage import Label
+from assoc_hull.errors import DamagedFileError, HullFileError, StaleHullError
+from assoc_hull.geometry.curves import IntArray
+from assoc_hull.graph.journal import Journal
+from assoc_hull.io.hull_file.check import require_sound, require_whole
+from assoc_hull.io.hull_file.connect import as_written, connect, speaking_of
+from assoc_hull.io.hull_file.steps import (
+    body_of,
+    read_labels,
+    report_from,
+    steps_of,
+    write_labels,
+    write_step,
+)
+from assoc_hull.io.hull_file.tables import (
+    WRITTEN,
+    put_rows,
+    read_revisions,
+    require_counts,
+    write_births,
+    write_settings,
+)
+from assoc_hull.io.open_databases import Connection, Place
+from assoc_hull.model.change import Change, change_of
+from assoc_hull.model.definition.definition import fingerprint
+from assoc_hull.model.definition.fingerprint import Printer, is_shape
+from assoc_hull.model.state import HullState
+
+__all__ = ["HullFile"]
+
+_COPY = "take it from a copy; what is in memory is as it was"
+
+
+class HullFile:
+    """Keeps the steps of a document in a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file, without links.
+    database : Connection
+        The open database.
+    state : HullState
+        The tables of the document, as the file holds them.
+    wait : float, s
+        How long to wait for another writer.
+    """
+
+    def __init__(self, path: Path, database: Connection, state: HullState, wait: float) -> None:
+        self.path, self.database, self.state, self.wait = path, database, state, wait
+        self.serial = 0
+        self._known = 0
+        self.place = Place(path)
+        self._known_printer: Printer | None = None
+        self._agreed = False
+        self._open = True
+        weakref.finalize(self, database.close)  # the last one to close tidies the log away
+
+    def _one(self, sql: str, *values: object) -> Any:
+        found = self.database.execute(sql, values).fetchone()
+        if found is None:
+            raise DamagedFileError("a row is missing", f"in {self.path}", _COPY)
+        return found
+
+    def close(self) -> None:
+        """Let go of the file; edits are refused from then on."""
+        self._open = False
+        self.database.close()
+
+    def begin(self) -> None:
+        """Take the right to write.
+
+        Raises
+        ------
+        FileBusyError, StaleHullError, HullFileError
+            Another process writes; it has written; the file may only be read, is closed, or
+            has been replaced by another.
+        """
+        self._enter("BEGIN IMMEDIATE")
+        self._agreed = False
+        try:
+            with speaking_of(self.path):
+                self.place.require_log()
+                self._refuse_stale()
+        except BaseException:
+            self.end()
+            raise
+
+    def _require_open(self) -> None:
+        if not self._open:
+            raise HullFileError(str(self.path), "it is closed", "open it again")
+
+    def _enter(self, how: str) -> None:
+        """Begin a transaction of the database, if this still is the file that was opened."""
+        self._require_open()
+        self.place.require_file()
+        with speaking_of(self.path, self.wait):
+            self.database.execute(how)
+
+    def _refuse_stale(self) -> None:
+        if self._one("SELECT serial FROM hull")[0] != self.serial:
+            newer = self.database.execute(
+                "SELECT name FROM steps WHERE number > ? ORDER BY number", (self._known,)
+            )
+            raise StaleHullError(str(self.path), tuple(str(row[0]) for row in newer))
+
+    def end(self) -> None:
+        """Give the right to write back."""
+        if not self._agreed:
+            self._known_printer = None  # the tables are, or will be, what they were before
+        if self._open and self.database.in_transaction:
+            self.database.execute("ROLLBACK")
+
+    def commit(self, step: Step, branch: Label | None) -> None:
+        """Write a step and what it changed, and bring it to the disk."""
+        journal = step.journal
+        assert isinstance(journal, Journal), "a step that was just made holds its journal"
+        change = change_of(self.state, journal)
+        with speaking_of(self.path):
+            self._put(change, step.rows, step.curves)
+            self._look_anew(change)
+            step.fingerprint = self._sign(step.number, step.number)
+            write_step(self.database, step, change)
+            self._label(branch)
+            self.database.execute("COMMIT")
+        self.keep(step, change)
+
+    def keep(self, step: Step, change: Change) -> None:
+        """Let a step hold no more of its journal than its change, and that only for a while."""
+        body = step.body
+        self._lend(step)
+        rerun = Rerun(self.state, change)
+        step.replace(StepBody(rerun, body.cause, body.changed, body.moved, body.seeds, body.report))
+
+    def _lend(self, step: Step) -> None:
+        """Let a step read from the file what it does not hold."""
+        step.load = partial(self.load, step.number)
+        step.tell = partial(self.tell, step.number)
+
+    def move(self, head: int, tip: int, steps: Sequence[Step], branch: Label | None) -> None:
+        """Write the rows that steps changed when they were run, and where the hull is now."""
+        with speaking_of(self.path), as_written(self.path, "the history does not fit the hull"):
+            for step in steps:
+                journal = step.journal
+                assert isinstance(journal, Rerun), "a step that is kept holds its change"
+                self._put(journal.change, step.rows, step.curves)
+                self._look_anew(journal.change)
+            found = self._sign(head, tip)
+            if found != self.recorded(head):
+                raise ValueError(f"the hull after step {head} is not as it was then")
+            require_sound(self.state)
+            require_counts(self.database, self.state)
+            self._label(branch)
+            self.database.execute("COMMIT")
+
+    def label(self, label: Label) -> None:
+        """Write a name."""
+        with speaking_of(self.path):
+            self._label(label)
+            self.database.execute("UPDATE hull SET serial = serial + 1")
+            self.database.execute("COMMIT")
+
+    def agree(self, steps: int) -> None:
+        """Take note that what was kept last is in memory as well, where there are so many steps.
+
+        Were this process interrupted before, the file would be ahead of it, and the next edit
+        be told so.
+        """
+        self.serial += 1
+        self._known = steps
+        self._agreed = True
+
+    def _label(self, label: Label | None) -> None:
+        if label is not None:
+            write_labels(self.database, [label])
+
+    def _put(self, change: Change, rows: IntArray, curves: IntArray) -> None:
+        """Write the rows of the tables that a change touched, as they are now."""
+        also = {"rows": rows, "curves": np.union1d(change.curves, curves)}
+        for table in WRITTEN:
+            touched = np.union1d(change.touched(table), also.get(table, rows[:0]))
+            put_rows(self.database, self.state, table, touched)
+        if any(name.startswith("settings.") for name in change.objects):
+            write_settings(self.database, self.state)
+        births = self.state.births
+        write_births(self.database, {pair: births.get(pair, 0) for pair in change.births})
+
+    def _sign(self, head: int, tip: int) -> str:
+        """Write the present fingerprint, and where in the history the hull is."""
+        found = self._printer.take()
+        self.database.execute(
+            "UPDATE hull SET fingerprint = ?, head = ?, tip = ?, serial = serial + 1",
+            (found, head, tip),
+        )
+        return found
+
+    def _look_anew(self, change: Change) -> None:
+        """Forget what is known of the structure of the hull, if a change has changed it."""
+        if not is_shape(change):
+            self._known_printer = None
+
+    @property
+    def _printer(self) -> Printer:
+        """Takes the fingerprint; made anew when the structure of the hull has changed."""
+        if self._known_printer is None:
+            self._known_printer = Printer(self.state)
+        return self._known_printer
+
+    def recorded(self, head: int) -> object:
+        """Give the fingerprint that was written for the state after a step."""
+        if not head:
+            return self._one("SELECT start FROM hull")[0]
+        return self._one("SELECT fingerprint FROM steps WHERE number = ?", head)[0]
+
+    def load(self, number: int) -> StepBody:
+        """Read the body of a step.
+
+        Raises
+        ------
+        DamagedFileError
+            It is not as it was written.
+        """
+        row = self._read("SELECT * FROM steps WHERE number = ?", number)
+        with as_written(self.path, f"step {number} cannot be read"):
+            return body_of(row, self.state)
+
+    def tell(self, number: int) -> EditReport:
+        """Read the report of a step; whether the rest of it is whole is not looked at.
+
+        Raises
+        ------
+        DamagedFileError
+            It cannot be read.
+        """
+        (text,) = self._read("SELECT report FROM steps WHERE number = ?", number)
+        with as_written(self.path, f"step {number} cannot be read"):
+            return report_from(text)
+
+    def _read(self, sql: str, number: int) -> Any:
+        with self._reader() as database:
+            return database.execute(sql, (number,)).fetchone() or ()
+
+    @contextlib.contextmanager
+    def _reader(self) -> Iterator[sqlite3.Connection]:
+        """Give the database; where the file has been let go of, it is opened for that long."""
+        with speaking_of(self.path, self.wait):
+            database = self.database if self._open else connect(self.path, self.wait)
+            try:
+                yield database
+            finally:
+                if not self._open:
+                    database.close()
+
+    def follow(self, document: Document) -> tuple[int, int]:
+        """Tell a document of steps and names it does not know; give where the file stands.
+
+        Returns
+        -------
+        int, int
+            Numbers of the step that led to the state in the file, and of the last undone one.
+        """
+        database = self.database
+        with speaking_of(self.path, self.wait):
+            head, tip, serial = map(operator.index, self._one("SELECT head, tip, serial FROM hull"))
+            new = steps_of(database, len(document.steps), self.load, self.tell)
+            labels = read_labels(database)
+        require_whole(document, new, labels, (head, tip))
+        document.steps |= {step.number: step for step in new}
+        document.labels = {label.name: label for label in labels}
+        self._known, self.serial = len(document.steps), serial
+        return head, tip
+
+    def take_over(self, document: Document, changes: Mapping[int, Change]) -> None:
+        """Keep the steps of a document that was just written; `changes` are those it held."""
+        self.follow(document)
+        for number, step in document.steps.items():
+            if number in changes:
+                self.keep(step, changes[number])
+            else:
+                self._lend(step)
+
+    def copy_to(self, database: sqlite3.Connection) -> None:
+        """Copy the whole file into another database."""
+        self._require_open()
+        with speaking_of(self.path, self.wait):
+            self.database.execute("BEGIN")
+            try:
+                self._refuse_stale()
+                self.database.backup(database)
+            finally:
+                self.end()
+
+    def refresh(self, document: Document) -> None:
+        """Bring a document to the state in the file; if that fails, it is as it was."""
+        self._enter("BEGIN")
+        self._known_printer = None
+        known = self.serial, self._known
+        try:
+            self.place.require_log()
+            with document.unharmed():
+                document.follow(*self.follow(document))
+                document.keep_revisions(*read_revisions(self.database))
+                self.require_print()
+        except BaseException:
+            self.serial, self._known = known
+            raise
+        finally:
+            self.end()
+
+    def require_print(self) -> None:
+        """Refuse tables whose fingerprint is not the one in the file."""
+        found, said = fingerprint(self.state), str(self._one("SELECT fingerprint FROM hull")[0])
+        if found != said:
+            what = f"the content has the fingerprint {found[:12]}, the file says {said[:12]}"
+            raise DamagedFileError(what, f"at {self.path}", "take it from a copy")
+
+    def damages(self) -> list[str]:
+        """Look through the whole file for what is not as it was written; one line each."""
+        with self._reader() as database:
+            told = database.execute("PRAGMA integrity_check(20)").fetchall()
+            numbers = database.execute("SELECT number FROM steps ORDER BY number").fetchall()
+        found = [str(line) for (line,) in told if line != "ok"]
+        for (number,) in numbers:
+            try:
+                self.load(number)
+            except DamagedFileError as error:
+                found.append(error.what)
+        return found

@@ -1,0 +1,385 @@
+"""The tables of a hull to the rows of a hull file, and back; nothing is computed but splines.
+
+Examples
+--------
+>>> import sqlite3
+>>> from assoc_hull.shipped.wigley import wigley
+>>> from assoc_hull.io.hull_file.schema import create
+>>> from assoc_hull.io.hull_file.tables import read_state, write_state
+>>> from assoc_hull.model.definition.definition import fingerprint
+>>> database, state = sqlite3.connect(":memory:", isolation_level=None), wigley()
+>>> create(database)
+>>> write_state(database, state, "demo", fingerprint(state))
+>>> fingerprint(read_state(database)) == fingerprint(state)
+True
+"""
+
+from __future__ import annotations
+
+import json
+import operator
+import sqlite3
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.geometry.curves import IntArray, SplineBatch, freeze
+from assoc_hull.io.hull_file.features import feature_rows, read_features
+from assoc_hull.io.hull_file.forms import (
+    definition_rows,
+    generated_rows,
+    read_definitions,
+    read_generated,
+)
+from assoc_hull.io.hull_file.packed_arrays import pack, unpack
+from assoc_hull.model.change import shape_curves
+from assoc_hull.model.kinds import State
+from assoc_hull.model.places_on_curves import PlacesOn, places_of, put_places_of
+from assoc_hull.model.state import Association, Ends, HullState, Particulars
+from assoc_hull.tolerance import Tolerances
+
+__all__ = [
+    "WRITTEN",
+    "put_rows",
+    "read_revisions",
+    "read_state",
+    "require_counts",
+    "write_births",
+    "write_settings",
+    "write_state",
+]
+
+Row = tuple[Any, ...]
+
+_POINT = np.dtype([("row", "<i4"), ("side", "i1")])
+_PLACE = np.dtype([("line", "<i4"), ("row", "<i4"), ("sign", "i1"), ("at", "<f8", (4,))])
+
+_REALS = {
+    "direction": "direction", "limit": "gap_limit", "gap": "gap", "base": "base",
+    "anchor_from": "anchor_from", "anchor_weight": "anchor_weight",
+}  # fmt: skip
+"""Columns of points that may be left out, holding the fill value, and their names in the file."""
+
+_PAIRS = ("curve", "kind", "reader", "anchor")
+_NAMES = {
+    "rows": "points", "featured": "features", "formed": "definitions", "produced": "generated",
+}  # fmt: skip
+"""Tables that the file calls otherwise."""
+
+WRITTEN = ("groups", "lines", "curves", "rows", "featured", "formed", "produced")
+"""Tables of which each row is a row of the file, too."""
+
+_WHOLES = ("alive", "sort", "role", "override", "driver", "contact", "sign", "birth", "state")
+
+
+def write_state(
+    database: sqlite3.Connection, state: HullState, written_by: str, fingerprint: str
+) -> None:
+    """Write a hull into empty tables; the history begins there."""
+    ship = state.particulars
+    tolerances = json.dumps(attrs.asdict(state.tolerances))
+    database.execute(
+        "INSERT INTO hull VALUES (1, ?, ?, ?, ?, ?, ?, '[]', ?, ?, ?, 0, 0, 0, ?)",
+        (ship.name, ship.length, ship.breadth, ship.depth, ship.draught, tolerances, written_by,
+         fingerprint, fingerprint, ship.deck),
+    )  # fmt: skip
+    write_settings(database, state)
+    write_births(database, dict(state.births))
+    for table in WRITTEN:
+        put_rows(database, state, table, np.arange(getattr(state, table).count))
+    for table, known in (("rows", state.revision_row), ("curves", state.revision_curve)):
+        count = getattr(state, table).count
+        _write_gone(database, state, table, [i for i in sorted(known) if i >= count])
+
+
+def write_settings(database: sqlite3.Connection, state: HullState) -> None:
+    """Write particulars, failures and associations."""
+    ship = state.particulars
+    database.execute(
+        "UPDATE hull SET name = ?, length = ?, breadth = ?, depth = ?, draught = ?, deck = ?, "
+        "failed = ?",
+        (ship.name, ship.length, ship.breadth, ship.depth, ship.draught, ship.deck,
+         json.dumps([int(curve) for curve in state.failed])),
+    )  # fmt: skip
+    database.execute("DELETE FROM associations")
+    links = [(link.a, link.b, int(link.two_way)) for link in state.associations]
+    database.executemany("INSERT INTO associations VALUES (?, ?, ?)", links)
+
+
+def write_births(database: sqlite3.Connection, counts: dict[tuple[str, str], int]) -> None:
+    """Write how many crossings some pairs of lines have ever had; 0 takes the pair out."""
+    rows = [(*pair, count) for pair, count in counts.items()]
+    database.executemany("INSERT OR REPLACE INTO births VALUES (?, ?, ?)", rows)
+    database.execute("DELETE FROM births WHERE count = 0")
+
+
+def put_rows(database: sqlite3.Connection, state: HullState, table: str, numbers: IntArray) -> None:
+    """Write rows of a table as they are now; those that it no longer has are taken out."""
+    name, count = _NAMES.get(table, table), getattr(state, table).count
+    live = numbers[numbers < count]
+    if len(live):
+        rows = list(_GIVE[table](state, live))
+        marks = ", ".join("?" * len(rows[0]))
+        database.executemany(f"INSERT OR REPLACE INTO {name} VALUES ({marks})", rows)
+    if len(live) < len(numbers):
+        database.execute(f"DELETE FROM {name} WHERE number >= ?", (count,))
+        _write_gone(database, state, table, numbers[numbers >= count].tolist())
+
+
+def _write_gone(
+    database: sqlite3.Connection, state: HullState, table: str, numbers: Sequence[int]
+) -> None:
+    """Remember the revisions of rows that the table no longer has: redone, they go on there."""
+    known = {"rows": state.revision_row, "curves": state.revision_curve}.get(table, {})
+    rows = [(_NAMES.get(table, table), i, known[i]) for i in numbers if i in known]
+    database.executemany("INSERT OR REPLACE INTO gone VALUES (?, ?, ?)", rows)
+
+
+def _group_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    table = state.groups
+    for i in numbers.tolist():
+        yield i, table.name.data[i], table.family.data[i], int(table.alive.data[i])
+
+
+def _line_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    table = state.lines
+    for i in numbers.tolist():
+        yield (
+            i, table.key.data[i], table.name.data[i], int(table.alive.data[i]),
+            int(table.group.data[i]), int(table.planar.data[i]), _blob(table.normal.data[i]),
+            _blob(table.offset.data[i]), int(table.boundary.data[i]),
+            json.dumps([int(curve) for curve in table.curves.data[i]]), table.note.data[i],
+        )  # fmt: skip
+
+
+def _curve_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    table, places = state.curves, _place_blobs(places_of(state, numbers))
+    for i, place in zip(numbers.tolist(), places, strict=True):
+        ends, points = table.ends.data[i], np.zeros(len(table.rows.data[i]), _POINT)
+        points["row"], points["side"] = table.rows.data[i], table.side.data[i]
+        failed = table.state.data[i] != State.CLEAN and table.spline.data[i] is not None
+        yield (
+            i, table.key.data[i], int(table.alive.data[i]), int(table.line.data[i]),
+            int(table.state.data[i]), state.revision_curve.get(i, 0),
+            json.dumps([[int(kind) for kind in ends.kind], ends.vector]),
+            points.tobytes(), place, pack_spline(table.spline.data[i]) if failed else None,
+        )  # fmt: skip
+
+
+def _place_blobs(places: PlacesOn) -> Iterator[bytes]:
+    records = np.zeros(len(places.line), _PLACE)
+    records["line"], records["row"] = places.line, places.row
+    records["sign"], records["at"] = places.sign, places.at
+    for part in np.split(records, np.cumsum(places.count)[:-1]):
+        yield part.tobytes()
+
+
+def pack_spline(spline: SplineBatch) -> bytes:
+    """Put a spline into bytes."""
+    return pack({name: getattr(spline, name) for name in ("knot", "xyz", "leave", "arrive")})
+
+
+def _point_rows(state: HullState, numbers: IntArray) -> Iterator[Row]:
+    table, revision = state.rows, state.revision_row
+    whole = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _WHOLES}
+    pairs = {name: getattr(table, name).data[numbers].astype(int).tolist() for name in _PAIRS}
+    reals = {name: _blobs(getattr(table, name), numbers) for name in _REALS}
+    xyz = [_blob(each) for each in table.xyz.data[numbers]]
+    for place, i in enumerate(numbers.tolist()):
+        yield (
+            i, table.key.data[i], table.label.data[i],
+            *(whole[name][place] for name in ("alive", "sort", "role", "override")),
+            *pairs["curve"][place], *pairs["kind"][place], *pairs["reader"][place],
+            *(whole[name][place] for name in ("driver", "contact", "sign", "birth", "state")),
+            revision.get(i, 0), *pairs["anchor"][place], xyz[place],
+            *(reals[name][place] for name in _REALS),
+        )  # fmt: skip
+
+
+def _blob(values: object) -> bytes:
+    return np.asarray(values, "<f8").tobytes()
+
+
+def _blobs(column: Any, numbers: IntArray) -> list[bytes | None]:
+    """Give the bytes of rows of a column, None where they are what a new row holds."""
+    values = column.data[numbers]
+    nothing = _blob(np.full(column.store.shape[1:], column.fill))
+    found = [_blob(each) for each in values]
+    return [None if each == nothing else each for each in found]
+
+
+_GIVE = {
+    "groups": _group_rows, "lines": _line_rows, "curves": _curve_rows, "rows": _point_rows,
+    "featured": feature_rows, "formed": definition_rows, "produced": generated_rows,
+}  # fmt: skip
+
+
+def read_state(database: sqlite3.Connection) -> HullState:
+    """Read the tables of a hull as they were written; splines are lofted from their points.
+
+    Raises
+    ------
+    ValueError, TypeError, KeyError, IndexError
+        The file holds what was never written by this module.
+    """
+    said = database.execute(
+        "SELECT name, length, breadth, depth, draught, deck, tolerances, failed FROM hull"
+    ).fetchone()
+    state = HullState(Particulars(*said[:6]), Tolerances(**json.loads(said[6])))
+    links = database.execute("SELECT a, b, two_way FROM associations ORDER BY a, b")
+    state.settings.associations.data[0] = tuple(Association(a, b, bool(w)) for a, b, w in links)
+    births = database.execute("SELECT a, b, count FROM births ORDER BY a, b")
+    state.settings.births.data[0] = {(a, b): int(count) for a, b, count in births}
+    state.settings.failed.data[0] = tuple(json.loads(said[7]))
+    _read_groups(state, _rows(database, "groups"))
+    _read_lines(state, _rows(database, "lines"))
+    _read_points(state, _rows(database, "points"))
+    _read_curves(state, _rows(database, "curves"))
+    read_features(state, _rows(database, "features"))
+    read_definitions(state, _rows(database, "definitions"))
+    read_generated(state, _rows(database, "generated"))
+    state.revision_row, state.revision_curve = read_revisions(database)
+    return state
+
+
+def read_revisions(database: sqlite3.Connection) -> tuple[dict[int, int], dict[int, int]]:
+    """Read the revisions of points and curves, gone ones too, by number; no nil ones."""
+    points, curves = (
+        {
+            operator.index(number): operator.index(revision)
+            for number, revision in database.execute(
+                "SELECT number, MAX(revision) FROM (SELECT number, revision FROM gone "
+                f"WHERE kind = ? UNION ALL SELECT number, revision FROM {name}) "
+                "WHERE revision > 0 GROUP BY number", (name,),
+            )
+        }
+        for name in ("points", "curves")
+    )  # fmt: skip
+    return points, curves
+
+
+def _rows(database: sqlite3.Connection, name: str) -> list[Row]:
+    """Give all rows of a table by number, which must leave no gap."""
+    found = database.execute(f"SELECT * FROM {name} ORDER BY number").fetchall()
+    if found and found[-1][0] != len(found) - 1:
+        raise ValueError(f"the table {name} lacks rows")
+    return found
+
+
+def _columns(rows: Sequence[Row], count: int) -> list[tuple[Any, ...]]:
+    return list(zip(*rows, strict=True)) if rows else [()] * count
+
+
+def _whole(column: Any, values: Sequence[Any]) -> None:
+    """Put whole numbers, or several to a row, into a column."""
+    column.store[: len(values)] = np.array(values, np.int64).reshape(-1, *column.store.shape[1:])
+    column.writes += 1
+
+
+def _real(column: Any, blobs: Sequence[bytes | None]) -> None:
+    """Put real numbers into a column; None leaves the fill value."""
+    here = [i for i, blob in enumerate(blobs) if blob is not None]
+    given = np.frombuffer(b"".join(blobs[i] for i in here), "<f8")  # type: ignore[misc]
+    column.store[here] = given.reshape(len(here), *column.store.shape[1:])
+    column.writes += 1
+
+
+def _read_groups(state: HullState, rows: Sequence[Row]) -> None:
+    _, name, family, alive = _columns(rows, 4)
+    state.groups.resize(len(rows))
+    state.groups.name.data[:], state.groups.family.data[:] = name, family
+    _whole(state.groups.alive, alive)
+
+
+def _read_lines(state: HullState, rows: Sequence[Row]) -> None:
+    table = state.lines
+    table.resize(len(rows))
+    _, key, name, alive, group, planar, normal, offset, boundary, curves, note = _columns(rows, 11)
+    table.key.data[:], table.name.data[:], table.note.data[:] = key, name, note
+    table.curves.data[:] = [tuple(json.loads(each)) for each in curves]
+    for column, values in (
+        (table.alive, alive), (table.group, group), (table.planar, planar),
+        (table.boundary, boundary),
+    ):  # fmt: skip
+        _whole(column, values)
+    _real(table.normal, normal)
+    _real(table.offset, offset)
+
+
+def _read_points(state: HullState, rows: Sequence[Row]) -> None:
+    table = state.rows
+    table.resize(len(rows))
+    found = _columns(rows, 28)
+    table.key.data[:], table.label.data[:] = found[1], found[2]
+    for name, place in zip(("alive", "sort", "role", "override"), range(3, 7), strict=True):
+        _whole(getattr(table, name), found[place])
+    for name, place in zip(("curve", "kind", "reader"), (7, 9, 11), strict=True):
+        _whole(getattr(table, name), list(zip(found[place], found[place + 1], strict=True)))
+    for name, place in zip(
+        ("driver", "contact", "sign", "birth", "state"), range(13, 18), strict=True
+    ):
+        _whole(getattr(table, name), found[place])
+    _whole(table.anchor, list(zip(found[19], found[20], strict=True)))
+    _real(table.xyz, found[21])
+    for name, place in zip(_REALS, range(22, 28), strict=True):
+        _real(getattr(table, name), found[place])
+
+
+def _read_curves(state: HullState, rows: Sequence[Row]) -> None:
+    table = state.curves
+    table.resize(len(rows))
+    _, key, alive, line, states, _, ends, points, places, kept = _columns(rows, 10)
+    table.key.data[:] = key
+    table.ends.data[:] = [_ends(json.loads(each)) for each in ends]
+    for i, each in enumerate(points):
+        record = np.frombuffer(each, _POINT)
+        chosen, side = record["row"].astype(np.int64), record["side"].astype(np.int64)
+        freeze(chosen, side)
+        table.rows.data[i], table.side.data[i] = chosen, side
+    for column, values in ((table.alive, alive), (table.line, line), (table.state, states)):
+        _whole(column, values)
+    put_places_of(state, _places(places))
+    splines = {i: unpack_spline(each) for i, each in enumerate(kept) if each is not None}
+    shape_curves(state, np.arange(len(rows)), splines)
+
+
+def _ends(said: list[Any]) -> Ends:
+    (first, last), (start, finish) = said
+    return Ends((int(first), int(last)), (tuple(start), tuple(finish)))
+
+
+def _places(blobs: Sequence[bytes]) -> PlacesOn:
+    record = np.frombuffer(b"".join(blobs), _PLACE)
+    count = np.array([len(blob) // _PLACE.itemsize for blob in blobs], np.int64)
+    whole = {name: record[name].astype(np.int64) for name in ("line", "sign", "row")}
+    return PlacesOn(
+        np.arange(len(blobs)), count, whole["line"], whole["sign"], whole["row"],
+        np.ascontiguousarray(record["at"], np.float64),
+    )  # fmt: skip
+
+
+def unpack_spline(data: bytes) -> SplineBatch:
+    """Take a spline out of bytes."""
+    arrays: dict[str, NDArray[Any]] = unpack(data)[0]
+    knot = arrays["knot"]
+    return SplineBatch(
+        np.array([0, len(knot)], np.int64), knot, arrays["xyz"], arrays["leave"], arrays["arrive"]
+    )
+
+
+def require_counts(database: sqlite3.Connection, state: HullState) -> None:
+    """Refuse tables that have not as many rows as the hull.
+
+    Raises
+    ------
+    ValueError
+        Naming the first such table.
+    """
+    for table in WRITTEN:
+        name, count = _NAMES.get(table, table), getattr(state, table).count
+        found = database.execute(f"SELECT count(*) FROM {name}").fetchone()[0]
+        if found != count:
+            raise ValueError(f"the table {name} has {found} rows, and the hull {count}")

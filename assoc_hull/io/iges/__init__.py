@@ -1,0 +1,1 @@
+"""IGES files by our own hands: the file, its curves and surfaces, read and written."""

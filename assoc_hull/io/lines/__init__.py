@@ -1,0 +1,1 @@
+"""Lines as points: the types that readers, cutters and writers share."""

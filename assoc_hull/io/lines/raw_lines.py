@@ -1,0 +1,166 @@
+"""What readers of line texts share: the pieces they give, names of lines, rows of numbers."""
+
+from __future__ import annotations
+
+import re
+
+import attrs
+import numpy as np
+
+from assoc_hull.arguments import shown
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.lines.digitised_piece import RawPiece, read_number
+
+__all__ = ["RawLines", "Rows", "plane_name", "whole_number"]
+
+_SHORT = {"sections": "ST", "waterlines": "WL", "buttocks": "BTK"}
+
+
+@attrs.frozen(eq=False)
+class RawLines:
+    """All pieces of a text.
+
+    Attributes
+    ----------
+    pieces : list of RawPiece
+        In ship axes, in the unit of the file.
+    unit : str or None
+        "m" or "ft" where the form has it; None where it does not say.
+    told : bool
+        Whether the form stands for its unit. Headers of drawings do not: many hold the one with
+        which the program began.
+    """
+
+    pieces: list[RawPiece]
+    unit: str | None = None
+    told: bool = True
+
+
+def plane_name(group: str, offset: float) -> str:
+    """Name a line by its place.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.lines.raw_lines import plane_name
+    >>> plane_name("sections", 60.96)
+    'ST 60.96'
+    """
+    return f"{_SHORT[group]} {round(offset, 6) + 0.0:.10g}"
+
+
+def whole_number(cell: str, where: str) -> int:
+    """Read a whole number of at most nine digits.
+
+    Raises
+    ------
+    BadInputError
+        The text is none.
+
+    Examples
+    --------
+    >>> from assoc_hull.io.lines.raw_lines import whole_number
+    >>> whole_number(" 12", "line 3 of a.gf")
+    12
+    """
+    if not re.fullmatch(r"\s*[-+]?[0-9]{1,9}\s*", cell):
+        raise BadInputError(f"{shown(cell)} is no whole number", where, "correct the line")
+    return int(cell)
+
+
+@attrs.define
+class Rows:
+    """The lines of a text one after the other, without blank ones; says where it stands.
+
+    Attributes
+    ----------
+    lines : list of (int, str)
+        Number in the file, from 1, and text.
+    source : str
+        The file.
+    ending : str
+        How a whole file ends, for messages.
+    at : int
+        The next line.
+    """
+
+    lines: list[tuple[int, str]]
+    source: str
+    ending: str
+    at: int = 0
+
+    @classmethod
+    def of(cls, text: str, source: str, ending: str) -> Rows:
+        """Take the lines of a text that are not blank."""
+        every = enumerate(text.lstrip("\ufeff").splitlines(), start=1)
+        return cls([(k, line) for k, line in every if line.strip()], source, ending)
+
+    @property
+    def where(self) -> str:
+        """Where the line that was read last stands."""
+        at = max(min(self.at, len(self.lines)) - 1, 0)
+        return f"line {self.lines[at][0]} of {self.source}" if self.lines else f"in {self.source}"
+
+    @property
+    def left(self) -> int:
+        """How many lines are left."""
+        return len(self.lines) - self.at
+
+    def peek(self) -> str:
+        """Give the next line without reading it, empty at the end."""
+        return self.lines[self.at][1] if self.left > 0 else ""
+
+    def next(self, what: str) -> str:
+        """Read a line.
+
+        Raises
+        ------
+        BadInputError
+            The text ends before.
+        """
+        if self.left <= 0:
+            raise BadInputError(
+                f"the text ends where {what} is expected", f"at {self.where}",
+                f"take a whole file: it ends with {self.ending}",
+            )  # fmt: skip
+        self.at += 1
+        return self.lines[self.at - 1][1]
+
+    def numbers(self, what: str, least: int, mark: str | None = None) -> list[float]:
+        """Read a line of numbers.
+
+        Parameters
+        ----------
+        what : str
+            What they are, for messages.
+        least : int
+            So many are wanted; more are given too.
+        mark : str or None
+            What separates them; blanks if None.
+
+        Raises
+        ------
+        BadInputError
+            Too few, or one that is none.
+        """
+        cells = self.next(what).split(mark)
+        if len(cells) < least:
+            raise BadInputError(
+                f"{what} has {len(cells)} number(s)", f"at {self.where}", f"give {least}"
+            )
+        return [read_number(cell, f"at {self.where}") for cell in cells[:least]]
+
+    def points(self, count: int, mark: str | None = None) -> np.typing.NDArray[np.float64]:
+        """Read so many lines of two numbers each, (count, 2).
+
+        Raises
+        ------
+        BadInputError
+            There are not so many lines, or a line has no two numbers.
+        """
+        if count > self.left:
+            raise BadInputError(
+                f"{count} points are announced and {max(self.left, 0)} lines are left",
+                f"at {self.where}", f"take a whole file: it ends with {self.ending}",
+            )  # fmt: skip
+        found = [self.numbers("a point", 2, mark) for _ in range(count)]
+        return np.array(found, np.float64).reshape(count, 2)

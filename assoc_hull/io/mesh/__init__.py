@@ -1,0 +1,1 @@
+"""Triangle meshes: read, repaired, put into ship axes, made a shell, and written."""

@@ -1,0 +1,250 @@
+"""Ship axes of a mesh: unit, which axis is the length, which side is up, which end the bow.
+
+Whatever is found rather than given is reported. Ship axes: x forward, y to port, z up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assoc_hull.arguments import positive, word
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.surfaces.triangles import Triangles
+from assoc_hull.io.mesh.axes import asymmetry, find_columns, half_side
+from assoc_hull.io.offset_report import Notebook
+
+__all__ = ["place_mesh", "scale_mesh"]
+
+_WHERE = "the mesh"
+_LONGEST, _SHORTEST = 600.0, 1.0
+_USUAL = {"L/B": (1.5, 40.0), "L/D": (3.0, 80.0), "B/D": (0.4, 12.0)}
+"""Length over breadth and depth of anything that floats as a ship, from barge to rowing eight."""
+
+_UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+
+
+def scale_mesh(mesh: Triangles, scale: float, unit: str, book: Notebook) -> Triangles:
+    """Give the mesh at full scale in m.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        As read.
+    scale : float
+        Full scale over model scale; 1 for a mesh at full scale.
+    unit : {"auto", "m", "mm", "cm", "ft", "in"}
+        Unit of the file. Found, it is metres, or millimetres where metres would give a ship
+        of more than 600 m.
+    book : Notebook
+        Takes what was assumed.
+
+    Raises
+    ------
+    BadInputError
+        A scale that is not positive, an unknown unit, or a ship longer than 600 m or shorter
+        than 1 m.
+    """
+    scale = positive(scale, "scale", "as an argument")
+    if word(unit, "unit", "as an argument") != "auto" and unit not in _UNITS:
+        raise BadInputError(f"the unit {unit!r} is unknown", "the argument unit", _known_units())
+    size = float(np.ptp(mesh.xyz, axis=0).max()) * scale
+    chosen = unit if unit != "auto" else _find_unit(size, book)
+    length = size * _UNITS[chosen]
+    if not length <= _LONGEST:
+        raise BadInputError(
+            f"the mesh is {length:.6g} m long in {chosen} at scale {scale:g}", f"in {_WHERE}",
+            "are these millimetres? give unit='mm', or another scale",
+        )  # fmt: skip
+    if length < _SHORTEST:
+        raise BadInputError(
+            f"the mesh is only {length:.4g} m long in {chosen} at scale {scale:g}", f"in {_WHERE}",
+            "are these metres? give unit='m', or the scale of the model",
+        )  # fmt: skip
+    return mesh.moved(mesh.xyz * (scale * _UNITS[chosen]))
+
+
+def _known_units() -> str:
+    return "give one of " + ", ".join(map(repr, ("auto", *_UNITS)))
+
+
+def _find_unit(size: float, book: Notebook) -> str:
+    chosen = "mm" if size > _LONGEST and size * 1e-3 <= _LONGEST else "m"
+    why = f"the longest side is {size:.6g} units at full scale"
+    book.assume("unit", _WHERE, f"{chosen}, because {why}", size)
+    return chosen
+
+
+def place_mesh(mesh: Triangles, axes: str, book: Notebook, doubt: float = 0.0) -> Triangles:
+    """Turn a mesh in metres into ship axes, centre plane at y = 0.
+
+    Parameters
+    ----------
+    mesh : Triangles
+        In m, all triangles outward.
+    axes : str
+        "auto", or which axes of the file are x (forward), y (to port) and z (up), each with a
+        sign: ``"+x+y+z"``, ``"-x-y+z"`` for a bow at negative x, ``"+x-z+y"`` for y up.
+    book : Notebook
+        Takes what was found.
+    doubt : float, m
+        How far vertices may be off what they stand for: a centre plane nearer to y = 0 is there.
+
+    Raises
+    ------
+    BadInputError
+        Unknown axes, or a mesh whose axes cannot be told.
+    """
+    if word(axes, "axes", "as an argument") != "auto":
+        placed = _centred(_turned(mesh, _parse(axes)), book, doubt)
+    else:
+        moved = _turned(mesh, np.eye(3)[list(find_columns(mesh, book))])
+        moved = _upright(_centred(moved, book, doubt), book)
+        placed = _grounded(_bow_forward(moved, book), book)
+    _tell_proportions(placed, book)
+    return placed
+
+
+def _parse(axes: str) -> FloatArray:
+    text = axes.replace(" ", "").replace(",", "").lower()
+    parts = [text[i : i + 2] for i in range(0, len(text), 2)]
+    good = len(text) == 6 and all(p[0] in "+-" and p[1] in "xyz" for p in parts)
+    if not good or {p[1] for p in parts} != set("xyz"):
+        raise BadInputError(
+            f"axes are {axes!r}", "the argument axes", "give 'auto', or such as '+x+y+z', '-x-y+z'"
+        )
+    rows = [(1.0 if p[0] == "+" else -1.0) * np.eye(3)["xyz".index(p[1])] for p in parts]
+    return np.array(rows)
+
+
+def _turned(mesh: Triangles, turn: FloatArray) -> Triangles:
+    """Turn the places; a reflection turns the triangles round."""
+    xyz = np.stack([(mesh.xyz * row).sum(axis=1) for row in turn], axis=1) + 0.0
+    face = mesh.face if np.linalg.det(turn) > 0.0 else mesh.face[:, ::-1].copy()
+    return Triangles(xyz, face, mesh.origin)
+
+
+def _centred(mesh: Triangles, book: Notebook, doubt: float) -> Triangles:
+    """Put the centre plane at y = 0, a half hull on the side of positive y."""
+    size = float(np.ptp(mesh.xyz, axis=0).max())
+    low, high = float(mesh.xyz[:, 1].min()), float(mesh.xyz[:, 1].max())
+    side = half_side(mesh, 1)
+    if side is None and min(-low, high) < 0.02 * (high - low) and abs(low + high) > 1e-6 * size:
+        side = low if abs(low) < abs(high) else high
+        side = 0.0 if abs(side) < 1e-3 * size else None
+    middle = side if side is not None else 0.5 * (low + high)
+    xyz = mesh.xyz.copy()
+    if abs(middle) > max(1e-6 * size, doubt if side is None else 0.0):
+        book.repair("centre plane", _WHERE, f"moved from y = {middle:.6g} m to 0", middle)
+        xyz[:, 1] -= middle
+    elif side is None:
+        _tell_asymmetry(mesh, size, book)
+    moved = mesh.moved(xyz)
+    if _is_starboard(moved):
+        book.repair("mirrored", _WHERE, "the half at negative y was mirrored to port")
+    kind = "half" if side is not None else "whole"
+    book.assume("half or whole", _WHERE, f"the mesh is a {kind} hull")
+    return _to_port(moved)
+
+
+def _is_starboard(mesh: Triangles) -> bool:
+    """Tell whether this is half a hull, at negative y."""
+    return float(mesh.xyz[:, 1].max()) < 1e-3 * float(np.ptp(mesh.xyz, axis=0).max())
+
+
+def _to_port(mesh: Triangles) -> Triangles:
+    return _turned(mesh, np.diag([1.0, -1.0, 1.0])) if _is_starboard(mesh) else mesh
+
+
+def _tell_asymmetry(mesh: Triangles, size: float, book: Notebook) -> None:
+    off = asymmetry(mesh, 1)
+    if off > 1e-3:
+        what = f"the halves differ by {off * size:.3g} m at one vertex of ten; port is taken"
+        book.suspect("asymmetry", _WHERE, what, off * size)
+
+
+def _tell_proportions(mesh: Triangles, book: Notebook) -> None:
+    """Tell of a hull that no ship is like: a unit or scale that differs between the axes."""
+    half, (length, _, depth) = float(mesh.xyz[:, 1].max()), np.ptp(mesh.xyz, axis=0).tolist()
+    flat = [name for name, size in zip("xyz", (length, half, depth), strict=True) if not size > 0.0]
+    if flat:
+        raise BadInputError(
+            f"the mesh is flat: it has no extent along {' and '.join(flat)}", f"in {_WHERE}",
+            "export the whole hull, or give axes=, as '+x+y+z'",
+        )  # fmt: skip
+    ratios = {"L/B": 0.5 * length / half, "L/D": length / depth, "B/D": 2.0 * half / depth}
+    odd = [
+        f"{name} is {ratio:.3g}"
+        for name, ratio in ratios.items()
+        if not _USUAL[name][0] <= ratio <= _USUAL[name][1]
+    ]
+    if odd:
+        what = f"{', '.join(odd)}: check unit and scale of each axis, or give axes="
+        book.suspect("proportions", _WHERE, what)
+
+
+def _upright(mesh: Triangles, book: Notebook) -> Triangles:
+    """Turn a hull that lies keel up."""
+    y = np.abs(mesh.xyz[:, 1])
+    z = (mesh.xyz[:, 2] - mesh.xyz[:, 2].min()) / np.ptp(mesh.xyz[:, 2])
+    area = np.linalg.norm(mesh.area_vectors(), axis=1)
+    centre = mesh.corners.mean(axis=1)
+    low, high = float(mesh.xyz[:, 2].min()), float(mesh.xyz[:, 2].max())
+    level = (centre[:, 2] - low) / (high - low)
+    upper = _mean_breadth(centre, area, level > 0.85)
+    lower = _mean_breadth(centre, area, level < 0.15)
+    below, above = y[z < 0.02], y[z > 0.98]
+    narrow = len(below) and len(above) and below.max() > 1.02 * above.max()
+    if narrow and lower > upper:
+        book.repair("upside down", _WHERE, "the hull narrows upward; turned about its length")
+        return _to_port(_turned(mesh, np.diag([1.0, -1.0, -1.0])))
+    return mesh
+
+
+def _mean_breadth(
+    centre: FloatArray, area: FloatArray, where: np.typing.NDArray[np.bool_]
+) -> float:
+    weight = area[where]
+    return float((np.abs(centre[where, 1]) * weight).sum() / max(float(weight.sum()), 1e-12))
+
+
+def _bow_forward(mesh: Triangles, book: Notebook) -> Triangles:
+    """Turn a hull whose bow is at low x: sterns are the wider end at the deck."""
+    aft, fore = (_end_breadth(mesh, end) for end in (0.05, -0.05))
+    widest = float(np.abs(mesh.xyz[:, 1]).max())
+    if abs(aft - fore) < 0.05 * widest:
+        book.assume("bow", _WHERE, "the ends are alike; the bow is taken at high x")
+        return mesh
+    if aft > fore:
+        what = f"at high x: near the deck half-breadth {fore:.4g} m there, {aft:.4g} m at low x"
+        book.assume("bow", _WHERE, what, aft - fore)
+        return mesh
+    what = f"the bow was at low x (half-breadth {aft:.4g} m there, {fore:.4g} m at high x); turned"
+    book.repair("bow at negative x", _WHERE, what, fore - aft)
+    return _to_port(_turned(mesh, np.diag([-1.0, -1.0, 1.0])))
+
+
+def _end_breadth(mesh: Triangles, end: float) -> float:
+    """Give the half-breadth of the upper half of the hull at a part of the length from an end."""
+    x, z = mesh.xyz[:, 0], mesh.xyz[:, 2]
+    size = float(np.ptp(x))
+    close = x < x.min() + end * size if end > 0.0 else x > x.max() + end * size
+    high = z > 0.5 * (z.min() + z.max())
+    chosen = close & high
+    return float(np.abs(mesh.xyz[chosen, 1]).max()) if chosen.any() else 0.0
+
+
+def _grounded(mesh: Triangles, book: Notebook) -> Triangles:
+    """Put the base line at the lowest place and the AP at the aft end where they lie far off."""
+    low, high = mesh.xyz.min(axis=0), mesh.xyz.max(axis=0)
+    size = high - low
+    shift = np.zeros(3)
+    for axis, name, reach in ((0, "x", 0.1), (2, "z", 0.02)):
+        if abs(low[axis]) > reach * size[axis]:
+            shift[axis] = -low[axis]
+            what = f"{name} of the hull began at {low[axis]:.6g} m; moved to 0"
+            book.repair("origin", _WHERE, what, float(low[axis]))
+    if not shift.any():
+        what = f"x = 0 and z = 0 as in the file; x from {low[0]:.6g} m, z from {low[2]:.6g} m"
+        book.assume("origin", _WHERE, what)
+    return mesh.moved(mesh.xyz + shift)

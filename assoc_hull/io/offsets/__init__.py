@@ -1,0 +1,1 @@
+"""Tables of offsets: read, examined, and made a net."""

@@ -1,0 +1,75 @@
+"""A table of offsets in ship axes.
+
+Examples
+--------
+>>> import numpy as np
+>>> from assoc_hull.io.offsets.table import OffsetTable
+>>> x, z, y = np.array([0.0, 9.0]), np.array([0.0, 1.0]), np.array([[0.0, 1.0], [2.0, 2.0]])
+>>> none = np.empty(0)
+>>> table = OffsetTable(
+...     "box", x, z, y, None, None, None, none, None, 9.0, 4.0, 1.0, None, np.full(2, 5e-4))
+>>> table.half_breadth.flags.writeable
+False
+"""
+
+from __future__ import annotations
+
+import attrs
+
+from assoc_hull.geometry.curves import FloatArray, freeze
+
+__all__ = ["OffsetTable"]
+
+
+@attrs.frozen(eq=False)
+class OffsetTable:
+    """Offsets in ship axes; all arrays are frozen.
+
+    Attributes
+    ----------
+    name : str
+        Name of the ship or file.
+    x : (s,), m
+        Stations, from the aft perpendicular, forward positive, ascending.
+    z : (w,), m
+        Waterlines above the base line, ascending.
+    half_breadth : (s, w), m
+        nan where the table is blank: below the local keel or above the deck.
+    keel : (s,) or None, m
+        Local height of the keel.
+    deck_height, deck_half_breadth : (s,) or None, m
+        Deck edge; nan where blank.
+    buttock_y : (b,), m
+        Buttocks, ascending; empty when there are none.
+    buttock_height : (s, b) or None, m
+        Heights of the buttocks; nan where blank.
+    length, breadth : float, m
+        Between perpendiculars; moulded.
+    draught, depth : float or None, m
+        Design draught; height of the deck amidships.
+    rounding : (w,), m
+        Half unit of the last printed digit of each waterline, at full scale.
+    station : (s,) or None
+        The station numbers as printed; nan where the name is no number.
+    """
+
+    name: str
+    x: FloatArray
+    z: FloatArray
+    half_breadth: FloatArray
+    keel: FloatArray | None
+    deck_height: FloatArray | None
+    deck_half_breadth: FloatArray | None
+    buttock_y: FloatArray
+    buttock_height: FloatArray | None
+    length: float
+    breadth: float
+    draught: float | None
+    depth: float | None
+    rounding: FloatArray
+    station: FloatArray | None = None
+
+    def __attrs_post_init__(self) -> None:
+        arrays = (self.x, self.z, self.half_breadth, self.buttock_y, self.rounding)
+        maybe = (self.keel, self.deck_height, self.deck_half_breadth, self.buttock_height)
+        freeze(*arrays, *(a for a in (*maybe, self.station) if a is not None))

@@ -1,0 +1,106 @@
+"""Which file it is that is open: told from others of its name, and known to this process.
+
+A process that closes any handle on a file gives up all its locks on that file, those of the
+database too; a second process then takes itself for the only one, and removes the log that the
+first one is writing to. So a file that is open here is never looked into beside the database,
+and nothing is written to a log that is no longer there.
+
+Examples
+--------
+>>> from pathlib import Path
+>>> from assoc_hull.io.open_databases import is_open_here
+>>> is_open_here(Path(__file__))
+False
+"""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+import weakref
+from pathlib import Path
+
+from assoc_hull.errors import HullFileError
+
+__all__ = ["Connection", "Place", "is_open_here", "log_of"]
+
+_OPEN: weakref.WeakSet[Connection] = weakref.WeakSet()
+
+
+class Connection(sqlite3.Connection):
+    """An open database that its process knows of."""
+
+    identity: tuple[int, int] = (0, 0)
+
+    def know(self, path: Path) -> None:
+        """Let the process know which file this is."""
+        self.identity = _identity(path)
+        _OPEN.add(self)
+
+    def close(self) -> None:
+        """Close the database."""
+        super().close()
+        _OPEN.discard(self)
+
+
+def is_open_here(path: Path) -> bool:
+    """Tell whether this process has a hull file open."""
+    found = _identity(path)
+    return found != (0, 0) and any(each.identity == found for each in list(_OPEN))
+
+
+def log_of(path: Path) -> Path:
+    """Give the file beside a hull file that its last commits are in."""
+    return path.with_name(f"{path.name}-wal")
+
+
+def _identity(path: Path) -> tuple[int, int]:
+    """Tell a file from another one of the same name; zeros if there is none."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return (0, 0)
+    return found.st_dev, found.st_ino
+
+
+class Place:
+    """A hull file and its log, as they were when the database in them was opened.
+
+    Parameters
+    ----------
+    path : Path
+        The hull file, of which the database has read something already.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file, self._log = _identity(path), _identity(log_of(path))
+        self._process = os.getpid()
+
+    def require_file(self) -> None:
+        """Refuse another file of the same name, and another process than opened it.
+
+        Raises
+        ------
+        HullFileError
+            The file was removed or replaced; this process was forked from the one that opened it.
+        """
+        if os.getpid() != self._process:
+            what = "it was opened before this process was forked from another"
+            raise HullFileError(str(self.path), what, "open it again here")
+        if _identity(self.path) != self._file:
+            remedy = "save the hull under another name, so that nothing is lost"
+            raise HullFileError(str(self.path), "it was removed or replaced", remedy)
+
+    def require_log(self) -> None:
+        """Refuse another log; what was written to the one that has gone would be lost.
+
+        Raises
+        ------
+        HullFileError
+            The log was removed or replaced.
+        """
+        if _identity(log_of(self.path)) != self._log:
+            what = f"its log {log_of(self.path).name} was removed while it was open"
+            remedy = "open it again, and make the last edit anew; those before it are in the file"
+            raise HullFileError(str(self.path), what, remedy)

@@ -1,0 +1,1 @@
+"""Panels in files of seakeeping codes."""

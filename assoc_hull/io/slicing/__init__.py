@@ -1,0 +1,1 @@
+"""From meshes, surfaces and digitised lines to a net."""

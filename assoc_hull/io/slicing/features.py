@@ -1,0 +1,319 @@
+"""Features of slices: noise, knuckles, straight runs, as a table with the thresholds used."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.geometry.polylines.circular_arcs import Arc, ArcRule
+from assoc_hull.geometry.polylines.corners import (
+    Corner,
+    CornerRule,
+    find_corners,
+    marked_corners,
+    with_marked,
+)
+from assoc_hull.geometry.polylines.knuckle_lines import ChainRule, join_corners
+from assoc_hull.geometry.polylines.noise import facet_depth, facet_depths, scatter
+from assoc_hull.geometry.polylines.operations import distinct
+from assoc_hull.geometry.polylines.smooth import local_scatter
+from assoc_hull.geometry.polylines.straight import Run, RunRule
+from assoc_hull.io.lines.slices import AXES, Piece, SliceLine, Slices
+
+__all__ = ["FeatureRules", "KnuckleLine", "PieceFeatures", "find_features", "plane_columns"]
+
+
+@attrs.frozen
+class FeatureRules:
+    """Every threshold of the features.
+
+    Attributes
+    ----------
+    corner : CornerRule
+        What counts as a corner of one line.
+    chain : ChainRule
+        What joins corners of neighbouring lines.
+    alone_deg : float
+        A corner that joins no knuckle line must turn by this to be kept.
+    run : RunRule
+        What counts as a straight run.
+    arc : ArcRule
+        What counts as a circular arc.
+    onset : float, m
+        A tangent point is kept where its place is known at least this well, or where its doubt
+        moves the line across by less than its scatter.
+    border : float, m
+        The end of a run counts for the border of a flat where it is known at least this well,
+        for that of a run without a radius too.
+    border_deg : float
+        A border is split where it turns by more.
+    smooth_least : float, m
+        Pieces are smoothed within this at least, measured across the hull.
+    smooth_times : float
+        Else within this many times the scatter at the place ...
+    smooth_most : float, m
+        ... but not within more than this, nor 1.5 times the depth of its own facets, ...
+    smooth_depths : float
+        ... nor this many times the depth of the facets of the mesh, whichever is most.
+    adopt_least, adopt_least_facets : float, m
+        Least tolerance of adoption, of digitised lines and of a mesh ...
+    adopt_times : float
+        ... else this many times the median noise of the pieces.
+    near_least : float, m
+        A gap of two smooth lines that weighs as much as a datum passed by all that is allowed,
+        at least ...
+    near_times : float
+        ... else this many times the median noise of the pieces.
+    """
+
+    corner: CornerRule = attrs.field(factory=CornerRule)
+    chain: ChainRule = attrs.field(factory=ChainRule)
+    alone_deg: float = 10.0
+    run: RunRule = attrs.field(factory=RunRule)
+    arc: ArcRule = attrs.field(factory=ArcRule)
+    onset: float = 0.1
+    border: float = 20.0
+    border_deg: float = 40.0
+    smooth_least: float = 1e-3
+    smooth_times: float = 2.5
+    smooth_most: float = 1e-2
+    smooth_depths: float = 1.7
+    adopt_least: float = 5e-3
+    adopt_least_facets: float = 1e-2
+    adopt_times: float = 3.0
+    near_least: float = 5e-4
+    near_times: float = 0.8
+
+    def scaled(self, ratio: float) -> FeatureRules:
+        """Give the rules with every length times a ratio: for the model of a ship."""
+        lengths = (
+            "onset", "border", "smooth_least", "smooth_most", "adopt_least", "adopt_least_facets",
+            "near_least",
+        )  # fmt: skip
+        return attrs.evolve(
+            self,
+            corner=_times(self.corner, ratio, "stretch", "window"),
+            chain=_times(self.chain, ratio, "slack"),
+            run=_times(self.run, ratio, "within", "least"),
+            arc=_times(self.arc, ratio, "within"),
+            **{name: ratio * getattr(self, name) for name in lengths},
+        )
+
+
+Rule = TypeVar("Rule", CornerRule, ChainRule, RunRule, ArcRule)
+
+
+def _times(rule: Rule, ratio: float, *names: str) -> Rule:
+    """Multiply lengths of a rule."""
+    return attrs.evolve(rule, **{name: ratio * getattr(rule, name) for name in names})
+
+
+@attrs.frozen(eq=False)
+class PieceFeatures:
+    """One piece of a line with what was found on it.
+
+    Attributes
+    ----------
+    line : SliceLine
+        The line.
+    piece : Piece
+        The piece.
+    points : (n, d), m
+        Its points in its plane, or in space.
+    noise : float, m
+        Scatter of digitised points, or depth of facets.
+    allowed : (n,), m
+        How far it may be smoothed at each point, in its plane.
+    sine : (n,)
+        Sine of the angle between plane and hull, 1 where it is not known, 0.1 at least.
+    depth : float, m
+        How deep facets of the mesh lie inside the hull.
+    moved : float, m
+        What its ends were moved by to lie on boundary curves.
+    corners : tuple of Corner
+        Those kept.
+    suggested : tuple of Corner
+        Those that turn too little and join no knuckle line.
+    runs : tuple of Run or None
+        Its straight runs, None as long as they were not looked for.
+    arcs : tuple of Arc
+        Its circular arcs, once they were looked for.
+    """
+
+    line: SliceLine
+    piece: Piece
+    points: FloatArray
+    noise: float
+    allowed: FloatArray
+    sine: FloatArray
+    depth: float = 0.0
+    moved: float = 0.0
+    corners: tuple[Corner, ...] = ()
+    suggested: tuple[Corner, ...] = ()
+    runs: tuple[Run, ...] | None = None
+    arcs: tuple[Arc, ...] = ()
+
+
+@attrs.frozen(eq=False)
+class KnuckleLine:
+    """A knuckle line: its places on lines of one group.
+
+    Attributes
+    ----------
+    group : str
+        Of the lines it was found on.
+    lines : tuple of str
+        Their names.
+    places : (n, 3), m
+        Where it crosses them.
+    turn_deg : (n,)
+        By how much they turn there.
+    doubt : (n,), m
+        How far each place may lie off along its line, 2 standard deviations.
+    """
+
+    group: str
+    lines: tuple[str, ...]
+    places: FloatArray
+    turn_deg: FloatArray
+    doubt: FloatArray
+
+
+def plane_columns(group: str) -> list[int]:
+    """Give the coordinates that vary on a line of a group."""
+    return [axis for axis in range(3) if axis != AXES.get(group)]
+
+
+def find_features(
+    slices: Slices, rules: FeatureRules | None = None
+) -> tuple[list[PieceFeatures], list[KnuckleLine]]:
+    """Find noise and knuckles of all pieces of all lines.
+
+    Parameters
+    ----------
+    slices : Slices
+        From a mesh or digitised.
+    rules : FeatureRules or None
+        Defaults if None.
+
+    Returns
+    -------
+    list of PieceFeatures
+        In the order of the lines, boundary curves last.
+    list of KnuckleLine
+        By group.
+    """
+    wanted = rules or FeatureRules()
+    found: list[PieceFeatures] = []
+    knuckles: list[KnuckleLine] = []
+    for group in ("sections", "waterlines", "buttocks"):
+        parts = [
+            (line, _bare(line, piece, slices, wanted))
+            for line in slices.group(group)
+            for piece in line.pieces
+        ]
+        marks = [marked_corners(part.points, _marks(part, slices)) for _, part in parts]
+        seen = [
+            with_marked(_corners(part, slices.facets, wanted), marked)
+            for (_, part), marked in zip(parts, marks, strict=True)
+        ]
+        kept, chains = _choose(slices.group(group), [part for _, part in parts], seen, wanted)
+        kept |= {(i, j) for i, marked in enumerate(marks) for j in range(len(marked))}
+        found += [
+            attrs.evolve(
+                part,
+                corners=tuple(corner for j, corner in enumerate(seen[i]) if (i, j) in kept),
+                suggested=tuple(corner for j, corner in enumerate(seen[i]) if (i, j) not in kept),
+            )
+            for i, (_, part) in enumerate(parts)
+        ]
+        knuckles += chains
+    for line in slices.boundaries:
+        for piece in line.pieces:
+            part = _bare(line, piece, slices, wanted)
+            plane = part.points.shape[1] == 2
+            every = _corners(part, slices.facets, wanted) if plane else []
+            strong = [each for each in every if each.turn_deg >= wanted.alone_deg]
+            marked = marked_corners(part.points, _marks(part, slices)) if plane else []
+            found.append(attrs.evolve(part, corners=tuple(with_marked(strong, marked))))
+    return found, knuckles
+
+
+def _columns(line: SliceLine, piece: Piece) -> list[int]:
+    """Give the coordinates that vary on a piece, which of a boundary curve may be all."""
+    if line.group != "boundary":
+        return plane_columns(line.group)
+    spread = np.ptp(piece.points, axis=0)
+    flat = int(np.argmin(spread))
+    return [axis for axis in range(3) if axis != flat or spread[flat] > 1e-3]
+
+
+def _bare(line: SliceLine, piece: Piece, slices: Slices, rules: FeatureRules) -> PieceFeatures:
+    """Give a piece in its plane, with its noise."""
+    columns = _columns(line, piece)
+    kept = distinct(piece.points[:, columns], 1e-6)
+    points = piece.points[kept][:, columns]
+    sine = np.ones(len(kept)) if piece.sine is None else np.maximum(piece.sine[kept], 0.1)
+    local = local_scatter(points, 6)
+    if slices.facets:
+        noise = facet_depth(points)
+        depths = np.minimum(facet_depths(points), 2.0 * noise)
+        most = max(rules.smooth_most, rules.smooth_depths * slices.depth)
+        waves = np.minimum(rules.smooth_times * local, most / sine)
+        allowed = np.maximum(1.5 * depths, waves)
+        least = np.maximum(1.5 * noise, rules.smooth_least / sine)
+    else:
+        noise = scatter(points)
+        least = np.full(len(points), max(3.0 * noise, rules.smooth_least))
+        allowed = least
+    return PieceFeatures(line, piece, points, noise, np.maximum(allowed, least), sine, slices.depth)
+
+
+def _marks(part: PieceFeatures, slices: Slices) -> FloatArray:
+    """Give the places in its plane where the file marks a knuckle of a piece, (k, 2), m."""
+    places = slices.knuckles.get(part.line.name, np.zeros((0, 3)))
+    return np.asarray(places[:, _columns(part.line, part.piece)])
+
+
+def _corners(part: PieceFeatures, facets: bool, rules: FeatureRules) -> list[Corner]:
+    if part.piece.closed or len(part.points) < 5:
+        return []
+    noise = max(0.5 * part.noise, 5e-4) if facets else part.noise
+    return find_corners(part.points, noise, rules.corner)
+
+
+def _choose(
+    lines: tuple[SliceLine, ...],
+    parts: list[PieceFeatures],
+    seen: list[list[Corner]],
+    rules: FeatureRules,
+) -> tuple[set[tuple[int, int]], list[KnuckleLine]]:
+    """Keep corners that join a knuckle line, and sharp ones."""
+    number = {line.name: i for i, line in enumerate(lines)}
+    merged: list[list[Corner]] = [[] for _ in lines]
+    origin: list[list[tuple[int, int]]] = [[] for _ in lines]
+    for i, part in enumerate(parts):
+        for j, corner in enumerate(seen[i]):
+            merged[number[part.line.name]].append(corner)
+            origin[number[part.line.name]].append((i, j))
+    offsets = np.array([line.offset for line in lines])
+    chains = join_corners(offsets, merged, rules.chain) if len(lines) else []
+    kept = {(i, j) for i, corners in enumerate(seen) for j, corner in enumerate(corners)
+            if corner.turn_deg >= rules.alone_deg}  # fmt: skip
+    found: list[KnuckleLine] = []
+    for chain in chains:
+        if np.mean([merged[i][j].turn_deg for i, j in chain]) < rules.corner.least_deg:
+            continue
+        kept |= {origin[i][j] for i, j in chain}
+        group = lines[0].group
+        places = np.empty((len(chain), 3))
+        places[:, plane_columns(group)] = [merged[i][j].place for i, j in chain]
+        places[:, AXES[group]] = offsets[[i for i, _ in chain]]
+        turns = np.array([merged[i][j].turn_deg for i, j in chain])
+        doubt = np.array([2.0 * merged[i][j].uncertainty for i, j in chain])
+        names = tuple(lines[i].name for i, _ in chain)
+        found.append(KnuckleLine(group, names, places, turns, doubt))
+    return kept, found

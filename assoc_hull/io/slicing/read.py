@@ -1,0 +1,148 @@
+"""A hull from a mesh, from surfaces of CAD or from digitised lines, in one call."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from assoc_hull.arguments import choice
+from assoc_hull.errors import BadInputError
+from assoc_hull.io.cad.hull_faces import small
+from assoc_hull.io.digitised.read import read_lines
+from assoc_hull.io.digitised.text import is_digitised
+from assoc_hull.io.lines.slices import Gaps, Slices
+from assoc_hull.io.mesh.read import is_mesh_name
+from assoc_hull.io.offsets.units import check_argument
+from assoc_hull.io.progress import Tell, silent
+from assoc_hull.io.slicing.bottom import refuse_bottomless
+from assoc_hull.io.slicing.cut_planes import Places
+from assoc_hull.io.slicing.features import FeatureRules
+from assoc_hull.io.slicing.mesh import read_mesh
+from assoc_hull.io.slicing.net import net_from_slices
+from assoc_hull.io.slicing.report import SliceReport
+from assoc_hull.io.slicing.surface_hull import cad_kind, read_surface_lines
+from assoc_hull.model.state import DECKS, HullState, Particulars
+
+__all__ = ["holds_lines", "read_slices", "require_file"]
+
+_HEAD = 20_000
+"""So many bytes of a file tell what it holds."""
+
+
+def holds_lines(path: Path) -> bool:
+    """Tell whether a file is a mesh, or holds surfaces or digitised lines: no table of offsets."""
+    if is_mesh_name(path):
+        return True
+    if not path.is_file():
+        return False
+    if cad_kind(path):
+        return True
+    head = path.read_bytes()[:_HEAD]
+    return b"\0" not in head and is_digitised(head.decode("utf-8", "replace"))
+
+
+def require_file(path: Path) -> None:
+    """Say that there is no file before anything is said of how it is read.
+
+    Raises
+    ------
+    BadInputError
+        There is none.
+    """
+    if not path.exists():
+        raise BadInputError("there is no such file", f"at {path}", "check the path")
+
+
+def _refuse_cuts(path: Path, names: list[str]) -> None:
+    """Digitised lines stand where they were drawn: they are not cut, nor turned."""
+    if names:
+        require_file(path)
+        raise BadInputError(
+            f"{', '.join(names)} cannot be given for digitised lines", f"in {path.name}",
+            "leave it out, or read a mesh",
+        )  # fmt: skip
+
+
+def read_slices(
+    path: Path,
+    *,
+    length: float | None = None,
+    breadth: float | None = None,
+    draught: float | None = None,
+    deck: str = "open",
+    stations: Places | None = None,
+    waterlines: Places | None = None,
+    buttocks: Places | None = None,
+    scale: float = 1.0,
+    unit: str = "auto",
+    axes: str | None = None,
+    tolerance: float | None = None,
+    join: float | None = None,
+    tell: Tell = silent,
+) -> tuple[HullState, SliceReport]:
+    """Read a mesh, surfaces or digitised lines and adopt them.
+
+    Parameters
+    ----------
+    path : Path
+        STL, OBJ, PLY (``.gz``), IGES or STEP, or digitised lines as for
+        `assoc_hull.io.digitised.read.read_lines`.
+    length, breadth, draught : float or None, m
+        Particulars; by default from the extent of the hull, and the draught half its depth, or of
+        surfaces whose z = 0 cuts the hull down from there.
+    deck : {"open", "closed"}
+        Closed: there is a deck between the deck edges, which no mesh or line tells.
+    stations, waterlines, buttocks, scale, unit, axes
+        As for `assoc_hull.io.slicing.mesh.slice_mesh`, whose defaults hold for None; digitised
+        lines take scale and unit only.
+    tolerance : float or None, m
+        How far an adopted curve may pass its smooth line; by default 3 times the median noise
+        of the pieces, but at least 5 mm, of a mesh 10 mm.
+    join : float or None, m
+        Loose ends of pieces this close are joined; by default 60 mm.
+    tell : callable
+        Hears what is being done, and how far.
+
+    Raises
+    ------
+    BadInputError, NoMeetingError, MissingExtraError
+        As for `read_mesh`, `read_lines` and `net_from_slices`; planes or axes for lines; a mesh
+        or surfaces whose bottom is missing.
+    """
+    for name, value in (
+        ("length", length), ("breadth", breadth), ("draught", draught), ("tolerance", tolerance),
+        ("join", join),
+    ):  # fmt: skip
+        check_argument(name, value)
+    choice(deck, "deck", DECKS, "in the particulars")
+    gaps = None if join is None else Gaps(join, max(join, Gaps().refuse))
+    named: dict[str, Any] = {
+        "stations": stations, "waterlines": waterlines, "buttocks": buttocks, "axes": axes
+    }  # fmt: skip
+    cuts = {name: value for name, value in named.items() if value is not None}
+    rules: FeatureRules | None = None
+    if is_mesh_name(path):
+        slices = read_mesh(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
+    elif cad_kind(path):
+        slices = read_surface_lines(path, scale=scale, unit=unit, gaps=gaps, tell=tell, **cuts)
+        rules = FeatureRules().scaled(small(float((slices.high - slices.low).max())))
+    else:
+        _refuse_cuts(path, list(cuts))
+        slices = read_lines(path, scale=scale, unit=unit, gaps=gaps)
+    refuse_bottomless(slices)
+    size = slices.high - slices.low
+    depth = float(size[2])
+    ship = Particulars(
+        slices.name,
+        float(size[0]) if length is None else length,
+        2.0 * float(slices.high[1]) if breadth is None else breadth,
+        depth,
+        _draught(slices, depth) if draught is None else draught,
+        deck,
+    )
+    state, report = net_from_slices(slices, ship, tolerance, rules, tell=tell)
+    return state, report
+
+
+def _draught(slices: Slices, depth: float) -> float:
+    return 0.5 * depth if slices.waterline is None else slices.waterline

@@ -1,0 +1,1 @@
+"""Tables and documents of results: CSV, XLSX, text, JSON and its schemas."""

@@ -1,0 +1,40 @@
+"""Units of length of surface files.
+
+Examples
+--------
+>>> from assoc_hull.io.units import checked_unit, METRES
+>>> METRES[checked_unit("mm", "in read_surfaces")]
+0.001
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from assoc_hull.arguments import choice
+
+__all__ = ["METRES", "checked_unit", "unit_note"]
+
+METRES: Mapping[str, float] = MappingProxyType(
+    {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254}
+)
+"""What can be asked for, and its length in m."""
+
+
+def checked_unit(unit: object, where: str) -> str:
+    """Take a unit of length.
+
+    Raises
+    ------
+    BadInputError
+        Anything else.
+    """
+    return choice(unit, "unit", tuple(METRES), where)
+
+
+def unit_note(source: str, told: str | None, unit: str) -> tuple[str, ...]:
+    """Tell that a unit was asked for which is not the one of the file, if so."""
+    if told is None or told == unit:
+        return ()
+    return (f"{source} says that its unit is {told}; it is read in {unit}, as asked.",)

@@ -1,0 +1,136 @@
+"""The half-breadth anywhere: read off a line that is there, else off a waterline cut for it."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import NoMeetingError
+from assoc_hull.geometry.curves import CurveData, FloatArray, IntArray, PointKind, SplineBatch
+from assoc_hull.geometry.splines.loft import loft
+from assoc_hull.geometry.splines.plane_intersections import meet_planes
+from assoc_hull.model.kinds import BoundaryKind
+from assoc_hull.model.state import HullState
+
+__all__ = ["half_breadth"]
+
+_X, _Z = np.eye(3)[0], np.eye(3)[2]
+_APART = 1e-3
+"""Marks of a cut nearer in x than this (m) count as one."""
+
+
+@attrs.frozen(eq=False)
+class _Marks:
+    """Where a level plane meets sections and boundary curves, by x."""
+
+    xyz: FloatArray
+    boundary: IntArray
+
+
+def half_breadth(state: HullState, x: float, z: float) -> float:
+    """Give the half-breadth at a place of the centre plane.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    x, z : float, m
+        The place.
+
+    Returns
+    -------
+    float, m
+        Of a waterline at z or a section at x, if there is one; else of a waterline that is
+        cut from sections and boundary curves. The largest, where there are several.
+
+    Raises
+    ------
+    NoMeetingError
+        The hull does not come there.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.half_breadth import half_breadth
+    >>> round(half_breadth(wigley(), 40.0, 2.5), 6)
+    3.072
+    """
+    for family, at, normal, other in (("waterlines", z, _X, x), ("sections", x, _Z, z)):
+        curves = _at(state, family, at)
+        met = _meet(state, curves, normal, other)[1]
+        if len(met):
+            return float(met[:, 1].max())
+    return _cut(state, float(x), float(z))
+
+
+def _families(state: HullState, curves: IntArray) -> list[str]:
+    return [state.family(state.line_of(curve)).name for curve in curves.tolist()]
+
+
+def _at(state: HullState, family: str, position: float) -> IntArray:
+    """Give the curves of a family in the plane at a position."""
+    curves = state.live("curves")
+    there = state.lines.offset.data[state.curves.line.data[curves]] == position
+    mine = np.array([name == family for name in _families(state, curves)], bool)
+    found: IntArray = curves[there & mine]
+    return found
+
+
+def _meet(
+    state: HullState, curves: IntArray, normal: FloatArray, position: float
+) -> tuple[IntArray, FloatArray]:
+    """Meet curves with a plane; give the curve and the place of each meeting."""
+    if not len(curves):
+        return np.zeros(0, np.int64), np.zeros((0, 3))
+    batch = SplineBatch.join([state.spline(curve) for curve in curves.tolist()])
+    met = meet_planes(batch, normal, np.array([float(position)]))
+    return curves[met.curve], met.xyz
+
+
+def _cut(state: HullState, x: float, z: float) -> float:
+    marks = _marks(state, z)
+    low, high = (
+        (marks.xyz[0, 0], marks.xyz[-1, 0]) if len(marks.xyz) > 1 else (np.inf, -np.inf)
+    )  # fmt: skip
+    if not low <= x <= high or _between_pieces(marks, x):
+        away = max(low - x, x - high, 0.0)
+        raise NoMeetingError(f"the hull at x = {x:g}, z = {z:g} m", float(away), _ASK)
+    met = meet_planes(loft(_data(marks)), _X, np.array([x])).xyz
+    ends = marks.xyz[np.abs(marks.xyz[:, 0] - x) == 0.0]
+    return float(np.concatenate([met, ends])[:, 1].max())
+
+
+_ASK = "ask for a place between the ends of the hull and below the deck"
+
+
+def _marks(state: HullState, z: float) -> _Marks:
+    """Cut sections and boundary curves at a height; one mark at each x, boundaries first."""
+    curves = state.live("curves")
+    wanted = [name in ("sections", "boundary") for name in _families(state, curves)]
+    owner, xyz = _meet(state, curves[np.array(wanted, bool)], _Z, z)
+    kind = state.lines.boundary.data[state.curves.line.data[owner]].astype(np.int64)
+    order = np.lexsort((-xyz[:, 1], xyz[:, 0]))
+    kept: list[int] = []
+    for item in order.tolist():
+        if kept and xyz[item, 0] - xyz[kept[-1], 0] < _APART:
+            if xyz[item, 1] > xyz[kept[-1], 1] or kind[item] > kind[kept[-1]]:
+                kept[-1] = item
+            continue
+        kept.append(item)
+    return _Marks(xyz[kept], kind[kept])
+
+
+def _between_pieces(marks: _Marks, x: float) -> bool:
+    """Tell whether a place lies between the end of one piece and the beginning of the next."""
+    after = int(np.clip(np.searchsorted(marks.xyz[:, 0], x), 1, len(marks.xyz) - 1))
+    pair = slice(after - 1, after + 1)
+    ends = (marks.boundary[pair] == BoundaryKind.END) & (marks.xyz[pair, 1] <= _APART)
+    return bool(ends.all())
+
+
+def _data(marks: _Marks) -> CurveData:
+    flat = marks.boundary == BoundaryKind.FLAT
+    kind = np.where(flat, int(PointKind.TANGENT), int(PointKind.SMOOTH))
+    kind = np.where(marks.boundary == BoundaryKind.KNUCKLE, int(PointKind.KNUCKLE), kind)
+    direction = np.where(flat[:, None], _X, 0.0)
+    return CurveData.single(marks.xyz, kind.astype(np.int8), direction)

@@ -1,0 +1,176 @@
+"""Where points lie on curves, how they may move, and which curves may meet which."""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.plane import AXES
+from assoc_hull.geometry.splines.closest import closest
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.state import HullState
+
+__all__ = [
+    "OnCurve",
+    "defines",
+    "free_axes",
+    "generates_on",
+    "latent_curves",
+    "places",
+    "points_on",
+]
+
+_PARALLEL = 1e-9
+"""Two planes whose normals have a shorter cross product are parallel."""
+
+
+@attrs.frozen(eq=False)
+class OnCurve:
+    """The points of one curve, in order along it.
+
+    Attributes
+    ----------
+    row, side : (k,) int
+        Row of the table of points, and on which of its sides the curve stands.
+    parameter : (k,), m
+        Chord parameter.
+    defining : (k,) bool
+        Whether the curve is made through the point.
+    """
+
+    row: IntArray
+    side: IntArray
+    parameter: FloatArray
+    defining: np.typing.NDArray[np.bool_]
+
+
+def defines(state: HullState, row: int, side: int) -> bool:
+    """Tell whether a point defines the curve on one of its sides."""
+    curve = int(state.rows.curve.data[row, side])
+    return curve >= 0 and bool((state.rows.reader.data[row] == curve).any())
+
+
+def places(state: HullState, row: IntArray, side: IntArray) -> FloatArray:
+    """Give the places of points on curves, (k, 3), m.
+
+    A crossing is one value for both of its curves; a watched one has none, it lies on each
+    curve where that curve passes.
+    """
+    table = state.rows
+    spot = table.spot.data[row, side]
+    watched = (table.sort.data[row] == Sort.CROSSING) & (table.role.data[row] == Role.WATCHED)
+    own = watched & np.isfinite(spot).all(axis=1)
+    found: FloatArray = np.where(own[:, None], spot, table.xyz.data[row])
+    return found
+
+
+def points_on(state: HullState, curve: int) -> OnCurve:
+    """Give all points of a curve in order along it, ties by the key.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    curve : int
+        Number of the curve.
+
+    Returns
+    -------
+    OnCurve
+    """
+    table = state.rows
+    row = np.flatnonzero(table.alive.data & (table.curve.data == curve).any(axis=1))
+    side = (table.curve.data[row, 0] != curve).astype(np.int64)
+    defining = (table.reader.data[row] == curve).any(axis=1)
+    at = table.parameter.data[row, side].copy()
+    _put_knots(state, curve, row, at)
+    lost = np.flatnonzero(~np.isfinite(at))
+    if len(lost) and state.curves.spline.data[curve] is not None:
+        at[lost] = closest(state.spline(curve), 0, places(state, row[lost], side[lost]))[0]
+    keys = [table.key.data[each] for each in row.tolist()]
+    order = np.array(sorted(range(len(row)), key=lambda i: (at[i], keys[i])), np.int64)
+    return OnCurve(row[order], side[order], at[order], defining[order])
+
+
+def _put_knots(state: HullState, curve: int, row: IntArray, at: FloatArray) -> None:
+    """Write the knots of the defining points, unless the curve has failed since."""
+    rows: IntArray = state.curves.rows.data[curve]
+    spline: SplineBatch | None = state.curves.spline.data[curve]
+    if spline is None or len(spline.knot) != len(rows):
+        return
+    knot = dict(zip(rows.tolist(), spline.knot.tolist(), strict=True))
+    for i, each in enumerate(row.tolist()):
+        at[i] = knot.get(each, at[i])
+
+
+def free_axes(state: HullState, row: int) -> tuple[str, ...]:
+    """Name the coordinates along which a point may move.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables.
+    row : int
+        Number of the point.
+
+    Returns
+    -------
+    tuple of str
+        As many as the point has freedoms. Where a plane is oblique, these fix the others:
+        of two planes the coordinate along which their common line runs most, of one plane
+        all but the one its normal runs along most; ties by the order x, y, z.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.model.address import resolve
+    >>> from assoc_hull.model.links import free_axes
+    >>> state = wigley()
+    >>> free_axes(state, resolve(state, "WL 2.5 x ST 7").row)
+    ('y',)
+    """
+    curves = [curve for curve in state.rows.curve.data[row].tolist() if curve >= 0]
+    lines = [state.line_of(curve) for curve in curves]
+    normals = [state.lines.normal.data[line] for line in lines if state.lines.planar.data[line]]
+    if len(normals) == 2:
+        along = np.abs(np.cross(*normals))
+        if along.max() > _PARALLEL:
+            return (AXES[int(along.argmax())],)
+    if normals:
+        steepest = int(np.abs(normals[0]).argmax())
+        return tuple(axis for i, axis in enumerate(AXES) if i != steepest)
+    return AXES
+
+
+def generates_on(state: HullState, group: int) -> IntArray:
+    """Give the groups on whose lines those of a group generate points, (k,) int."""
+    names = state.groups.name.data
+    mine = names[group]
+    wanted = {link.b for link in state.associations if link.a == mine}
+    wanted |= {link.a for link in state.associations if link.b == mine and link.two_way}
+    return np.array([i for i, name in enumerate(names) if name in wanted], np.int64)
+
+
+def latent_curves(state: HullState, curve: int) -> IntArray:
+    """Give the curves that a curve may come to generate points on and now does not, (k,) int.
+
+    A curve in a parallel plane is none: the two can never meet.
+    """
+    table = state.rows
+    group = int(state.lines.group.data[state.line_of(curve)])
+    live = state.live("curves")
+    owner = state.lines.group.data[state.curves.line.data[live]]
+    reach = live[np.isin(owner, generates_on(state, group)) & ~_parallel(state, curve, live)]
+    met = table.alive.data & (table.curve.data == curve).any(axis=1)
+    found: IntArray = np.setdiff1d(reach, table.curve.data[met])
+    return found
+
+
+def _parallel(state: HullState, curve: int, others: IntArray) -> np.typing.NDArray[np.bool_]:
+    """Tell which curves lie in planes parallel to that of a curve."""
+    mine, theirs = state.line_of(curve), state.curves.line.data[others]
+    across = np.cross(state.lines.normal.data[mine], state.lines.normal.data[theirs])
+    both = state.lines.planar.data[mine] & state.lines.planar.data[theirs]
+    found: np.typing.NDArray[np.bool_] = both & (np.abs(across).max(axis=1) <= _PARALLEL)
+    return found

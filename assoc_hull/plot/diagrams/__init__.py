@@ -1,0 +1,1 @@
+"""Diagrams over numbers: hydrostatics, stability, form curves, form parameters, drivers."""

@@ -1,0 +1,1 @@
+"""Pictures of the lines of a hull: lines plan, combs, before and after, comparison."""

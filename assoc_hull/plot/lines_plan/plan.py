@@ -1,0 +1,122 @@
+"""The lines plan: profile, half-breadth plan and body plan on one sheet, bow to the right."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING
+
+import attrs
+
+from assoc_hull.plot.lines_plan.drawing import Drawing, Sketchable, drawing
+from assoc_hull.plot.lines_plan.layout import BLOCK, Layout, lay_out
+from assoc_hull.plot.lines_plan.views import Views
+from assoc_hull.plot.sheet.paper import MARGIN, PaperName
+from assoc_hull.plot.sheet.sheet import Path_, Sheet, save
+from assoc_hull.plot.sheet.title_block import caption, frame, particulars_of, scale_bar, title_block
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["captions", "lines_plan"]
+
+
+def lines_plan(
+    hull: Sketchable,
+    path: Path_ | None = None,
+    *,
+    paper: PaperName = "A3",
+    title: str | None = None,
+    highlight: Collection[str] | None = None,
+) -> Figure:
+    """Draw the three-view lines plan.
+
+    The profile with the buttocks lies above the half-breadth plan with the waterlines, both
+    on one scale and aligned, bow to the right. The body plan has a scale of its own, aft
+    body on the left, fore body on the right; the section at half length is on both.
+
+    Parameters
+    ----------
+    hull : Hull, HullState or Drawing
+        The hull.
+    path : path, optional
+        Where to write it; the ending says whether PDF, SVG or PNG.
+    paper : "A3", "A1" or "A4"
+        Size of the sheet, landscape.
+    title : str, optional
+        Instead of the name of the ship.
+    highlight : collection of str, optional
+        Names of lines to be tinted.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The picture; every line has an id ``view/family/name``.
+
+    Raises
+    ------
+    MissingExtraError
+        Matplotlib is not installed.
+    UnknownNameError
+        A line to be tinted does not exist.
+    BadInputError
+        An unknown paper or ending.
+
+    Examples
+    --------
+    >>> from assoc_hull.shipped.wigley import wigley
+    >>> from assoc_hull.plot import lines_plan
+    >>> figure = lines_plan(wigley(), highlight=["WL 2.5"])
+    """
+    plan = drawing(hull)
+    tinted = [plan.line(name).name for name in highlight or ()]
+    sheet = Sheet(paper)
+    layout = lay_out(plan, sheet.paper)
+    frame(sheet, MARGIN * sheet.paper.factor)
+    _block(sheet, plan, layout, title or plan.particulars.name)
+    captions(sheet, plan, layout)
+    views = Views(sheet, plan, layout.low, layout.high, tinted)
+    views.profile(layout.profile)
+    views.half_breadth(layout.half)
+    views.body(layout.body)
+    if path is not None:
+        save(sheet.figure, path)
+    return sheet.figure
+
+
+def _block(sheet: Sheet, plan: Drawing, layout: Layout, title: str) -> None:
+    factor = sheet.paper.factor
+    width = BLOCK * factor
+    profile, body = layout.profile, layout.body
+    scales = f"1:{profile.denominator:g}, body plan 1:{body.denominator:g}, {sheet.paper.name}"
+    notes = (
+        "Moulded lines, m; x forward from AP, z upward from the base line.",
+        "Aft body left, fore body right. Dash-dotted: borders of the flats.",
+    )
+    rows = [*particulars_of(plan), ("Scale", scales)]
+    lower = title_block(sheet, layout.corner, width, title, rows, notes)
+    x = layout.corner[0] - width + 4.0 * factor
+    bars = ((profile, "Profile, half-breadth plan"), (body, "Body plan"))
+    for i, (view, name) in enumerate(bars):
+        words = f"{name}  1:{view.denominator:g}"
+        place = (x, lower - (9.0 + 12.0 * i) * factor)
+        scale_bar(sheet, view, place, width - 14.0 * factor, words)
+
+
+def captions(sheet: Sheet, plan: Drawing, layout: Layout) -> None:
+    """Write the names of the views below them."""
+    factor = sheet.paper.factor
+    middle = 0.5 * plan.particulars.length
+    low = layout.low[2]
+    rows = (
+        (layout.profile, middle, low, 11.0, "PROFILE"),
+        (layout.half, middle, -layout.depth, 11.0, "HALF-BREADTH PLAN"),
+        (layout.body, 0.0, low, 9.0, "BODY PLAN"),
+    )
+    for view, across, up, drop, words in rows:
+        place = (view.across(across), view.up(up) - drop * factor)
+        caption(sheet, place, words)
+    body = layout.body
+    for sign, words in ((-1.0, "AFT BODY"), (1.0, "FORE BODY")):
+        half = attrs.evolve(body, sign=sign)
+        place = (half.across(0.5 * layout.high[1]), body.up(low) - 9.0 * factor)
+        caption(sheet, place, words)

@@ -1,0 +1,1 @@
+"""Pictures of surfaces: plates, curvature maps, developments, panels, the whole hull."""

@@ -1,0 +1,1 @@
+"""A sheet of paper in millimetres: pens, letters, labels, blocks, charts, pages."""

@@ -1,0 +1,1 @@
+"""Hulls that ship with the package, as nets and designs."""

@@ -1,0 +1,118 @@
+"""Series 60 parents CB 0.60 and 0.70 as nets, from Todd's table of offsets.
+
+F.H. Todd, "Series 60: Methodical Experiments with Models of Single-Screw Merchant Ships",
+DTMB Report 1712, 1963.
+"""
+
+from __future__ import annotations
+
+from assoc_hull.edit.adoption.report import AdoptionReport
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.newline.add_line import add_line
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.io.offsets.completion import net_from_table
+from assoc_hull.model.state import HullState
+from assoc_hull.shipped.series60_table import todd_table
+from assoc_hull.tolerance import Tolerances
+
+__all__ = ["series60", "series60_adopted", "series60_net"]
+
+_WATERLINES = (
+    0.15, 0.20, 0.30, 0.35, 0.42, 0.58, 0.625, 0.66, 0.84, 0.92, 1.08, 1.16, 1.33, 1.41,
+)  # fmt: skip
+_STATIONS = (
+    0.25, 0.75, 1.25, 1.75, 2.5, 3.5, 4.5, 5.5, 14.5, 15.5, 16.5, 17.5, 18.25, 18.75, 19.25, 19.75,
+)  # fmt: skip
+_BUTTOCKS = (0.06, 0.12, 0.20, 0.28, 0.36, 0.44, 0.52, 0.60, 0.68, 0.76, 0.84, 0.92)
+
+
+def series60_adopted(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
+    """Adopt the table alone: 25 stations, 6 waterlines, the boundary curves.
+
+    Completed beyond the table, at Lpp 121.92 m:
+
+    - the centre-line profile: stem and stern contour run through the places where the
+      table's half-breadths end; the overhang abaft the AP is closed so that the waterline
+      z = T ends at -0.01675 Lpp (LWL/Lpp 1.01675);
+    - the deck edge: level, the table's waterline 1.5 T;
+    - the flat of bottom: its border is the table's WL 0, whose plane touches the hull;
+    - the flat of side: y = B/2 where the table says 1.0000; its border is made to widen
+      upward by at least 0.15 m from one waterline to the next.
+
+    Parameters
+    ----------
+    cb : float
+        0.60 or 0.70.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+
+    Raises
+    ------
+    BadInputError
+        Another block coefficient.
+    """
+    return net_from_table(todd_table(cb)[0], _TOLERANCES, deck="closed")
+
+
+def series60(cb: float = 0.70) -> HullState:
+    """Make the net of 41 stations, 20 waterlines and 12 buttocks.
+
+    Lines the table does not have are cut from those it has. Sections are named by station
+    (AP = 0, FP = 20), waterlines by z/T, buttocks by y/(B/2).
+
+    Parameters
+    ----------
+    cb : float
+        0.60 or 0.70.
+
+    Returns
+    -------
+    HullState
+        Lpp 121.92 m; completed as told under `series60_adopted`.
+
+    Raises
+    ------
+    BadInputError
+        Another block coefficient.
+    """
+    return series60_net(cb)[0]
+
+
+def series60_net(cb: float = 0.70) -> tuple[HullState, AdoptionReport]:
+    """Make the net of `series60`, with the report of how the table was adopted.
+
+    Parameters
+    ----------
+    cb : float
+        0.60 or 0.70.
+
+    Returns
+    -------
+    HullState, AdoptionReport
+
+    Raises
+    ------
+    BadInputError
+        Another block coefficient.
+    """
+    state, report = series60_adopted(cb)
+    document, ship = Document(state), state.particulars
+    for group, prefix, parts, unit in (
+        ("waterlines", "WL", _WATERLINES, ship.draught),
+        ("sections", "ST", _STATIONS, ship.length / 20.0),
+        ("buttocks", "BTK", _BUTTOCKS, ship.breadth / 2.0),
+    ):
+        with Transaction(document, f"cut {group}") as edit:
+            for part in parts:
+                add_line(edit, group, part * unit, f"{prefix} {part:g}", _KEEP)
+    return state, report
+
+
+_TOLERANCES = Tolerances(spacing=0.35, turn_spacing=0.3)
+"""Three lines of this dense net often pass near one place; an edit of centimetres then lets
+driven crossings slide by decimetres along a buttock, so they must not stand too close."""
+
+_KEEP = 0.6e-3
+"""How far (m) one crossing of a line that is cut may move a line that was there."""

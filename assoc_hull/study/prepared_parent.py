@@ -1,0 +1,182 @@
+"""The hull that a study varies, prepared once: what moves, which lines drive, how it is measured.
+
+A variant keeps the structure of its parent: all points go where the certified map sends them,
+or slide back into the planes of their lines, all lines are lofted again through them, and what
+any edit is checked for is checked. So it is an edit of a copy of the parent, and as good as one.
+"""
+
+from __future__ import annotations
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.document import Document
+from assoc_hull.edit.recut.carry_structure import NetMap, carry_net
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.edit.transaction import Transaction
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.copy import copy_of
+from assoc_hull.model.state import HullState
+from assoc_hull.study.design import Design
+from assoc_hull.variation.aiming.outputs import Outputs
+from assoc_hull.variation.ask import TOLERANCE, Ask
+from assoc_hull.variation.carrying.hull_maps import HullMaps
+from assoc_hull.variation.carrying.room import Room
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.parameters.freedom import Freedom
+from assoc_hull.variation.parameters.limits import hull_box, present
+from assoc_hull.variation.parameters.parameter_measures import measure_all
+from assoc_hull.variation.parameters.read_parent import parent_of
+
+__all__ = ["Ground", "Variant"]
+
+_PROBES = (0.1, 1e-3)
+"""Parts of usual changes by which it is found which lines drive; a smaller one if one folds."""
+
+
+@attrs.frozen(eq=False)
+class Variant:
+    """A hull that a map has carried.
+
+    Attributes
+    ----------
+    document : Document
+        The hull, with one step.
+    certificate : Certificate
+        That the map folds nothing.
+    shift : float, m
+        The largest movement of a point.
+    """
+
+    document: Document
+    certificate: Certificate
+    shift: float
+
+
+@attrs.frozen(eq=False)
+class Ground:
+    """The parent of a study.
+
+    Attributes
+    ----------
+    maps : HullMaps
+        Its maps by the amplitudes of all parameters.
+    lines : (d,) int
+        The lines that drive, whatever the amplitudes.
+    follow : bool
+        Whether planes of waterlines and buttocks go along.
+    aims, outputs : Outputs
+        What is aimed at, and all that is told.
+    """
+
+    maps: HullMaps
+    lines: IntArray
+    follow: bool
+    aims: Outputs
+    outputs: Outputs
+
+    @classmethod
+    def of(cls, state: HullState, design: Design) -> Ground:
+        """Prepare a hull; its tables are not changed, and must not change meanwhile.
+
+        Raises
+        ------
+        UnknownNameError
+            No such output.
+        BadInputError
+            The parent has not what a parameter changes, or an output; no line can drive.
+        """
+        measures = measure_all(state)
+        was = present(measures, design.layout)
+        for name in design.names:
+            if name in measures.absent:
+                raise BadInputError(
+                    f"cannot vary '{name}': {measures.absent[name]}", "in study", "leave it out"
+                )
+        parent = parent_of(state, measures)
+        room = Room(state, parent, was, design.layout, hull_box(state, TOLERANCE))
+        layers = {each.name: each for each in design.layers}
+        free = tuple(
+            Freedom.raw(layers[name]) if name in layers
+            else Freedom.named(name, was[name], state.particulars.length)
+            for name in design.names
+        )  # fmt: skip
+        maps = HullMaps(room, Ask({}, layout=design.layout), {}, free)
+        lines, follow = _driving(maps)
+        aims, outputs = (Outputs.of(state, names) for names in (design.aims, design.outputs))
+        return cls(maps, lines, follow, aims, outputs)
+
+    @property
+    def usual(self) -> FloatArray:
+        """Usual changes of all parameters, (p,)."""
+        return np.array([each.usual for each in self.maps.free])
+
+    @property
+    def present(self) -> FloatArray:
+        """Values of all parameters of the parent, (p,)."""
+        return np.array([each.present for each in self.maps.free])
+
+    def variant(self, values: FloatArray, name: str = "variant") -> Variant:
+        """Make a variant.
+
+        Parameters
+        ----------
+        values : (p,)
+            Of all parameters: m, degrees, or factors on layers.
+        name : str
+            Of its step in the history.
+
+        Raises
+        ------
+        FoldError, OutOfRangeError, BadInputError, RefusedEditError
+            There is no such hull of this structure; why.
+        """
+        amplitudes = values - self.present
+        maps, state = self.maps, self.maps.state
+        maps.room.check(maps.values(amplitudes))
+        certificate = certify(maps.map(amplitudes), maps.room.box)
+        certificate.check()
+        laid = maps.laid(amplitudes, self.lines, follow=self.follow)
+        space = SpaceMap(laid.map, laid.map.jacobian)
+        document = Document(copy_of(state))
+        with Transaction(document, name) as edit:
+            carry_net(edit, NetMap(space, self.lines, laid.planes, laid.features, laid.particulars))
+        live = document.state.live("rows")
+        live = live[live < state.rows.count]
+        step = document.state.rows.xyz.data[live] - state.rows.xyz.data[live]
+        return Variant(document, certificate, float(np.sqrt((step * step).sum(axis=1).max())))
+
+    def measured(self, variant: Variant) -> FloatArray:
+        """Give the outputs that are aimed at, (m,), by the layout of the parent's surface.
+
+        Where the net has another structure all is laid out anew, as in `fully`.
+
+        Raises
+        ------
+        BadInputError, OutOfRangeError
+            It lacks one of them, or does not float at its draught.
+        """
+        return self.aims.values(variant.document.state, like=self.maps.state)
+
+    def fully(self, variant: Variant) -> FloatArray:
+        """Give all outputs, (o,), as of a hull that has never been seen; raises if it is doubtful.
+
+        Raises
+        ------
+        BadInputError, OutOfRangeError
+            As `measured`; or the hull is doubtful.
+        """
+        return self.outputs.values(variant.document.state)
+
+
+def _driving(maps: HullMaps) -> tuple[IntArray, bool]:
+    """Find which lines drive when all parameters change."""
+    usual = np.array([each.usual for each in maps.free])
+    for part in _PROBES[:-1]:
+        try:
+            return maps.driving(part * usual)
+        except AssocHullError:
+            continue
+    return maps.driving(_PROBES[-1] * usual)

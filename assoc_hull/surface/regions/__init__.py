@@ -1,0 +1,1 @@
+"""Regions of Gaussian curvature of surfaces: search, level lines, areas, result."""

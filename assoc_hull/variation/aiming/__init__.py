@@ -1,0 +1,1 @@
+"""Targets of outputs reached by free parameters: Newton's method on hulls."""

@@ -1,0 +1,269 @@
+"""What can be aimed at: names of outputs, their values, and their derivatives.
+
+Outputs are taken of a hull as it floats upright at its design draught, on the kernel's own
+hydrostatics. Where the draught changes with a parameter, the hull floats at the new one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from assoc_hull.analysis.derivatives.parameters import Parameter, Position
+from assoc_hull.analysis.derivatives.reused_layout import flotation_like
+from assoc_hull.analysis.derivatives.tangents import tangents_by
+from assoc_hull.analysis.form.catalogue import CATALOGUE
+from assoc_hull.analysis.form.shape import Shape
+from assoc_hull.analysis.hydrostatics.floating import FloatingPosition
+from assoc_hull.analysis.hydrostatics.flotation import Flotation, flotation
+from assoc_hull.analysis.hydrostatics.hydrostatic_header import SALT
+from assoc_hull.analysis.hydrostatics.measured_hull import header_of
+from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.arguments import all_of, number, shown, shown_name
+from assoc_hull.errors import BadInputError, UnknownNameError, WrongTypeError
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.variation.aiming.output_kinds import KINDS
+
+__all__ = ["OutputRates", "Outputs"]
+
+_WHERE = "among the outputs"
+_AREA, _AT = "A ", "x="
+
+
+@attrs.frozen(eq=False)
+class OutputRates:
+    """Outputs of a hull and their derivatives by k parameters.
+
+    Attributes
+    ----------
+    values : (m,)
+        The outputs, in their units.
+    jacobian : (m, k)
+        In the unit of the output per unit of the parameter.
+    exact : (m,) bool
+        The derivatives are those of the sums themselves; else extrapolated differences.
+    """
+
+    values: FloatArray
+    jacobian: FloatArray
+    exact: NDArray[np.bool_]
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.values, self.jacobian, self.exact)
+
+
+@attrs.frozen
+class _Tables:
+    """Tables that are asked like a hull."""
+
+    state: HullState
+
+
+@attrs.frozen
+class Outputs:
+    """Names of what is wanted of a hull, understood.
+
+    Attributes
+    ----------
+    names : tuple of m str
+        As given: a field of `assoc_hull.analysis.hydrostatics.record_fields.FIELDS` ("volume",
+        "lcb"); the
+        symbol of a form parameter of the catalogue ("Cp", "Cpa"); "A ST 5" for the immersed
+        area of the station of that name, "A x=42.5" for that of the surface at a place, m
+        from AP.
+    keys : tuple of m (str, str)
+        The kind of each, and how that kind calls it.
+    kg : float or None, m
+        Centre of gravity above the base line, for metacentric heights.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.variation.aiming.outputs import Outputs
+    >>> state = examples.wigley().state
+    >>> outputs = Outputs.of(state, ["volume", "Cp", "A ST 7"])
+    >>> outputs.units, outputs.values(state).round(3).tolist()
+    (('m3', '-', 'm2'), [2777.447, 0.667, 37.915])
+    """
+
+    names: tuple[str, ...]
+    keys: tuple[tuple[str, str], ...]
+    kg: float | None = None
+
+    @classmethod
+    def of(cls, state: HullState, names: Iterable[str], *, kg: float | None = None) -> Outputs:
+        """Understand names, and see that a hull has such values.
+
+        Parameters
+        ----------
+        state : HullState
+            The hull.
+        names : iterable of m str
+            See the attributes.
+        kg : float or None, m
+            Centre of gravity above the base line.
+
+        Raises
+        ------
+        UnknownNameError
+            A name of nothing, with those that are nearest.
+        BadInputError
+            A name that stands twice; a value that this hull does not have, and why.
+        """
+        given = _names(names)
+        height = None if kg is None else number(kg, "kg", _WHERE)
+        found = cls(given, tuple(_key(each, state) for each in given), height)
+        found.values(state)
+        return found
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """The unit of each output; a dash where there is none."""
+        return tuple(KINDS[kind].unit(key) for kind, key in self.keys)
+
+    def values(self, state: HullState, *, like: HullState | None = None) -> FloatArray:
+        """Give the outputs of a hull, (m,), in their units.
+
+        Parameters
+        ----------
+        state : HullState
+            The hull.
+        like : HullState or None
+            A hull from which it differs by places only: its layout is used, and its doubts count.
+
+        Raises
+        ------
+        OutOfRangeError
+            It does not float at its design draught.
+        BadInputError
+            It is doubtful, or lacks a value.
+        """
+        return self._values(self.afloat(state, like))
+
+    def values_of(self, body: Flotation, particulars: Particulars | None = None) -> FloatArray:
+        """Give the outputs of a hull whose surface is at hand, (m,).
+
+        Parameters
+        ----------
+        body : Flotation
+            For instance of points that have moved
+            (`assoc_hull.analysis.derivatives.reused_layout`).
+        particulars : Particulars or None
+            Its dimensions, m; those of its tables if None.
+        """
+        return self._values(self._shape(body, particulars))
+
+    def derivatives(
+        self, state: HullState, shapes: Sequence[Parameter], *, like: HullState | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Give the outputs of a hull (m,), and their derivatives by parameters (m, k)."""
+        found = self.differentiated(state, shapes, like=like)
+        return found.values, found.jacobian
+
+    def differentiated(
+        self, state: HullState, wrt: Sequence[Parameter], *, like: HullState | None = None
+    ) -> OutputRates:
+        """Give the outputs of a hull, their derivatives, and how these were taken.
+
+        Parameters
+        ----------
+        state : HullState
+            The hull.
+        wrt : sequence of k parameters
+            Of `assoc_hull.analysis.derivatives.parameters`, or `Moves`; not of a position that
+            heels.
+        like : HullState or None
+            As for `values`.
+
+        Raises
+        ------
+        OutOfRangeError, BadInputError, WrongTypeError
+            As `values`; a parameter that cannot be used.
+        """
+        shape = self.afloat(state, like)
+        values = self._values(shape)
+        jacobian = np.zeros((len(self.names), len(wrt)))
+        exact = np.ones(len(self.names), np.bool_)
+        for some in tangents_by(shape.body, shape.planes, shape.header, _upright(wrt), sinks=True):
+            for kind, rows, keys in self._by_kind():
+                rates, sure = KINDS[kind].rates(keys, shape, some)
+                jacobian[np.ix_(rows, some.where)] = rates
+                exact[rows] &= sure
+        return OutputRates(values, jacobian, exact)
+
+    def afloat(self, state: HullState, like: HullState | None = None) -> Shape:
+        """Give a hull as its outputs are taken of it, or say what makes it doubtful."""
+        looked_at = flotation(state if like is None else like)
+        body = looked_at if like is None else flotation_like(like, state)
+        shape = self._shape(body, None)
+        doubts = looked_at.doubts(shape.planes, numbers=False)
+        if doubts:
+            raise BadInputError(doubts[0], _WHERE, "mend the hull")
+        return shape
+
+    def _shape(self, body: Flotation, particulars: Particulars | None) -> Shape:
+        ship = body.state.particulars if particulars is None else particulars
+        terms: dict[str, object] = {
+            "rho": SALT, "shell_factor": 1.0, "kg": self.kg, "appendages": (), "fingerprint": "",
+        }  # fmt: skip
+        header = attrs.evolve(
+            header_of(_Tables(body.state), body, terms),
+            length=ship.length, breadth=ship.breadth, draught=ship.draught,
+        )  # fmt: skip
+        return Shape(body, header, FloatingPosition(ship.draught, ship.draught), ship.depth)
+
+    def _values(self, shape: Shape) -> FloatArray:
+        found = np.zeros(len(self.names))
+        for kind, rows, keys in self._by_kind():
+            found[rows] = KINDS[kind].values(keys, shape)
+        return found
+
+    def _by_kind(self) -> list[tuple[str, list[int], list[str]]]:
+        """Give kinds, with the places of their outputs and their keys."""
+        found: dict[str, list[int]] = {}
+        for i, (kind, _) in enumerate(self.keys):
+            found.setdefault(kind, []).append(i)
+        return [(kind, rows, [self.keys[i][1] for i in rows]) for kind, rows in found.items()]
+
+
+def _upright(wrt: Iterable[Parameter]) -> list[Parameter]:
+    """Take parameters that leave the hull upright."""
+    found = all_of(wrt, Parameter, "wrt", _WHERE)  # type: ignore[type-abstract]
+    for each in found:
+        if isinstance(each, Position) and each.rates[2] != 0.0:
+            raise BadInputError(
+                f"{each.title!r} heels the hull", _WHERE, "ask hydrostatic_derivatives by it"
+            )
+    return found
+
+
+def _names(names: object) -> tuple[str, ...]:
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise WrongTypeError(f"names is {shown(names)}", _WHERE, "give a list of names")
+    found = tuple(names)
+    for each in found:
+        if not isinstance(each, str):
+            raise WrongTypeError(f"a name is {shown(each)}", _WHERE, "give text")
+        if found.count(each) > 1:
+            raise BadInputError(f"{each!r} stands twice", _WHERE, "ask for it once")
+    return found
+
+
+def _key(name: str, state: HullState) -> tuple[str, str]:
+    """Tell of what kind an output is, and how its kind calls it."""
+    if name in FIELDS:
+        return "field", name
+    if name in CATALOGUE:
+        return "form", name
+    if name.startswith(_AREA + _AT):
+        place = number(name.removeprefix(_AREA + _AT), f"the place in {name!r}", _WHERE)
+        return "place", repr(place)
+    if name.startswith(_AREA):
+        return "station", name.removeprefix(_AREA)
+    stations = (_AREA + each for each in flotation(state).sections.names)
+    raise UnknownNameError("output", shown_name(name), (*FIELDS, *CATALOGUE, *stations))

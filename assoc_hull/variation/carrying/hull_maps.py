@@ -1,0 +1,181 @@
+"""The maps of a parent as a function of amplitudes, and what each of them does to its lines."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.given import Given
+from assoc_hull.edit.mapped_features import carry_features
+from assoc_hull.edit.mapped_planes import Planes, carry_planes
+from assoc_hull.edit.space_map import SpaceMap
+from assoc_hull.geometry.curves import FloatArray, IntArray
+from assoc_hull.model.features import Feature
+from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.variation.ask import Ask
+from assoc_hull.variation.carrying.carry_out import resized
+from assoc_hull.variation.carrying.drivers import driving
+from assoc_hull.variation.carrying.room import Room, asked_radii
+from assoc_hull.variation.carrying.stations import section_planes
+from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.features.map import FeatureMap
+from assoc_hull.variation.features.redrawn_features import regenerated
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.parameters.freedom import Freedom
+
+__all__ = ["HullMaps", "Laid"]
+
+
+@attrs.frozen(eq=False)
+class Laid:
+    """A map at some amplitudes, and what becomes of lines, features and dimensions.
+
+    Attributes
+    ----------
+    vmap : VMap
+        The map without features.
+    map : FeatureMap
+        The map with circles and bilges drawn anew.
+    planes : Planes
+        Where the planes of the parent's lines go.
+    features : tuple of Feature
+        The parent's features with the numbers that they get.
+    particulars : Particulars
+    """
+
+    vmap: VMap
+    map: FeatureMap
+    planes: Planes
+    features: tuple[Feature, ...]
+    particulars: Particulars
+
+
+@attrs.frozen(eq=False)
+class HullMaps:
+    """The maps of a parent by the amplitudes of its free parameters.
+
+    Attributes
+    ----------
+    room : Room
+        Lays out maps of named parameters, and certifies them.
+    ask : Ask
+        What is asked for besides.
+    aim : mapping of str to float
+        What the map is to give the parameters that are set, m or degrees: what is asked for, and
+        what lofting leaves over.
+    free : tuple of k Freedom
+    """
+
+    room: Room
+    ask: Ask
+    aim: Mapping[str, float]
+    free: tuple[Freedom, ...]
+
+    @property
+    def state(self) -> HullState:
+        """The tables of the parent."""
+        return self.room.state
+
+    def still(self, amplitudes: FloatArray) -> bool:
+        """Tell whether the map is that which moves nothing."""
+        return not (self.aim or self.ask.layers or np.any(amplitudes))
+
+    def values(self, amplitudes: FloatArray) -> dict[str, float]:
+        """Give the values that named parameters get: those that are set, and those that are free.
+
+        Parameters
+        ----------
+        amplitudes : (k,)
+            Of the free parameters.
+        """
+        named = self._named(amplitudes)
+        return dict(self.ask.values) | {each.name: each.present + by for each, by in named}
+
+    def _named(self, amplitudes: FloatArray) -> list[tuple[Freedom, float]]:
+        pairs = zip(self.free, amplitudes.tolist(), strict=True)
+        return [(each, by) for each, by in pairs if each.layer is None]
+
+    def _asked(self, amplitudes: FloatArray) -> dict[str, float]:
+        """Give what is asked of the map; of what does not change, nothing."""
+        named = [(each, by) for each, by in self._named(amplitudes) if by != 0.0]
+        return dict(self.aim) | {each.name: each.present + by for each, by in named}
+
+    def map(self, amplitudes: FloatArray) -> VMap:
+        """Lay out the map, uncertified.
+
+        Raises
+        ------
+        OutOfRangeError, BadInputError
+            A value cannot be laid out.
+        """
+        if self.still(amplitudes):
+            return VMap(())
+        named = self.room.map(self._asked(amplitudes)).layers
+        return VMap((*named, *self.ask.layers, *self._raw(amplitudes)))
+
+    def _raw(self, amplitudes: FloatArray) -> list[Layer]:
+        pairs = zip(self.free, amplitudes.tolist(), strict=True)
+        found = [each.scaled(amplitude) for each, amplitude in pairs]
+        return [layer for layer in found if layer is not None]
+
+    def certified(self, amplitudes: FloatArray) -> tuple[VMap, Certificate]:
+        """Lay out the map, and certify that it folds nothing.
+
+        Raises
+        ------
+        FoldError, OutOfRangeError, BadInputError
+            There is no such map; why.
+        """
+        asked = self._asked(amplitudes)
+        self.room.check(asked)
+        vmap = self.map(amplitudes)
+        return vmap, self.room.certified(vmap, asked)
+
+    def with_boundaries(self, lines: Sequence[int]) -> IntArray:
+        """Give lines that drive, boundary curves among them, rising."""
+        table = self.state.lines
+        boundary = np.flatnonzero(table.alive.data & (table.boundary.data >= 0))
+        return np.union1d(boundary, np.array(lines, np.int64))
+
+    def driving(self, amplitudes: FloatArray) -> tuple[IntArray, bool]:
+        """Give the lines that drive under a map, and whether planes of followers go along."""
+        state, ask, vmap = self.state, self.ask, self.map(amplitudes)
+        anew = regenerated(state, vmap, self._radii(amplitudes))
+        given = None if ask.drivers is None else Given(state).driving(ask.drivers)
+        kept = driving(
+            state, SpaceMap(anew.map, anew.map.jacobian), given, ask.stations,
+            follow=ask.planes == "follow",
+        )  # fmt: skip
+        return self.with_boundaries(kept.lines), kept.follow
+
+    def _radii(self, amplitudes: FloatArray) -> dict[str, float]:
+        asked = self.values(amplitudes)
+        return asked_radii(self.state, self.room.parent, asked, self.room.present)
+
+    def places(self, amplitudes: FloatArray, source: FloatArray) -> FloatArray:
+        """Give where a map sends places (n, 3) of the parent, m, circles drawn anew."""
+        found = regenerated(self.state, self.map(amplitudes), self._radii(amplitudes)).map(source)
+        return np.asarray(found)
+
+    def laid(self, amplitudes: FloatArray, lines: IntArray, *, follow: bool) -> Laid:
+        """Give a map, and what it does with lines, features and dimensions of the parent.
+
+        Parameters
+        ----------
+        amplitudes : (k,)
+        lines : (d,) int
+            Numbers of the lines that drive, boundary curves among them.
+        follow : bool
+            Whether planes of followers go along.
+        """
+        state, vmap, asked = self.state, self.map(amplitudes), self.values(amplitudes)
+        anew = regenerated(state, vmap, self._radii(amplitudes))
+        space = SpaceMap(anew.map, anew.map.jacobian)
+        levels = section_planes(state, vmap.layers) if self.ask.stations == "number" else None
+        planes = carry_planes(state, space, lines, follow=follow, levels=levels)
+        features = anew.features(carry_features(state, space, np.inf)).features
+        size = resized(state, vmap, self.room.parent, asked)
+        return Laid(vmap, anew.map, planes, features, size)

@@ -1,0 +1,294 @@
+"""How fast everything of a varied hull moves with each free parameter.
+
+A hull Q was carried from its parent P by the map M at some amplitudes. By amplitude j its places
+move as the map does at what they come from,
+
+    v_j(Q) = d M(P) / d lambda_j        P = M^-1(Q)
+
+Planes of lines go as a transformation sends them, and points stay in these (`slide_rates`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.nudge import Nudge, nudged
+from assoc_hull.errors import AssocHullError, BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, freeze
+from assoc_hull.model.state import HullState, Particulars
+from assoc_hull.variation.carrying.hull_maps import HullMaps, Laid
+from assoc_hull.variation.carrying.slide_rates import Ground, bending
+from assoc_hull.variation.carrying.turn_rates import turns
+
+__all__ = ["SIZES", "Velocities", "velocities"]
+
+SIZES = ("length", "breadth", "depth", "draught")
+"""Particulars that change, in the order of their rates."""
+
+_STEP = 1e-3
+"""Half the span of central differences, in usual changes."""
+
+_SAME = 1e-9
+"""m: a point of the parent whose image is so near to where it came to went there."""
+
+_ROUNDS = 8
+_NEAR = 1e-4
+"""m: a map that draws circles anew lays all that is near one onto it, which cannot be undone."""
+
+_NUMBERS = ("centre", "radius", "offset")
+
+
+@attrs.frozen(eq=False)
+class Velocities:
+    """Rates of everything of a hull by k amplitudes.
+
+    Attributes
+    ----------
+    move : (k, rows, 3), m per unit
+        Displacements of all points of the tables.
+    carried : (k, rows, 3), m per unit
+        Those of the map itself, from which points slide to stay in their planes.
+    turn : (k, rows, 3, 3)
+        How given directions turn.
+    level : (k, lines), m per unit
+        Of planes, along their normals.
+    sizes : (k, 4), m per unit
+        Of length, breadth, depth and draught.
+    features : tuple of k mappings of str to mapping of str to float or (3,)
+        Of centres, radii and offsets, by key.
+    rows : (n,) int
+        The points that move by themselves; the others are computed.
+    bend : (n,), 1/m
+        How much the curves through these bend.
+    source, place : (n, 3), m
+        Where they come from in the parent, and where they are.
+    """
+
+    move: FloatArray
+    carried: FloatArray
+    turn: FloatArray
+    level: FloatArray
+    sizes: FloatArray
+    features: tuple[Mapping[str, Mapping[str, FloatArray]], ...]
+    rows: IntArray
+    bend: FloatArray
+    source: FloatArray
+    place: FloatArray
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.move, self.carried, self.turn, self.level, self.sizes, self.rows, self.bend)
+
+    def nudge(self, by: FloatArray, size: Particulars, within: float) -> Nudge:
+        """Give the nudge that changes of the amplitudes make.
+
+        Parameters
+        ----------
+        by : (k,)
+            The changes.
+        size : Particulars
+            Those of the hull before.
+        within : float, m
+            How far points of features may come to lie off them.
+        """
+        rates = _sum(by, self.sizes).tolist()
+        sizes = {name: getattr(size, name) + rates[i] for i, name in enumerate(SIZES)}
+        features = dict[str, dict[str, FloatArray]]()
+        for amount, each in zip(by.tolist(), self.features, strict=True):
+            for key, numbers in each.items():
+                mine = features.setdefault(key, {})
+                for name, rate in numbers.items():
+                    mine[name] = mine.get(name, np.zeros(np.shape(rate))) + amount * rate
+        return Nudge(
+            _sum(by, self.move), _sum(by, self.turn), _sum(by, self.level), features,
+            attrs.evolve(size, **sizes), within,
+        )  # fmt: skip
+
+    def farthest(self, by: FloatArray) -> float:
+        """Give how far the map moves points at most, m."""
+        gone = _sum(by, self.carried[:, self.rows])
+        return float(np.sqrt((gone * gone).sum(axis=1)).max(initial=0.0))
+
+    def slides_off(self, by: FloatArray) -> float:
+        """Give how far points that slide leave the hull at most, m.
+
+        A point that slides by s along a curve of curvature k leaves it by k s^2 / 2.
+        """
+        slid = _sum(by, self.move[:, self.rows] - self.carried[:, self.rows])
+        return float((0.5 * self.bend * (slid * slid).sum(axis=1)).max(initial=0.0))
+
+    def strays(self, by: FloatArray, maps: HullMaps, amplitudes: FloatArray) -> float:
+        """Give how far points come to lie at most from where the map itself sends them, m."""
+        gone = self.place + _sum(by, self.carried[:, self.rows])
+        away = gone - maps.places(amplitudes, self.source)
+        return float(np.sqrt((away * away).sum(axis=1)).max(initial=0.0))
+
+    def turning(self, by: FloatArray) -> FloatArray:
+        """Give how directions turn that were turned already by a nudge, (k, rows, 3, 3)."""
+        if not self.turn.any():
+            return self.turn
+        turned = np.eye(3) + _sum(by, self.turn)
+        found: FloatArray = self.turn @ np.linalg.inv(turned)
+        return found
+
+
+def _sum(by: FloatArray, rates: FloatArray) -> FloatArray:
+    """Sum rates times amounts, in order."""
+    found = np.zeros(rates.shape[1:])
+    for amount, rate in zip(by.tolist(), rates, strict=True):
+        found += amount * rate
+    return found
+
+
+def velocities(
+    state: HullState, maps: HullMaps, amplitudes: FloatArray, lines: IntArray, *, follow: bool
+) -> Velocities:
+    """Find how fast a carried hull moves with each free parameter.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables of the carried hull; those of the parent where nothing has moved yet.
+    maps : HullMaps
+        The maps of the parent.
+    amplitudes : (k,)
+        Those that it was carried by.
+    lines : (d,) int
+        Lines that drove, boundary curves among them.
+    follow : bool
+        Whether planes of followers went along.
+
+    Raises
+    ------
+    BadInputError
+        The map cannot be undone at a point; parameters have no neighbouring values.
+    """
+    here = maps.laid(amplitudes, lines, follow=follow)
+    source = _sources(state, maps.state, here)
+    ground, found = Ground.of(state, lines), list[tuple[FloatArray, ...]]()
+    features = list[dict[str, dict[str, FloatArray]]]()
+    for j, each in enumerate(maps.free):
+        beside = list[Laid | AssocHullError]()
+        for by in (_STEP * each.usual, -_STEP * each.usual):
+            there = amplitudes.copy()
+            there[j] += by
+            beside.append(_laid(maps, there, lines, follow=follow))
+        pair, span = _spanned(beside, here, _STEP * each.usual)
+        found.append(_rates(state, ground, here, pair, source, span))
+        features.append(_feature_rates(pair, span))
+    move, carried, turn, level, sizes = (np.stack(part) for part in zip(*found, strict=True))
+    rows = nudged(state)
+    return Velocities(
+        move, carried, turn, level, sizes, tuple(features), rows, bending(state)[rows],
+        source[rows], state.rows.xyz.data[rows].copy(),
+    )  # fmt: skip
+
+
+def _laid(
+    maps: HullMaps, amplitudes: FloatArray, lines: IntArray, *, follow: bool
+) -> Laid | AssocHullError:
+    """Lay out a map beside, or give why there is none."""
+    try:
+        return maps.laid(amplitudes, lines, follow=follow)
+    except AssocHullError as error:
+        return error
+
+
+def _spanned(
+    beside: Sequence[Laid | AssocHullError], here: Laid, step: float
+) -> tuple[list[Laid], float]:
+    """Give the maps of a difference, and its span: at the end of a range it is to one side."""
+    pair = [each if isinstance(each, Laid) else here for each in beside]
+    missing = [each for each in beside if not isinstance(each, Laid)]
+    if len(missing) == len(beside):
+        raise missing[0]
+    return pair, step * (len(beside) - len(missing))
+
+
+def _rates(
+    state: HullState, ground: Ground, here: Laid, pair: Sequence[Laid], source: FloatArray,
+    span: float,
+) -> tuple[FloatArray, ...]:  # fmt: skip
+    """Give displacements, those of the map, turns, levels and sizes by one amplitude."""
+    live = state.live("rows")
+    carried = np.zeros((state.rows.count, 3))
+    carried[live] = (pair[0].map(source[live]) - pair[1].map(source[live])) / span
+    level = _levels(state, pair, carried, ground, span)
+    move = ground.kept(carried, level)
+    move[~state.rows.alive.data] = 0.0
+    turn = turns(state, ground, here, pair, source, span)
+    size = [np.array([getattr(each.particulars, name) for name in SIZES]) for each in pair]
+    return move, carried, turn, level, (size[0] - size[1]) / span
+
+
+def _sources(state: HullState, parent: HullState, here: Laid) -> FloatArray:
+    """Give where the points of a carried hull come from, (rows, 3), m.
+
+    Points of the parent that went where the map sends them come from where they were, to the bit.
+    """
+    live = state.live("rows")
+    old = live[live < parent.rows.count]
+    places: FloatArray = state.rows.xyz.data
+    found = places.copy()
+    source = parent.rows.xyz.data[old]
+    went = np.abs(here.map(source) - places[old]).max(axis=1) <= _SAME
+    found[old[went]] = source[went]
+    rest = np.setdiff1d(live, old[went])
+    found[rest] = _undone(here, places[rest])
+    return found
+
+
+def _undone(here: Laid, places: FloatArray) -> FloatArray:
+    """Undo a map at places, by Newton's rule: to rounding, but beside circles drawn anew."""
+    guess, mapped = np.array(here.vmap.inverse(places)), here.map
+    found, best, left = guess.copy(), np.full(len(places), np.inf), np.arange(len(places))
+    for _ in range(_ROUNDS):
+        off = mapped(guess[left]) - places[left]
+        away = np.abs(off).max(axis=1, initial=0.0)
+        better = away < best[left]
+        found[left[better]], best[left[better]] = guess[left[better]], away[better]
+        left, off = left[away > _SAME], off[away > _SAME]
+        if not len(left):
+            break
+        slope = mapped.jacobian(guess[left])
+        guess[left] -= np.linalg.solve(slope, off[:, :, None])[:, :, 0]
+    worst = int(best.argmax()) if len(best) else 0
+    if len(best) and best[worst] > _NEAR:
+        x, y, z = places[worst].tolist()
+        raise BadInputError(
+            f"the map cannot be undone to {best[worst]:.2g} m",
+            f"at ({x:.3f}, {y:.3f}, {z:.3f}) m in vary", "ask for less",
+        )  # fmt: skip
+    return found
+
+
+def _levels(
+    state: HullState, pair: Sequence[Laid], carried: FloatArray, ground: Ground, span: float
+) -> FloatArray:
+    """Give how fast the planes of lines move along their normals, (l,), m per unit.
+
+    A plane that turns, or bends into none, moves as most of the points do that lie in it.
+    """
+    table, plus, minus = state.lines, pair[0].planes, pair[1].planes
+    parallel = plus.planar & minus.planar & (plus.normal == minus.normal).all(axis=1)
+    found = np.where(parallel, plus.offset - minus.offset, 0.0) / span
+    found[~(table.alive.data & table.planar.data)] = 0.0
+    for line in np.flatnonzero(table.alive.data & table.planar.data & ~parallel).tolist():
+        mine = carried[(ground.line == line).any(axis=1)]
+        found[line] = np.median((mine * table.normal.data[line]).sum(axis=1))
+    return found
+
+
+def _feature_rates(pair: Sequence[Laid], span: float) -> dict[str, dict[str, FloatArray]]:
+    """Give how fast the numbers of features change, by key."""
+    other = {each.key: each for each in pair[1].features}
+    found = dict[str, dict[str, FloatArray]]()
+    for each in pair[0].features:
+        for name in _NUMBERS:
+            high, low = getattr(each, name), getattr(other[each.key], name)
+            if high is not None and high != low:
+                rate = (np.asarray(high) - np.asarray(low)) / span
+                found.setdefault(each.key, {})[name] = rate
+    return found

@@ -1,0 +1,1 @@
+"""A parent and a variant side by side: lines, numbers, fairness, features."""

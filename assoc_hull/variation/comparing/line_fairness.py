@@ -1,0 +1,263 @@
+"""How fair the lines of a varied net are beside those of its parent, line by line.
+
+A line is measured before and after: an edit changes the hull in place, so the parent is
+measured first. Two numbers count: how often its curvature changes sign beyond a dead band,
+and the integral of the squared slope of its curvature comb, of which the ratio is told.
+
+Examples
+--------
+>>> import assoc_hull as ah
+>>> from assoc_hull.variation.comparing.line_fairness import compare_fairness, measure_fairness
+>>> hull = ah.examples.wigley()
+>>> parent = measure_fairness(hull.document.state)
+>>> with hull.edit("10 % broader") as edit:
+...     edit.transform(scale=[1, 1.1, 1], drivers=["sections", "profile"])
+>>> table = compare_fairness(parent, measure_fairness(hull.document.state, like=parent))
+>>> table.added
+0
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray, IntArray, SplineBatch
+from assoc_hull.geometry.fairness.comb_integrals import (
+    DEAD_BAND,
+    comb_integrals,
+    curvature_sign_changes,
+    greatest_curvatures,
+)
+from assoc_hull.model.state import HullState
+
+__all__ = [
+    "FairnessChange",
+    "FairnessTable",
+    "LineFairness",
+    "compare_fairness",
+    "measure_fairness",
+]
+
+_VIEWS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+"""A curve in space is seen from the side and from above; what both show is added."""
+
+
+@attrs.frozen(eq=False)
+class LineFairness:
+    """One line as it is.
+
+    Attributes
+    ----------
+    key, name : str
+        The line.
+    views : (v, 3)
+        Unit normals of the planes in which it is seen: its own, or two for a line in space.
+    sign_changes : int
+        Changes of sign of the curvature of all its curves, beyond the dead band.
+    comb : float, 1/m3
+        Integral of (dk/ds)^2 ds over all its curves.
+    greatest : float, 1/m
+        Greatest curvature.
+    """
+
+    key: str
+    name: str
+    views: FloatArray
+    sign_changes: int
+    comb: float
+    greatest: float
+
+    @property
+    def is_straight(self) -> bool:
+        """Tell whether its curvature stays within the dead band."""
+        return self.greatest <= DEAD_BAND
+
+
+@attrs.frozen(eq=False)
+class FairnessChange:
+    """A line before and after a variation."""
+
+    before: LineFairness
+    after: LineFairness
+
+    @property
+    def name(self) -> str:
+        """Name of the line."""
+        return self.before.name
+
+    @property
+    def added(self) -> int:
+        """Changes of sign that the variation added; negative if it took some away."""
+        return self.after.sign_changes - self.before.sign_changes
+
+    @property
+    def changed(self) -> bool:
+        """Tell whether the shape of the line has changed at all."""
+        return self.before.comb != self.after.comb or self.added != 0
+
+    @property
+    def comb_ratio(self) -> float:
+        """Comb integral varied / parent; nan where both are straight within the dead band."""
+        if self.before.is_straight and self.after.is_straight:
+            return float("nan")
+        if self.before.comb == 0.0:
+            return 1.0 if self.after.comb == 0.0 else float("inf")
+        return self.after.comb / self.before.comb
+
+
+@attrs.frozen(eq=False)
+class FairnessTable:
+    """The lines that both hulls have, in the order of the parent's.
+
+    Attributes
+    ----------
+    lines : tuple of FairnessChange
+        Line by line.
+    """
+
+    lines: tuple[FairnessChange, ...]
+
+    @property
+    def changed(self) -> tuple[FairnessChange, ...]:
+        """The lines whose shape has changed."""
+        return tuple(line for line in self.lines if line.changed)
+
+    @property
+    def before(self) -> int:
+        """Changes of sign in the parent, over the lines that have changed."""
+        return sum(line.before.sign_changes for line in self.changed)
+
+    @property
+    def after(self) -> int:
+        """Changes of sign in the varied hull, over the same lines."""
+        return sum(line.after.sign_changes for line in self.changed)
+
+    @property
+    def added(self) -> int:
+        """Changes of sign added, over all lines together."""
+        return self.after - self.before
+
+    @property
+    def median(self) -> float:
+        """Median of the comb ratios of lines that have changed; 1 if none has one."""
+        ratios = self._ratios
+        return float(np.median(ratios)) if len(ratios) else 1.0
+
+    @property
+    def worst(self) -> float:
+        """Greatest comb ratio of the lines that have changed; 1 if none has one."""
+        ratios = self._ratios
+        return float(ratios.max()) if len(ratios) else 1.0
+
+    @property
+    def _ratios(self) -> FloatArray:
+        ratios = np.array([line.comb_ratio for line in self.changed], np.float64)
+        return ratios[~np.isnan(ratios)]
+
+    @property
+    def worst_line(self) -> FairnessChange | None:
+        """The line with the greatest comb ratio, the first of equals; None if none has one."""
+        told = [line for line in self.changed if not np.isnan(line.comb_ratio)]
+        return max(told, key=lambda line: line.comb_ratio, default=None)
+
+
+def measure_fairness(
+    state: HullState,
+    lines: Iterable[int] | None = None,
+    *,
+    like: Mapping[str, LineFairness] | None = None,
+    band: float = DEAD_BAND,
+) -> dict[str, LineFairness]:
+    """Measure lines of a net.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables of the hull.
+    lines : iterable of int or None
+        Numbers of lines; all live ones if None.
+    like : mapping of str to LineFairness or None
+        The parent's lines by key: a line that it has is seen in the same planes, so that one
+        which was bent out of its plane is judged as it was.
+    band : float, 1/m
+        The dead band.
+
+    Returns
+    -------
+    dict of str to LineFairness
+        By key of the line, in the order given; lines without a shape are left out.
+
+    Raises
+    ------
+    BadInputError
+        No such line, or a negative band.
+    """
+    table = state.lines
+    wanted = state.live("lines").tolist() if lines is None else [int(line) for line in lines]
+    for line in wanted:
+        if not 0 <= line < table.count or not table.alive.data[line]:
+            what = f"there is no line {line}"
+            raise BadInputError(what, "in measure_fairness", "give numbers of live lines")
+    curves = [(line, curve) for line in wanted for curve in state.curves_of(line)]
+    wanted = list(dict.fromkeys(line for line, _ in curves))
+    views = {line: _views(state, line, like or {}) for line in wanted}
+    seen = [(line, curve, view) for line, curve in curves for view in views[line]]
+    if not seen:
+        return {}
+    batch = SplineBatch.join([state.spline(curve) for _, curve, _ in seen])
+    normals = np.array([view for _, _, view in seen])
+    place = {line: i for i, line in enumerate(wanted)}
+    owner = np.array([place[line] for line, _, _ in seen])
+    found = _summed(batch, normals, owner, band)
+    return {
+        str(table.key.data[line]): LineFairness(
+            str(table.key.data[line]), str(table.name.data[line]), views[line], *each
+        )
+        for line, each in zip(wanted, found, strict=True)
+    }
+
+
+def _summed(
+    batch: SplineBatch, normals: FloatArray, owner: IntArray, band: float
+) -> list[tuple[int, float, float]]:
+    """Give sign changes, comb integral and greatest curvature of each line."""
+    changes = np.bincount(owner, curvature_sign_changes(batch, normals, band)).astype(np.int64)
+    comb = np.bincount(owner, comb_integrals(batch, normals))
+    greatest = np.zeros(len(comb))
+    np.maximum.at(greatest, owner, greatest_curvatures(batch, normals))
+    return list(zip(changes.tolist(), comb.tolist(), greatest.tolist(), strict=True))
+
+
+def _views(state: HullState, line: int, like: Mapping[str, LineFairness]) -> FloatArray:
+    """Give the normals of the planes in which a line is seen."""
+    parent = like.get(str(state.lines.key.data[line]))
+    if parent is not None:
+        return parent.views
+    if not state.lines.planar.data[line]:
+        return _VIEWS
+    normal: FloatArray = state.lines.normal.data[line][None].copy()
+    return normal
+
+
+def compare_fairness(
+    parent: Mapping[str, LineFairness], varied: Mapping[str, LineFairness]
+) -> FairnessTable:
+    """Put the lines of a parent and of a varied hull side by side.
+
+    Parameters
+    ----------
+    parent, varied : mapping of str to LineFairness
+        What `measure_fairness` gives of them.
+
+    Returns
+    -------
+    FairnessTable
+        The lines that both have.
+    """
+    return FairnessTable(
+        tuple(FairnessChange(line, varied[key]) for key, line in parent.items() if key in varied)
+    )

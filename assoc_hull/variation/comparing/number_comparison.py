@@ -1,0 +1,184 @@
+"""The numbers of a parent and of a variant side by side: hydrostatics, and form parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import attrs
+
+from assoc_hull.analysis.form.catalogue import CATALOGUE
+from assoc_hull.analysis.form.form_parameters import form_parameters
+from assoc_hull.analysis.form.screw import Screw
+from assoc_hull.analysis.form.tables import by_table
+from assoc_hull.analysis.form.value import Value
+from assoc_hull.analysis.hydrostatics.hydrostatics import hydrostatics
+from assoc_hull.analysis.hydrostatics.measured_hull import HasState
+from assoc_hull.analysis.hydrostatics.record import Hydrostatics
+from assoc_hull.analysis.hydrostatics.record_fields import FIELDS
+from assoc_hull.errors import BadInputError, OutOfRangeError
+
+__all__ = ["NumberComparison", "Numbers", "compare_numbers", "numbers_of"]
+
+_LOADED = ("gmt", "gml")
+"""Of a hull whose centre of gravity is known; so they are not compared."""
+
+
+@attrs.frozen
+class NumberComparison:
+    """A number of both hulls.
+
+    Attributes
+    ----------
+    symbol, title, unit : str
+        As the record of hydrostatics or the catalogue of form parameters has it; a dash where
+        there is no unit.
+    digits : int
+        After the point, for people.
+    before, after : float or None
+        Of parent and variant; None where there is none.
+    reason : str or None
+        Why one of both, or both, are missing.
+    """
+
+    symbol: str
+    title: str
+    unit: str
+    digits: int
+    before: float | None
+    after: float | None
+    reason: str | None = None
+
+    @property
+    def difference(self) -> float | None:
+        """Variant less parent, in the unit; None where one is missing."""
+        if self.before is None or self.after is None:
+            return None
+        return self.after - self.before
+
+    @property
+    def percent(self) -> float | None:
+        """The difference in percent of the parent's value.
+
+        None if that is missing, or nil in its printed digits: then it is nothing but rounding.
+        """
+        if self.difference is None or self.before is None or not self._printed(self.before):
+            return None
+        return 100.0 * self.difference / abs(self.before)
+
+    @property
+    def is_same(self) -> bool:
+        """Tell whether both have it, or both have it not, and its printed digits are equal."""
+        if self.before is None or self.after is None:
+            return self.before is self.after
+        return self._printed(self.before) == self._printed(self.after)
+
+    def _printed(self, value: float) -> float:
+        return round(value, self.digits)
+
+
+@attrs.frozen(eq=False)
+class Numbers:
+    """What is measured of one hull.
+
+    Attributes
+    ----------
+    record : Hydrostatics or None
+        Upright at even keel.
+    parameters : mapping of str to Value
+        Form parameters by symbol; none where the hull cannot be measured.
+    trouble : str or None
+        Why it cannot.
+    """
+
+    record: Hydrostatics | None
+    parameters: Mapping[str, Value]
+    trouble: str | None = None
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What makes the numbers doubtful, or why there are none."""
+        if self.record is None:
+            return () if self.trouble is None else (self.trouble,)
+        return self.record.notes
+
+
+def numbers_of(hull: HasState, draught: float | None, screw: Screw | None) -> Numbers:
+    """Measure a hull at even keel.
+
+    Parameters
+    ----------
+    hull : Hull
+        The hull.
+    draught : float or None, m
+        Moulded; None: its design draught, and what cannot be measured there has a reason.
+    screw : Screw or None
+        For the form parameters that need it.
+
+    Raises
+    ------
+    OutOfRangeError, BadInputError
+        The hull does not float at the draught that was asked.
+    """
+    try:
+        record = hydrostatics(hull, draught=draught, estimate=False, on_error="report")
+        return Numbers(record, form_parameters(hull, draught=draught, screw=screw))
+    except (BadInputError, OutOfRangeError) as error:
+        if draught is not None:
+            raise
+        return Numbers(None, {}, str(error))
+
+
+def compare_numbers(
+    parent: Numbers, variant: Numbers
+) -> tuple[tuple[NumberComparison, ...], tuple[NumberComparison, ...]]:
+    """Put hydrostatics, then form parameters of two hulls side by side, in the order of tables.
+
+    Examples
+    --------
+    >>> from assoc_hull.sources import examples
+    >>> from assoc_hull.variation.comparing.number_comparison import compare_numbers, numbers_of
+    >>> numbers = numbers_of(examples.wigley(), None, None)
+    >>> (volume, *_), _ = compare_numbers(numbers, numbers)
+    >>> volume.symbol, volume.difference
+    ('volume', 0.0)
+    """
+    records = tuple(
+        NumberComparison(
+            name, each.title, each.unit, each.digits,
+            before := _field(parent, name), after := _field(variant, name),
+            _why(before, after, parent.trouble, variant.trouble),
+        )
+        for name, each in FIELDS.items()
+        if name not in _LOADED
+    )  # fmt: skip
+    entries = [entry for some in by_table(CATALOGUE.values()).values() for entry in some]
+    parameters = []
+    for entry in entries:
+        old, new = (_parameter(side, entry.symbol, entry.unit) for side in (parent, variant))
+        why = _why(old.number, new.number, old.reason, new.reason)
+        parameters.append(
+            NumberComparison(
+                entry.symbol, entry.name, entry.unit, entry.digits, old.number, new.number, why
+            )
+        )
+    return records, tuple(parameters)
+
+
+def _field(side: Numbers, name: str) -> float | None:
+    found: float | None = None if side.record is None else getattr(side.record, name)
+    return found
+
+
+def _parameter(side: Numbers, symbol: str, unit: str) -> Value:
+    if side.trouble is not None:
+        return Value(None, unit, symbol, reason=side.trouble)
+    return side.parameters[symbol]
+
+
+def _why(before: float | None, after: float | None, old: str | None, new: str | None) -> str | None:
+    """Say why a number is missing, and in which hull."""
+    if before is None and after is None:
+        return old if old == new else f"parent: {old}; variant: {new}"
+    if before is None:
+        return f"parent: {old}"
+    return f"variant: {new}" if after is None else None

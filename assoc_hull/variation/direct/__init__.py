@@ -1,0 +1,1 @@
+"""Direct manipulation: a curve goes through places, its points change least."""

@@ -1,0 +1,1 @@
+"""Circles and bilge arcs that are drawn again after a map."""

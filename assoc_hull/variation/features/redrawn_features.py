@@ -1,0 +1,209 @@
+"""The features of a hull that a variation makes anew, and what touches them.
+
+Circles are drawn anew about where the map sends their centres, bilge arcs between bottom and
+side. What the map does to flats, straight runs and knuckle lines their points tell: they stay
+features where it leaves them so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from assoc_hull.edit.followup.tangencies import Touch
+from assoc_hull.edit.mapped_features import CarriedFeatures
+from assoc_hull.edit.recut.carried_points import Carried
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.model.feature_geometry import host_curve
+from assoc_hull.model.features import Feature
+from assoc_hull.model.state import HullState
+from assoc_hull.variation.features.bilge_arc import BilgeMap
+from assoc_hull.variation.features.bilge_arcs_of_net import bilge_map
+from assoc_hull.variation.features.circle import GAP, Circle, Redrawn, redraw, touch
+from assoc_hull.variation.features.map import JOIN, FeatureMap, acting
+from assoc_hull.variation.fields.field import Region
+from assoc_hull.variation.fields.space_map import VMap
+
+__all__ = ["Regenerated", "regenerated"]
+
+_ROUND = 1e-6
+"""A curve that is a circle leaves it by no more (m)."""
+
+_OBLATE = 1.2
+"""A circle that is stretched by more one way than the other is meant to be an oval."""
+
+_END = 1e-3
+"""A touch as near as this (m) to an end of the curve is that end."""
+
+
+@attrs.frozen(eq=False)
+class Regenerated:
+    """A map that makes the circles of a hull anew.
+
+    Attributes
+    ----------
+    map : FeatureMap
+    keys : tuple of str
+        The features that the circles are.
+    hosts : tuple of int
+        The curves that they are, one each.
+    bilges : BilgeMap
+        What `map` draws circles anew after.
+    """
+
+    map: FeatureMap
+    keys: tuple[str, ...]
+    hosts: tuple[int, ...]
+    bilges: BilgeMap
+
+    def regions(self) -> tuple[Region, ...]:
+        """Give the boxes of the profile plane in which features change the map."""
+        return self.map.regions() + self.bilges.regions()
+
+    def settle(self, work: Carried) -> None:
+        """Tell a transformation which curves are circles, and which planes touch them."""
+        for curve, circle in zip(self.hosts, self.map.circles, strict=True):
+            work.fine[curve] = _ROUND
+            for found in _touches(work, curve, circle.after):
+                work.touches[curve, found.line] = found
+
+    def features(self, carried: CarriedFeatures) -> CarriedFeatures:
+        """Give carried features the centres and radii that they are drawn with."""
+        drawn = {
+            key: (circle.after.centre.tolist(), circle.after.radius)
+            for key, circle in zip(self.keys, self.map.circles, strict=True)
+        }
+        for arc in self.bilges.arcs:
+            drawn[arc.key] = arc.centre.tolist(), arc.after.radius
+        found = tuple(
+            _as_drawn(each, *drawn[each.key]) if each.key in drawn else each
+            for each in carried.features
+        )
+        return attrs.evolve(carried, features=found, bent=carried.bent - drawn.keys())
+
+
+def regenerated(
+    state: HullState, vmap: VMap, radii: Mapping[str, float] | None = None
+) -> Regenerated:
+    """Draw the circles and the bilge arcs of a hull anew for a map.
+
+    Parameters
+    ----------
+    state : HullState
+        The tables, before the map.
+    vmap : VMap
+        The map.
+    radii : mapping of str to float, m, or None
+        Radii that are asked for, by the keys of features.
+
+    Raises
+    ------
+    BadInputError
+        The map leaves a circle too far from any.
+    """
+    features = [each for each in state.features if each.kind == "circle"]
+    wanted = _of_cylinders(features, radii or {}, vmap)
+    drawn = {
+        each.key: _redrawn(each, vmap, wanted.get(each.key))
+        for each in features
+        if each.key in wanted or not _stretched(each, vmap)
+    }
+    some = [each for each in acting(list(drawn.values())) if not _even(each, vmap)]
+    chosen = [each for each in features if drawn.get(each.key) in some]
+    bilges = bilge_map(state, vmap)
+    return Regenerated(
+        FeatureMap(bilges, bilges.jacobian, tuple(drawn[each.key] for each in chosen)),
+        tuple(each.key for each in chosen),
+        tuple(host_curve(state, each) for each in chosen),
+        bilges,
+    )
+
+
+def _of_cylinders(
+    features: Sequence[Feature], radii: Mapping[str, float], vmap: VMap
+) -> dict[str, float]:
+    """Let a cylinder stay one: circles that are one with an asked one get its radius to the bit.
+
+    They are those on its axis of its radius which the map gives what is asked for but for rounding,
+    as the radius was measured on a curve.
+    """
+    found = dict(radii)
+    for asked in [each for each in features if each.key in radii]:
+        for each in features:
+            if each.key not in found and _one_cylinder(asked, each):
+                natural = _redrawn(each, vmap, None).after.radius
+                if abs(natural - radii[asked.key]) <= _ROUND:
+                    found[each.key] = radii[asked.key]
+    return found
+
+
+def _one_cylinder(one: Feature, other: Feature) -> bool:
+    """Tell whether two circles are of one cylinder: about one axis, and of one radius."""
+    if one.radius != other.radius or one.normal != other.normal:
+        return False
+    normal = np.array(one.parameters["normal"])
+    away = np.array(other.parameters["centre"]) - one.parameters["centre"]
+    return not (away - float((away * normal).sum()) * normal).any()
+
+
+def _even(circle: Redrawn, vmap: VMap) -> bool:
+    """Tell whether a circle is carried by a map that is affine in all its neighbourhood.
+
+    Its curve is then the curve of before, scaled, as are those that meet it: put onto the circle
+    to the bit, points would leave the planes of their lines.
+    """
+    if not circle.carried:
+        return False
+    reach = (JOIN + 1.0) * circle.before.radius * np.linspace(-1.0, 1.0, 15)
+    grid = np.stack(np.meshgrid(reach, reach, reach, indexing="ij"), axis=-1).reshape(-1, 3)
+    slope = vmap.jacobian(circle.before.centre + grid)
+    return bool((slope == slope[0]).all())
+
+
+def _stretched(feature: Feature, vmap: VMap) -> bool:
+    """Tell whether a map stretches a circle so much, and evenly, that it is meant to be none."""
+    normal = np.array(feature.parameters["normal"])
+    slope = vmap.jacobian(np.array([feature.parameters["centre"]]))[0]
+    across = slope - np.outer(slope @ normal, normal)
+    size = np.linalg.svd(across, compute_uv=False)
+    return bool(size[0] > _OBLATE * size[1])
+
+
+def _redrawn(feature: Feature, vmap: VMap, radius: float | None) -> Redrawn:
+    places = feature.parameters
+    before = Circle.of(places["centre"], float(feature.radius or 0.0), places["normal"])
+    gap = max(GAP, 2.0 * feature.gap)
+    return redraw(feature.name, before, vmap, vmap.jacobian, radius=radius, gap=gap)
+
+
+def _as_drawn(feature: Feature, centre: Sequence[float], radius: float) -> Feature:
+    return attrs.evolve(feature, centre=centre, radius=radius)
+
+
+def _touches(work: Carried, curve: int, circle: Circle) -> list[Touch]:
+    """Give the touches of a circle with the planes of lines that are cut again."""
+    state, planes = work.state, work.planes
+    line = state.lines
+    lines = state.live("lines")
+    lines = lines[~work.driver[lines] & planes.planar[lines] & (line.boundary.data[lines] < 0)]
+    found: list[Touch] = []
+    for each in sorted(lines.tolist(), key=lambda number: str(line.key.data[number])):
+        place = touch(circle, planes.normal[each], float(planes.offset[each]))
+        if place is not None and _within(work, curve, place):
+            found.append(Touch(curve, each, place))
+    return found
+
+
+def _within(work: Carried, curve: int, place: FloatArray) -> bool:
+    """Tell whether a place of a circle is one of the curve, and none of its ends."""
+    rows = work.state.curves.rows.data[curve]
+    image = work.image[rows]
+    step = np.sqrt(((image - place) ** 2).sum(axis=1))
+    if min(step[0], step[-1]) <= _END:
+        return False
+    chord = np.sqrt((np.diff(image, axis=0) ** 2).sum(axis=1))
+    near = int(np.argmin(step))
+    beside = chord[max(near - 1, 0) : near + 1]
+    return bool(step[near] <= float(beside.max()))

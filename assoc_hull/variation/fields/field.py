@@ -1,0 +1,363 @@
+"""Fields: displacements of one coordinate, laid out in the profile plane.
+
+A field moves one coordinate c by ``u``, evaluated at the place before the map. A stack of
+boundary curves ``h_0(x) < h_1(x) < ..`` parts the profile plane; each carries an affine piece
+
+    e_k(x, c) = a_k(x) (c - p_k) + d_k(x)
+
+and between two of them u goes over from one piece to the next by the blend of
+``s = (z - h_k) / (h_{k+1} - h_k)``. Below the stack u = e_0, above it u = e_m.
+
+With p = 0 and d = 0 this is the variation-ratio field of Choi & Lee, "A Study on the Hull Form
+Design System on the Basis of the Associative Geometry Objects", J. SNAK 36(4), 1999, section 3.4:
+a = ratio - 1. Pivot and shift let a field carry a place at coordinate nil, and make a circle a
+circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Literal
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.geometry.curves import FloatArray
+from assoc_hull.variation.fields.blend import QUINTIC, Blend
+from assoc_hull.variation.fields.gaps import check_gaps
+from assoc_hull.variation.fields.piecewise_linear import Chain, Course
+
+__all__ = ["Axis", "Boundary", "Field", "Piece", "Region", "Tube", "span", "stack"]
+
+Axis = Literal["x", "y", "z"]
+
+
+@attrs.frozen(eq=False)
+class Boundary:
+    """A boundary curve of a stack.
+
+    Attributes
+    ----------
+    name : str
+        For messages: ``"T"``, ``"shaft+r"``.
+    height : Course
+        h(x), m.
+    """
+
+    name: str
+    height: Course
+
+
+@attrs.frozen(eq=False)
+class Piece:
+    """An affine piece ``a(x) (c - pivot) + d(x)``.
+
+    Attributes
+    ----------
+    a : Course
+        Departure: ratio - 1.
+    pivot : float, m
+    d : Course
+        Shift, m.
+    """
+
+    a: Course
+    pivot: float
+    d: Course
+
+    @classmethod
+    def along(cls, course: Course, a: float, d: float, pivot: float = 0.0) -> Piece:
+        """Give a piece whose departure and shift fade by one course."""
+        return cls(course.scaled(a), pivot, course.scaled(d))
+
+    def scaled(self, factor: float) -> Piece:
+        """Give the piece times a factor."""
+        return Piece(self.a.scaled(factor), self.pivot, self.d.scaled(factor))
+
+
+@attrs.frozen
+class Tube:
+    """psi(y) in place of y: the identity within a radius, nil beyond n radii.
+
+    It keeps the widening of a slender part, a bossing, from widening the hull beside it.
+
+    Attributes
+    ----------
+    radius : float, m
+    n : float
+    blend : Blend
+    """
+
+    radius: float
+    n: float = 6.0
+    blend: Blend = QUINTIC
+
+    def at(self, y: FloatArray) -> FloatArray:
+        """Give psi, odd in y."""
+        return np.asarray(y * (1.0 - self.blend.value(self._s(y))))
+
+    def slope(self, y: FloatArray) -> FloatArray:
+        """Give psi'."""
+        s = self._s(y)
+        fade = self.blend.slope(s) * np.abs(y) / (self.radius * (self.n - 1.0))
+        return np.asarray(1.0 - self.blend.value(s) - fade)
+
+    def _s(self, y: FloatArray) -> FloatArray:
+        s: FloatArray = (np.abs(y) / self.radius - 1.0) / (self.n - 1.0)
+        return s
+
+
+@attrs.frozen
+class Region:
+    """Where a layer may move anything: a box of the profile plane, m.
+
+    Attributes
+    ----------
+    name : str
+    x, z : (float, float), m
+        Infinite where there is no end.
+    """
+
+    name: str
+    x: tuple[float, float]
+    z: tuple[float, float]
+
+
+@attrs.frozen(eq=False)
+class Field:
+    """A field with a stack of boundaries.
+
+    Attributes
+    ----------
+    name : str
+    axis : {"x", "y", "z"}
+        The coordinate that it moves.
+    boundaries : tuple of Boundary
+        From below.
+    pieces : tuple of Piece
+        One a boundary. Those of a y-field have no pivot and no shift: the centre plane stays.
+    blend : Blend
+    tube : Tube or None
+        For a y-field.
+    """
+
+    name: str
+    axis: Axis
+    boundaries: tuple[Boundary, ...]
+    pieces: tuple[Piece, ...]
+    blend: Blend = QUINTIC
+    tube: Tube | None = None
+
+    def __attrs_post_init__(self) -> None:
+        if len(self.boundaries) != len(self.pieces) or not self.pieces:
+            raise BadInputError(
+                f"field '{self.name}' has {len(self.boundaries)} boundary curves and "
+                f"{len(self.pieces)} pieces", "in vary", "give one piece a boundary curve",
+            )  # fmt: skip
+        if self.axis == "y" and any(each.pivot or _acts(each.d) for each in self.pieces):
+            raise BadInputError(
+                f"field '{self.name}' shifts y", "in vary",
+                "give ratios of y: the centre plane stays where it is",
+            )  # fmt: skip
+
+    @classmethod
+    def checked(
+        cls,
+        name: str,
+        axis: Axis,
+        boundaries: Sequence[Boundary],
+        pieces: Sequence[Piece],
+        *,
+        blend: Blend = QUINTIC,
+        tube: Tube | None = None,
+    ) -> Field:
+        """Take a field as a designer lays it out.
+
+        Raises
+        ------
+        BadInputError
+            Boundary curves that touch or cross anywhere along the ship; not one piece a
+            boundary; a y-field that shifts.
+        """
+        check_gaps(name, [(each.name, each.height) for each in boundaries])
+        return cls(name, axis, tuple(boundaries), tuple(pieces), blend, tube)
+
+    def scaled(self, factor: float) -> Field:
+        """Give the field with its displacement times a factor."""
+        return attrs.evolve(self, pieces=tuple(each.scaled(factor) for each in self.pieces))
+
+    def displacement(self, xyz: FloatArray) -> FloatArray:
+        """Give u, (n,), m, at places (n, 3), m; only those in the region are looked at."""
+        some = self._touched(xyz)
+        u = np.zeros(len(xyz))
+        u[some] = self._displacement(xyz[some])
+        return u
+
+    def _touched(self, xyz: FloatArray) -> np.typing.NDArray[np.int64]:
+        """Give which places lie in the region."""
+        found = np.ones(len(xyz), bool)
+        for axis, (low, high) in ((0, self._region.x), (2, self._region.z)):
+            if low > -np.inf:
+                found &= xyz[:, axis] >= low
+            if high < np.inf:
+                found &= xyz[:, axis] <= high
+        return np.flatnonzero(found)
+
+    def _displacement(self, xyz: FloatArray) -> FloatArray:
+        x, z = xyz[:, 0], xyz[:, 2]
+        c = self._own(xyz)
+        low, s = self.strip(x, z)
+        weight = self.blend.value(s)
+        u = np.zeros(len(x))
+        for k in range(len(self.pieces)):
+            some = np.flatnonzero((low == k) | ((low == k - 1) & (weight > 0.0)))
+            if not len(some):
+                continue
+            e = self._piece(k, x[some], c[some])
+            own = low[some] == k
+            part = np.where(own, 1.0 - weight[some], weight[some])
+            # where the two pieces are equal, so is their blend, to the last bit
+            u[some] = np.where(own, e, u[some] + (e - u[some]) * part)
+        return u
+
+    def gradient(self, xyz: FloatArray) -> FloatArray:
+        """Give du/dx, du/dy, du/dz, (n, 3); only places in the region are looked at."""
+        some = self._touched(xyz)
+        found = np.zeros((len(xyz), 3))
+        found[some] = self._gradient(xyz[some])
+        return found
+
+    def _gradient(self, xyz: FloatArray) -> FloatArray:
+        x, z, c = xyz[:, 0], xyz[:, 2], self._own(xyz)
+        low, s = self.strip(x, z)
+        high = np.minimum(low + 1, len(self.pieces) - 1)
+        e, e_x, e_c = self._chosen(low, x, c)
+        f, f_x, f_c = self._chosen(high, x, c)
+        h, h_x = self._heights(low, x)
+        g, g_x = (top - foot for top, foot in zip(self._heights(high, x), (h, h_x), strict=True))
+        g = np.where(high > low, g, 1.0)
+        b, turn = self.blend.value(s), self.blend.slope(s) * (f - e)
+        own = e_c + (f_c - e_c) * b
+        along = e_x + (f_x - e_x) * b - turn * (h_x + s * g_x) / g
+        found = np.zeros((len(x), 3))
+        found[:, 0] = along + (own if self.axis == "x" else 0.0)
+        found[:, 2] = turn / g + (own if self.axis == "z" else 0.0)
+        if self.axis == "y":
+            found[:, 1] = own * (self.tube.slope(xyz[:, 1]) if self.tube else 1.0)
+        return found
+
+    def strip(self, x: FloatArray, z: FloatArray) -> tuple[np.typing.NDArray[np.int64], FloatArray]:
+        """Give below which boundaries places lie at or above, and where between it and the next.
+
+        Returns
+        -------
+        low : (n,) int
+            The boundary next below; 0 below the stack.
+        s : (n,)
+            0 on it, 1 on the next above; 0 below and above the stack.
+        """
+        heights = np.array([each.height.at(x) for each in self.boundaries])
+        low = np.maximum((heights <= z).sum(axis=0) - 1, 0)
+        high = np.minimum(low + 1, len(heights) - 1)
+        column = np.arange(len(x))
+        foot, top = heights[low, column], heights[high, column]
+        gap = np.where(top > foot, top - foot, 1.0)
+        return low, np.where(top > foot, np.clip((z - foot) / gap, 0.0, 1.0), 0.0)
+
+    def region(self) -> Region:
+        """Give the box of the profile plane outside which u is exactly nil."""
+        return self._region
+
+    @cached_property
+    def _region(self) -> Region:
+        acts = [_acts(each.a) or _acts(each.d) for each in self.pieces]
+        spans = [
+            span(part) for each in self.pieces for part in (each.a, each.d) if _acts(part)
+        ]  # fmt: skip
+        if not spans:
+            return Region(self.name, (np.inf, -np.inf), (np.inf, -np.inf))
+        x = min(each[0] for each in spans), max(each[1] for each in spans)
+        first, last = acts.index(True), len(acts) - 1 - acts[::-1].index(True)
+        everywhere = np.array(-np.inf), np.array(np.inf)
+        low, high = -np.inf, np.inf
+        if first > 0:
+            low = float(self.boundaries[first - 1].height.bounds(*everywhere)[0])
+        if last < len(acts) - 1:
+            high = float(self.boundaries[last + 1].height.bounds(*everywhere)[1])
+        return Region(self.name, x, (low, high))
+
+    def _own(self, xyz: FloatArray) -> FloatArray:
+        """Give the coordinate that the pieces act on."""
+        c = xyz[:, "xyz".index(self.axis)]
+        return self.tube.at(c) if self.tube else c
+
+    def _piece(self, k: int, x: FloatArray, c: FloatArray) -> FloatArray:
+        piece = self.pieces[k]
+        return piece.a.at(x) * (c - piece.pivot) + piece.d.at(x)
+
+    def _chosen(
+        self, chosen: np.typing.NDArray[np.int64], x: FloatArray, c: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Give value and derivatives by x (c held) and c of one piece a place."""
+        e, e_x, e_c = np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
+        for k, piece in enumerate(self.pieces):
+            some = np.flatnonzero(chosen == k)
+            if len(some):
+                lever = c[some] - piece.pivot
+                e_c[some] = piece.a.at(x[some])
+                e[some] = e_c[some] * lever + piece.d.at(x[some])
+                e_x[some] = piece.a.slope(x[some]) * lever + piece.d.slope(x[some])
+        return e, e_x, e_c
+
+    def _heights(
+        self, chosen: np.typing.NDArray[np.int64], x: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        h, h_x = np.zeros(len(x)), np.zeros(len(x))
+        for k, each in enumerate(self.boundaries):
+            some = np.flatnonzero(chosen == k)
+            if len(some):
+                h[some], h_x[some] = each.height.at(x[some]), each.height.slope(x[some])
+        return h, h_x
+
+
+def stack(names: Sequence[str], heights: Sequence[float]) -> tuple[Boundary, ...]:
+    """Give level boundary curves.
+
+    Raises
+    ------
+    BadInputError
+        Two touch, or come in the wrong order.
+    """
+    for i in range(1, len(heights)):
+        if not heights[i] > heights[i - 1]:
+            raise BadInputError(
+                f"boundary curves '{names[i - 1]}' and '{names[i]}' touch "
+                f"(gap {heights[i] - heights[i - 1]:.3g} m)", "in vary",
+                "move one or reduce the range",
+            )  # fmt: skip
+    return tuple(
+        Boundary(name, Chain.constant(height)) for name, height in zip(names, heights, strict=True)
+    )
+
+
+def _acts(course: Course) -> bool:
+    """Tell whether a course is anywhere other than nil."""
+    low, high = course.bounds(np.array(-np.inf), np.array(np.inf))
+    return bool(low != 0.0) or bool(high != 0.0)
+
+
+def span(course: Course) -> tuple[float, float]:
+    """Give between which x a course is other than nil."""
+    nodes = course.nodes
+    value = course.at(nodes)
+    first = -np.inf if value[0] != 0.0 else float(nodes[0])
+    last = np.inf if value[-1] != 0.0 else float(nodes[-1])
+    if isinstance(course, Chain):
+        acts = np.flatnonzero(value != 0.0)
+        if len(acts) and value[0] == 0.0:
+            first = float(nodes[acts[0] - 1])
+        if len(acts) and value[-1] == 0.0:
+            last = float(nodes[acts[-1] + 1])
+    return first, last

@@ -1,0 +1,1 @@
+"""The named parameters of a hull: measured, laid out as fields, limited."""

@@ -1,0 +1,111 @@
+"""The named parameters: what they are, and what lays out their fields."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import attrs
+
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.parameters import layouts_bilge, layouts_body, layouts_bow, layouts_stern
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.share import Share
+
+__all__ = ["CATALOGUE", "NAMES", "NamedParameter"]
+
+_SIGNED = frozenset(
+    {"deadrise_deg", "stem_rake_deg", "parallel_body_start", "parallel_body_end", "transom_height"}
+)
+"""Parameters that may be nil or negative."""
+
+_Lays = Callable[[Parent, float, Layout], Share | Layer]
+
+
+@attrs.frozen
+class NamedParameter:
+    """A parameter of a hull that a designer can ask for by name.
+
+    Attributes
+    ----------
+    name, short : str
+        In full, and as a formula has it.
+    unit : {"m", "deg"}
+    meaning : str
+        What is measured; x from AP, z from the base line.
+    lays : callable or None
+        Gives its share in the layer of local fields, or its own layer; None if it scales the
+        hull as a whole.
+    field : str
+        What its field is, in words.
+    """
+
+    name: str
+    short: str
+    unit: str
+    meaning: str
+    lays: _Lays | None
+    field: str
+
+    @property
+    def positive(self) -> bool:
+        """Whether only values above 0 have a meaning."""
+        return not (self.amplitude or self.name in _SIGNED)
+
+    @property
+    def amplitude(self) -> bool:
+        """Whether it is a movement, present value 0, and no measure of the hull."""
+        return self.name.endswith("_shift")
+
+
+def _entries() -> tuple[NamedParameter, ...]:
+    entry = NamedParameter
+    return (
+        entry("length", "Lpp", "m", "length between perpendiculars", None,
+              "ratio of x about the AP, everywhere"),
+        entry("breadth", "B", "m", "greatest breadth of the net", None,
+              "ratio of y, everywhere"),
+        entry("draught", "T", "m", "design draught", None,
+              "ratio of z up to T, shift at its top"),
+        entry("depth", "D", "m", "height of the deck edge amidships", layouts_body.depth,
+              "ratio of z from the deck up, nothing below T"),
+        entry("deck_height", "z_deck", "m", "height of the deck edge amidships",
+              layouts_body.deck_height, "ratio of z from the deck up, nothing below T"),
+        entry("shaft_height", "h", "m", "height of the centre of the bossing end",
+              layouts_stern.shaft_height, "dome of z over base, shaft and 1.25 T"),
+        entry("bossing_radius", "r_b", "m", "radius of the circle of the bossing end",
+              layouts_stern.bossing_radius, "ratio of y in a tube, of z about the centre"),
+        entry("transom_height", "z_t", "m", "lowest point of the transom",
+              layouts_stern.transom_height, "hat of z; what lies above moves along"),
+        entry("transom_half_breadth", "y_t", "m", "greatest half-breadth of the transom",
+              layouts_stern.transom_half_breadth, "ratio of y from the transom's foot up"),
+        entry("bulb_height", "z_b", "m", "height of the foremost point of the bulb",
+              layouts_bow.bulb_height, "hat of z over base, tip and 1.25 T"),
+        entry("bulb_half_breadth", "y_b", "m", "greatest half-breadth at the FP below T",
+              layouts_bow.bulb_half_breadth, "ratio of y from the tip down"),
+        entry("bulb_length", "l_b", "m", "from the FP to the foremost point of the bulb",
+              layouts_bow.bulb_length, "shift of x, full from the tip down, nothing above 1.25 T"),
+        entry("bilge_radius", "r", "m", "radius of the bilge amidships", layouts_bilge.bilge_radius,
+              "stretch about the corner of side and bottom"),
+        entry("deadrise_deg", "beta", "deg", "rise of the bottom at the side of the keel",
+              layouts_bilge.deadrise_deg, "shear of z outward from the keel"),
+        entry("flat_of_bottom", "y_f", "m", "half-breadth of the flat bottom amidships",
+              layouts_bilge.flat_of_bottom,
+              "stretch about the corner of side and bottom; of y alone where the bilge is no arc"),
+        entry("parallel_body_start", "x_s", "m", "x of the after end of the parallel body",
+              layouts_body.parallel_body_start, "shift of x, nothing at AP and at the fore end"),
+        entry("parallel_body_end", "x_e", "m", "x of the fore end of the parallel body",
+              layouts_body.parallel_body_end, "shift of x, nothing at the after end and at FP"),
+        entry("stem_rake_deg", "rake", "deg", "rake of the stem from T to its top",
+              layouts_bow.stem_rake_deg, "ramp of x above T"),
+        entry("fore_shift", "c_f", "m", "largest movement of the fore stations, + forward",
+              layouts_body.fore_shift, "bump of x between parallel body and rising profile"),
+        entry("aft_shift", "c_a", "m", "largest movement of the after stations, + forward",
+              layouts_body.aft_shift, "bump of x between rising profile and parallel body"),
+    )  # fmt: skip
+
+
+CATALOGUE = {each.name: each for each in _entries()}
+"""All named parameters, in the order in which they are listed."""
+
+NAMES = tuple(CATALOGUE)

@@ -1,0 +1,205 @@
+"""From asked values to a map: layers in their order, local fields solved for together.
+
+Dimensions of the whole hull come first, all else is laid out on the hull so scaled. Local
+fields add; as one may act at the anchor of another, their sizes are solved for, so that all
+targets are met together. The rake of the stem, bilge and bottom follow as layers of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from assoc_hull.errors import BadInputError
+from assoc_hull.variation.fields.field import Field
+from assoc_hull.variation.fields.fields_layer import FieldLayer, Rake
+from assoc_hull.variation.fields.layer import Layer
+from assoc_hull.variation.fields.space_map import VMap
+from assoc_hull.variation.parameters.catalogue import CATALOGUE
+from assoc_hull.variation.parameters.layout import Layout
+from assoc_hull.variation.parameters.main_layer import main_layer
+from assoc_hull.variation.parameters.parent_places import Parent
+from assoc_hull.variation.parameters.share import Share
+
+__all__ = ["STEEPEST", "compose", "conflicts", "refuse_clashes", "solve"]
+
+_CONDITION = 50.0
+"""Above this, two parameters ask for the movement of one place."""
+
+_LARGEST = 3.0
+"""Fields larger than this many times what is asked work against one another."""
+
+STEEPEST = 80.0
+"""Degrees; beyond, a small change of an angle moves a place by metres."""
+
+_RAKE = ("stem_rake_deg",)
+"""An angle between two places that other fields move: laid out where they have come to."""
+
+_BILGE = ("bilge_radius", "flat_of_bottom", "deadrise_deg")
+_CLASHES = (
+    ("bilge_radius", "flat_of_bottom", "a bilge of one radius ends where the flat bottom does"),
+    ("bilge_radius", "deadrise_deg", "both turn the bilge"),
+    ("flat_of_bottom", "deadrise_deg", "a bottom with deadrise is not flat"),
+)
+_DECKS = ("depth", "deck_height", "both set the deck edge amidships")
+"""No contradiction where the height is asked for at a perpendicular."""
+
+
+def compose(parent: Parent, asked: Mapping[str, float], layout: Layout) -> VMap:
+    """Lay out the map of a variation.
+
+    Parameters
+    ----------
+    parent : Parent
+        The hull as it is.
+    asked : mapping of str to float
+        Named parameters with the values they are to have; m or degrees.
+    layout : Layout
+        How far their fields reach.
+
+    Raises
+    ------
+    BadInputError
+        Two parameters contradict each other; the parent has not what one is measured at; a
+        value has no meaning.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assoc_hull.variation.parameters.compose_map import compose
+    >>> from assoc_hull.variation.parameters.layout import Layout
+    >>> from assoc_hull.variation.parameters.parent_places import Parent
+    >>> ship = Parent(300, 50, 27, 18, 27, {"boss": np.array([6.0, 0.0, 5.0])})
+    >>> vmap = compose(ship, {"shaft_height": 6.0, "breadth": 51.0}, Layout())
+    >>> vmap(np.array([[6.0, 5.0, 5.0]])).round(12).tolist()
+    [[6.0, 5.1, 6.0]]
+    """
+    refuse_clashes(asked, layout)
+    _refuse_angles(asked)
+    layers = list[Layer]()
+    main = main_layer(parent, asked, layout)
+    if main is not None:
+        layers.append(main)
+        parent = _scaled(parent, main, asked)
+    local = [name for name in CATALOGUE if name not in (*_RAKE, *_BILGE)]
+    for title, names in (("local fields", local), ("rake", _RAKE)):
+        shares = _shares(parent, {name: asked[name] for name in names if name in asked}, layout)
+        if shares:
+            layer = FieldLayer(title, solve(shares))
+            layers.append(layer)
+            parent = parent.mapped(VMap((layer,)))
+    for name in _BILGE:
+        lays = CATALOGUE[name].lays
+        if name in asked and lays is not None:
+            own = lays(parent, asked[name], layout)
+            if not isinstance(own, Share):
+                layers.append(own)
+    return VMap(tuple(layers))
+
+
+def _shares(parent: Parent, asked: Mapping[str, float], layout: Layout) -> list[Share]:
+    """Give what parameters put into a layer of fields; nothing where a value is as it was."""
+    found = list[Share]()
+    for name, value in asked.items():
+        lays = CATALOGUE[name].lays
+        share = None if lays is None else lays(parent, value, layout)
+        if isinstance(share, Share) and share.change != 0.0:
+            found.append(share)
+    return found
+
+
+def _scaled(parent: Parent, main: FieldLayer, asked: Mapping[str, float]) -> Parent:
+    """Give the parent after the scaling of the whole, with what was asked for exactly."""
+    sizes = {name: asked[name] for name in ("length", "breadth", "draught") if name in asked}
+    depth = float(VMap((main,))(np.array([[0.0, 0.0, parent.depth]]))[0, 2])
+    return parent.mapped(VMap((main,)), depth=depth, **sizes)
+
+
+def _refuse_angles(asked: Mapping[str, float]) -> None:
+    for name, value in asked.items():
+        if name.endswith("_deg") and not abs(value) <= STEEPEST:
+            raise BadInputError(
+                f"{name} is {value:g} degrees", "in vary", f"give at most {STEEPEST:g} either way"
+            )
+
+
+def conflicts(name: str, layout: Layout | None = None) -> tuple[str, ...]:
+    """Give the parameters that cannot be asked for beside one.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.parameters.compose_map import conflicts
+    >>> conflicts("bilge_radius")
+    ('flat_of_bottom', 'deadrise_deg')
+    """
+    pairs = [(one, other) for one, other, _ in _clashes(layout or Layout())]
+    return tuple(other if one == name else one for one, other in pairs if name in (one, other))
+
+
+def _clashes(layout: Layout) -> tuple[tuple[str, str, str], ...]:
+    """Give pairs of parameters that are one number, and why."""
+    return (*_CLASHES, _DECKS) if layout.deck == "midship" else _CLASHES
+
+
+def refuse_clashes(asked: Mapping[str, float], layout: Layout) -> None:
+    """Refuse parameters that are one number.
+
+    Raises
+    ------
+    BadInputError
+        Both named, and why.
+    """
+    for one, other, why in _clashes(layout):
+        if one in asked and other in asked:
+            raise BadInputError(
+                f"'{one}' and '{other}' cannot be asked for together: {why}", "in vary",
+                "drop one of them",
+            )  # fmt: skip
+
+
+def solve(shares: Sequence[Share]) -> tuple[Field | Rake, ...]:
+    """Size fields so that every share's anchor changes by what it asks, all acting together.
+
+    Raises
+    ------
+    BadInputError
+        Two shares ask different changes of what is the same place.
+    """
+    effect = np.array([[each.effect(anchor) for each in shares] for anchor in shares])
+    change = np.array([share.change for share in shares])
+    unit = effect / change[None, :]
+    size = np.linalg.solve(unit, change) if _sound(unit) else np.full(len(shares), np.inf)
+    if not np.abs(size).max() <= _LARGEST * np.abs(change).max():
+        raise _clash(shares, unit, change)
+    whole = unit == np.eye(len(shares))
+    factor = np.where(whole.all(axis=1), 1.0, size / change)
+    return tuple(
+        field
+        for share, part in zip(shares, factor.tolist(), strict=True)
+        for field in share.scaled(part).fields
+    )
+
+
+def _sound(unit: np.typing.NDArray[np.float64]) -> bool:
+    return bool(np.isfinite(unit).all()) and float(np.linalg.cond(unit)) <= _CONDITION
+
+
+def _clash(
+    shares: Sequence[Share], unit: np.typing.NDArray[np.float64],
+    change: np.typing.NDArray[np.float64],
+) -> BadInputError:  # fmt: skip
+    """Name the two parameters that act most alike."""
+    if len(shares) < 2:
+        return BadInputError(
+            f"'{shares[0].name}' cannot use a ratio: its anchor equals its pivot", "in vary",
+            "use a shift",
+        )  # fmt: skip
+    length = np.sqrt((unit * unit).sum(axis=0))
+    alike = np.abs(unit.T @ unit) / (length[:, None] * length[None, :]) - 2.0 * np.eye(len(shares))
+    i, j = sorted(divmod(int(alike.argmax()), len(shares)))
+    return BadInputError(
+        f"'{shares[i].name}' and '{shares[j].name}' ask different changes of the same place "
+        f"(condition {np.linalg.cond(unit):.3g}, {change[i]:.3f} and {change[j]:.3f} m)",
+        "in vary", "drop one of them, or let their fields reach less far",
+    )  # fmt: skip

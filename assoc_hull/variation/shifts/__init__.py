@@ -1,0 +1,1 @@
+"""Sections shifted along the ship, and hulls swung, at asked coefficients."""

@@ -1,0 +1,225 @@
+"""The closed form of a shift: sizes from sums, a certificate that no sections cross, or the limits.
+
+What is asked for and cannot be had is refused with the largest change that can.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+from assoc_hull.errors import BadInputError, OutOfRangeError
+from assoc_hull.geometry.curves import FloatArray, freeze
+from assoc_hull.variation.certificate.certify import certify
+from assoc_hull.variation.certificate.record import Certificate
+from assoc_hull.variation.shifts.shift_terms import ShiftTerms
+from assoc_hull.variation.shifts.tasks import Task
+
+__all__ = ["Shift", "certified", "closed_form"]
+
+_WHERE = "in shift_sections"
+
+_SAMPLES = 4001
+"""Places among which the largest movement is looked for."""
+
+_FINE = 2.0**-20
+"""The largest change is found to so much of itself."""
+
+_FARTHEST = 8
+"""So many times a range is doubled at most while its end is looked for."""
+
+
+@attrs.frozen(eq=False)
+class Shift:
+    """A shift that is certified.
+
+    Attributes
+    ----------
+    terms : ShiftTerms
+        Its parts.
+    sizes : (2,), m
+        c_f and c_a.
+    certificate : Certificate
+        Of 1 + delta', on all the way between the terminals.
+    """
+
+    terms: ShiftTerms
+    sizes: FloatArray
+    certificate: Certificate
+
+    def __attrs_post_init__(self) -> None:
+        freeze(self.sizes)
+
+    @property
+    def least(self) -> float:
+        """The least 1 + delta'."""
+        return self.certificate.least
+
+    @property
+    def largest(self) -> float:
+        """The largest movement of a section, m."""
+        at = self.terms.terminals
+        x = np.concatenate([np.linspace(at.aft, at.fore, _SAMPLES), self.terms.tops])
+        return float(np.abs(self.moved(x)).max())
+
+    def moved(self, x: FloatArray) -> FloatArray:
+        """Give by how much sections at x (n,), m, move, (n,), m, + forward."""
+        moved = np.zeros(len(x))
+        for each in self.terms.sized(*self.sizes.tolist()):
+            moved += each.at(x)
+        return moved
+
+
+def certified(terms: ShiftTerms, sizes: FloatArray, margin: float) -> Certificate:
+    """Check that 1 + delta' reaches a margin everywhere.
+
+    It is a polynomial between the nodes: its Bernstein coefficients enclose it.
+
+    Parameters
+    ----------
+    terms : ShiftTerms
+    sizes : (2,), m
+        c_f and c_a.
+    margin : float
+        What is to be reached.
+    """
+    at = terms.terminals
+    box = np.array([[at.aft, 0.0, 0.0], [at.fore, 1.0, 1.0]])
+    return certify(terms.layer(*sizes.tolist()), box, margin)
+
+
+def closed_form(task: Task, terms: ShiftTerms, margin: float = 0.0) -> Shift:
+    """Solve for the sizes of a shift.
+
+    Parameters
+    ----------
+    task : Whole or Bodies
+        What is asked for.
+    terms : ShiftTerms
+        What sections move by; the same that the sums of the task were made of.
+    margin : float
+        What 1 + delta' must be more than everywhere; where it is nil, sections cross.
+
+    Raises
+    ------
+    OutOfRangeError
+        Sections would cross, or no shift gives what is asked for; with the range that can be had.
+
+    Examples
+    --------
+    >>> from assoc_hull.variation.shifts.elements import Elements
+    >>> from assoc_hull.variation.shifts.closed_form import closed_form
+    >>> from assoc_hull.variation.shifts.sums import Sums
+    >>> from assoc_hull.variation.shifts.tasks import Whole
+    >>> from assoc_hull.variation.shifts.shift_terms import ShiftTerms, Terminals
+    >>> terms = ShiftTerms(Terminals(0.0, 5.0, 5.0, 10.0), "lackenby")
+    >>> curve = Elements.of(lambda x: x * (10.0 - x), terms.nodes, 5.0)
+    >>> found = closed_form(Whole(curve, Sums.of(curve, terms), 250.0, 10.0, 0.02, 0.0), terms)
+    >>> found.sizes.round(9).tolist(), round(found.least, 9)
+    ([0.6, -0.6], 0.88)
+    """
+    found = _tried(task.sizes(task.changes), terms, margin)
+    if isinstance(found, Shift):
+        return found
+    raise _refusal(task, terms, margin, found)
+
+
+def _tried(
+    sizes: FloatArray | None, terms: ShiftTerms, margin: float
+) -> Shift | Certificate | None:
+    """Give the shift of sizes; the certificate that it lacks; None if there are no sizes."""
+    if sizes is None or not np.isfinite(sizes).all():
+        return None
+    found = certified(terms, sizes, margin)
+    return Shift(terms, sizes, found) if found.certified else found
+
+
+def _refusal(
+    task: Task, terms: ShiftTerms, margin: float, found: Certificate | None
+) -> OutOfRangeError | BadInputError:
+    """Say which of two changes is too large, and how large it may be."""
+
+    def works(changes: tuple[float, float]) -> bool:
+        return isinstance(_tried(task.sizes(changes), terms, margin), Shift)
+
+    first, second = task.changes
+    ways = _Way(0, (0.0, second)), _Way(1, (first, 0.0)), _Way(1, (0.0, 0.0))
+    way = next((each for each in ways if works(each.foot)), None)
+    if way is None:
+        return _given_folds(terms, margin)
+    asked = task.changes[way.blamed]
+    least, most = (_end(lambda t: works(way.at(t)), sign * abs(asked)) for sign in (-1.0, 1.0))
+    why = _why(task, way, found, margin)
+    return OutOfRangeError("a change", asked, _WHERE, why, least, most, task.words[way.blamed])
+
+
+@attrs.frozen
+class _Way:
+    """Changes of which one varies from nil.
+
+    Attributes
+    ----------
+    blamed : {0, 1}
+        Which varies.
+    foot : (float, float)
+        Both, where that is nil.
+    """
+
+    blamed: int
+    foot: tuple[float, float]
+
+    def at(self, t: float) -> tuple[float, float]:
+        """Give both changes where the one is t."""
+        return (t, self.foot[1]) if self.blamed == 0 else (self.foot[0], t)
+
+
+def _why(task: Task, way: _Way, found: Certificate | None, margin: float) -> str:
+    other = 1 - way.blamed
+    asked = task.changes[other]
+    beside = f" beside {asked:+.6g} {task.words[other]}" if asked else ""
+    alone = f", even without {beside.removeprefix(' beside ')}" if asked != way.foot[other] else ""
+    if found is None:
+        return f"is out of reach{alone or beside}: no shift gives it"
+    at = f"at x={found.witness[0]:.2f} m (1+delta'={found.least:.3f})"
+    if found.least <= 0.0:
+        return f"makes sections cross {at}{alone or beside}"
+    return f"leaves less than {margin:g} of the distance of sections {at}{alone or beside}"
+
+
+def _given_folds(terms: ShiftTerms, margin: float) -> BadInputError:
+    """Refuse what moves the ends of the parallel body too far."""
+    found = certified(terms, np.zeros(2), margin)
+    if not found.certified:
+        what = f"moving the ends of the parallel body by {terms.start:+g} and {terms.end:+g} m"
+        at = f"makes sections cross at x={found.witness[0]:.2f} m (1+delta'={found.least:.3f})"
+        return BadInputError(f"{what} {at}", _WHERE, "move them less, or set the terminals wider")
+    return BadInputError(
+        "no shift holds volume and its centre while the ends of the parallel body move", _WHERE,
+        "move them less, or set the terminals wider",
+    )  # fmt: skip
+
+
+def _end(works: Callable[[float], bool], far: float) -> float:
+    """Find by bisection how far a change works, from nil outward."""
+    near = 0.0
+    for _ in range(_FARTHEST):
+        if not works(far):
+            break
+        near, far = far, 2.0 * far
+    else:
+        return math.copysign(math.inf, far)
+    while abs(far - near) > _FINE * abs(far):
+        half = 0.5 * (near + far)
+        near, far = (half, far) if works(half) else (near, half)
+    return _inward(near)
+
+
+def _inward(value: float) -> float:
+    """Round toward nil to six digits: what is told can be had."""
+    if value == 0.0:
+        return 0.0
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - 5)
+    return math.copysign(math.floor(abs(value) / unit) * unit, value)

@@ -1,0 +1,108 @@
+"""A preview tells what the edit then does: lines, movements, causes, fingerprint."""
+
+import numpy as np
+import pytest
+
+import assoc_hull as ah
+from assoc_hull.edit.explain.line_changes import line_changes
+from assoc_hull.errors import UnknownNameError, WrongTypeError
+
+POINT = "WL 2.5 x ST 7"
+PULL = [{"op": "pull", "point": POINT, "d": 0.02, "radius": (25.0, 3.0)}]
+
+
+@pytest.fixture
+def hull() -> ah.Hull:
+    """A small net of this test's own."""
+    return ah.examples.wigley(stations=11, waterlines=6)
+
+
+def places(hull: ah.Hull) -> dict[str, tuple[float, ...]]:
+    """Where every point is."""
+    return {point.id: tuple(point.position.tolist()) for point in hull.points.values()}
+
+
+def test_lines_are_those_the_edit_changes(hull: ah.Hull) -> None:
+    """Group by group in the order of the ranks, along each by position; each by as much."""
+    before = places(hull)
+    found = hull.preview(PULL)
+    assert places(hull) == before
+    hull.apply("pull", PULL)
+    curves = [hull.find(key) for key in hull.history[-1].relofted]
+    names = {each.line.name for each in curves if isinstance(each, ah.Curve)}
+    assert {each.line for each in found.lines} == names
+    groups = [each.group for each in found.lines]
+    assert groups == sorted(groups), "sections come before waterlines"
+    sections = [each.line for each in found.lines if each.group == "sections"]
+    assert sections == sorted(sections, key=lambda name: int(name.split()[1]))
+    for each in found.lines:
+        points = [point for point in hull.lines[each.line].points if point.id in before]
+        moved = [np.linalg.norm(np.subtract(places(hull)[p.id], before[p.id])) for p in points]
+        assert each.distance == pytest.approx(max(moved), abs=1e-12)
+        assert each.point is not None
+        assert each.place == places(hull)[hull.points[each.point].id]
+
+
+def test_a_line_on_which_no_point_moves_is_measured_between_them(hull: ah.Hull) -> None:
+    """An end condition bends the curve between its points: how far, and where."""
+    bend = {"op": "set_end", "curve": "WL 2.5", "end": "start", "tangent": (1, 0.2, 0)}
+    found = hull.preview([bend])
+    (line,) = found.lines
+    assert (line.group, line.line, line.point) == ("waterlines", "WL 2.5", None)
+    assert line.distance is not None
+    assert line.place is not None
+    assert 1e-6 < line.distance < 1.0
+    assert hull.lines["WL 2.5"].curves[0].closest(line.place)[2] == pytest.approx(line.distance)
+
+
+def test_a_new_line_has_no_movement(hull: ah.Hull) -> None:
+    """It was nowhere before; what is born on the others is no movement either."""
+    found = hull.preview([{"op": "add_line", "group": "waterlines", "position": 3.0}])
+    new = [each for each in found.lines if each.line not in hull.lines]
+    assert [(each.group, each.distance) for each in new] == [("waterlines", None)]
+
+
+def test_the_fingerprint_is_that_of_the_edited_hull(hull: ah.Hull) -> None:
+    """And the hull keeps its own."""
+    before, found = hull.fingerprint, hull.preview(PULL)
+    assert hull.fingerprint == before
+    hull.apply("pull", PULL)
+    assert found.fingerprint == hull.fingerprint
+
+
+def test_causes_are_those_the_edit_would_leave(hull: ah.Hull) -> None:
+    """Asked by address or handle; named by what was asked; the step is the next one."""
+    hull.apply("first", [{"op": "move", "point": POINT, "y": hull.points[POINT].y + 0.01}])
+    section = hull.lines["ST 7"]
+    found = hull.preview(PULL, name="pull", why=["ST 7", section])
+    assert set(found.why) == {"ST 7", section.id}
+    hull.apply("pull", PULL)
+    assert found.why["ST 7"] == found.why[section.id] == hull.why("ST 7")
+    assert (found.why["ST 7"].edit, found.why["ST 7"].step) == ("pull", 2)
+
+
+def test_what_is_asked_for_must_be_there(hull: ah.Hull) -> None:
+    """Else nothing has happened, and the next edit can begin."""
+    before = hull.fingerprint
+    with pytest.raises(UnknownNameError):
+        hull.preview(PULL, why=["WL 77"])
+    with pytest.raises(WrongTypeError):
+        hull.preview(PULL, why="WL 2.5")
+    assert hull.fingerprint == before
+    assert hull.preview(PULL).refused == ()
+
+
+def test_a_refused_edit_has_reasons_only(hull: ah.Hull) -> None:
+    """No lines, no causes, no fingerprint."""
+    found = hull.preview([{"op": "move", "point": POINT, "y": 40.0}], why=["ST 7"])
+    assert found.report is None
+    assert len(found.refused) > 0
+    assert (found.lines, found.why, found.fingerprint) == ((), {}, None)
+
+
+def test_without_a_step_no_line_changes(hull: ah.Hull) -> None:
+    """An edit that asks for what is so already."""
+    assert line_changes(hull.state, None) == ()
+    found = hull.preview([{"op": "move", "point": POINT, "y": hull.points[POINT].y}])
+    assert found.lines == ()
+    assert found.fingerprint == hull.fingerprint

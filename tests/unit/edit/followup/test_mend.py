@@ -1,0 +1,54 @@
+"""Mending: which of two curves gives way where they pass each other too far off."""
+
+import numpy as np
+import pytest
+
+from assoc_hull.edit.followup.mend_gaps import mend
+from assoc_hull.graph.journal import Journal
+from assoc_hull.hull import Hull
+from assoc_hull.model.kinds import Role, Sort
+from assoc_hull.model.make_objects import Maker
+from assoc_hull.model.state import HullState
+
+
+def _watched(state: HullState, near: bool) -> int:
+    """Find a watched crossing whose curve of higher rank has, or has not, a point beside it.
+
+    The point is a crossing within 0.15 m; the other curve has room there.
+    """
+    rows = state.rows
+    watched = np.flatnonzero(rows.alive.data & (rows.role.data == Role.WATCHED))
+    for row in watched.tolist():
+        held = [_beside(state, row, side) for side in (0, 1)]
+        if not held[0] and held[1] == near:
+            return row
+    pytest.fail("no such crossing")
+
+
+def _beside(state: HullState, row: int, side: int) -> bool:
+    rows = state.rows
+    own = state.curves.rows.data[int(rows.curve.data[row, side])]
+    away = np.linalg.norm(rows.xyz.data[own] - rows.spot.data[row, 1 - side], axis=1)
+    return bool(away.min() < 0.15) and rows.sort.data[own[int(away.argmin())]] != Sort.ADOPTED
+
+
+@pytest.fixture(scope="module")
+def state(series60_70: Hull) -> HullState:
+    """A net with watched crossings; what a test does to it is taken back."""
+    return series60_70.state
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_the_curve_of_higher_rank_gives_way_unless_it_is_held(state: HullState, held: bool) -> None:
+    """A crossing within 0.15 m of the place holds it; then the other curve gets the point."""
+    row = _watched(state, held)
+    gives = 0 if held else 1
+    curve = int(state.rows.curve.data[row, gives])
+    place = state.rows.spot.data[row, 1 - gives].copy()
+    journal = Journal()
+    curves, moved = mend(Maker(state, journal), np.array([row]))
+    own = state.curves.rows.data[curve]
+    assert curves.tolist() == [curve]
+    assert np.isin(moved, own).all()
+    assert (state.rows.xyz.data[own] == place).all(axis=1).any()
+    journal.undo()

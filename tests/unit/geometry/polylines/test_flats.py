@@ -1,0 +1,80 @@
+"""Flats from straight runs, and borders from single places."""
+
+import numpy as np
+import pytest
+
+from assoc_hull.geometry.polylines.borders import bends, fit_border, order_places
+from assoc_hull.geometry.polylines.flats import fit_plane, join_runs
+
+
+def test_runs_in_one_plane_make_a_flat() -> None:
+    """Runs of five lines at y = 16 are one flat; those of a cylinder beside it are none."""
+    x = np.repeat(np.arange(5.0) * 6.0, 2)
+    y = np.tile([16.0, 3.0], 5) + np.where(np.arange(10) % 2, 0.02 * x * x, 0.0)
+    begin, end = np.column_stack([x, y, x * 0 + 2.0]), np.column_stack([x, y, x * 0 + 9.0])
+    [flat] = join_runs(np.repeat(np.arange(5), 2), begin, end, 1e-3)
+    assert flat.runs == (0, 2, 4, 6, 8)
+    assert (flat.normal.tolist(), flat.offset) == ([0.0, 1.0, 0.0], 16.0)
+
+
+def test_a_rise_of_floor_is_a_flat_too() -> None:
+    """Bottoms that rise by 3 degrees lie in one plane, which leans."""
+    x, rise = np.arange(4.0) * 5.0, np.tan(np.deg2rad(3.0))
+    keel, bilge = np.column_stack([x, 0 * x, 0 * x]), np.column_stack([x, 8 + x, rise * (8 + x)])
+    [flat] = join_runs(np.arange(4), keel, bilge, 1e-3)
+    assert len(flat.runs) == 4
+    assert np.degrees(np.arccos(flat.normal[2])) == pytest.approx(3.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("lines", [[0, 1], [0, 1, 3]], ids=["two lines", "a line between without"])
+def test_fewer_than_three_neighbours_make_no_flat(lines: list[int]) -> None:
+    """Runs of two lines, or of three that are not neighbours, are no flat."""
+    x = 6.0 * np.array(lines)
+    begin, end = np.column_stack([x, 0 * x, 0 * x]), np.column_stack([x, 0 * x, 0 * x + 5.0])
+    assert join_runs(np.array(lines), begin, end, 1e-3) == []
+
+
+def test_a_plane_across_an_axis_is_taken_where_it_fits() -> None:
+    """Scatter within the tolerance does not tilt a plane."""
+    draw = np.random.default_rng(2)
+    points = np.column_stack([draw.uniform(0, 50, 40), draw.normal(25, 1e-3, 40), np.arange(40.0)])
+    normal, offset, off = fit_plane(points, 5e-3)
+    assert normal.tolist() == [0.0, 1.0, 0.0]
+    assert abs(offset - 25.0) < 1e-3
+    assert off < 5e-3
+
+
+def border() -> np.ndarray:
+    """A border like that of a flat of side: down, along and up again, in its plane."""
+    t = np.linspace(-1.0, 1.0, 41)
+    return np.column_stack([100.0 * t, 20.0 * t**4])
+
+
+def test_places_are_put_in_order() -> None:
+    """Places handed in at random are put in order from three that are known."""
+    places = border()
+    number = np.random.default_rng(4).permutation(41)
+    back = np.argsort(number)
+    path = order_places(places[number], np.full(41, 0.01), back[[19, 20, 21]].tolist())
+    assert number[path].tolist() == list(range(41))
+
+
+def test_a_border_is_smooth_within_the_doubt_of_its_places() -> None:
+    """Places that scatter by 0.2 m give a curve nearer to the truth than they are."""
+    truth = border()
+    noisy = truth + np.random.default_rng(5).normal(0.0, 0.2, truth.shape) * [0.0, 1.0]
+    noisy[[0, -1]] = truth[[0, -1]]
+    drawn = fit_border(noisy, np.full(41, 0.4))
+    before = np.abs(noisy[:, 1] - truth[:, 1])
+    after = np.abs(drawn[:, 1] - 20.0 * (drawn[:, 0] / 100.0) ** 4)
+    assert after.mean() < 0.85 * before.mean()
+    assert np.linalg.norm(drawn - noisy, axis=1).max() <= 0.8
+
+
+def test_a_border_turns_where_it_surely_does() -> None:
+    """A corner is kept, a turn that the doubt of its places explains is none."""
+    places = np.array([[0.0, 9.0], [0.0, 6.0], [0.0, 3.0], [4.0, 3.0], [8.0, 3.0]])
+    assert bends(places, np.full(5, 0.01), 40.0) == [2]
+    assert bends(places, np.full(5, 1.0), 40.0) == []
+    drawn = fit_border(places, np.full(5, 0.01), [2])
+    assert np.abs(drawn - places).max() < 0.01
